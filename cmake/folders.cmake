@@ -1,0 +1,41 @@
+# One object library a folder of src/. The order is that of docs/ARCHITECTURE.md, lowest first; tools/check_layers.c holds
+# the includes against it.
+include(cmake/embed.cmake)
+
+set(LIMNER_FOLDERS base scene sheet technique gpu light import export layer lines surface compose finish look draw api)
+
+add_library(limner SHARED)
+foreach(folder IN LISTS LIMNER_FOLDERS)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.c)
+  if(sources)
+    add_library(limner_${folder} OBJECT ${sources})
+    target_include_directories(limner_${folder} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
+    target_link_libraries(limner_${folder} PRIVATE PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG
+                                                   PkgConfig::WEBP PkgConfig::DEFLATE PkgConfig::ASSIMP)
+    target_link_libraries(limner PRIVATE limner_${folder})
+    list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_${folder}>)
+  endif()
+endforeach()
+
+# Shaders and looks travel inside the library.
+file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/src/*.frag
+     ${CMAKE_SOURCE_DIR}/src/*.vert ${CMAKE_SOURCE_DIR}/src/*.glsl ${CMAKE_SOURCE_DIR}/src/*.comp)
+embed_files(${CMAKE_BINARY_DIR}/embedded_shaders.c embedded_shaders ${CMAKE_SOURCE_DIR}/src "${shaders}")
+file(GLOB looks CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/looks ${CMAKE_SOURCE_DIR}/looks/*.json)
+embed_files(${CMAKE_BINARY_DIR}/embedded_looks.c embedded_looks ${CMAKE_SOURCE_DIR}/looks "${looks}")
+add_library(limner_embedded OBJECT ${CMAKE_BINARY_DIR}/embedded_shaders.c ${CMAKE_BINARY_DIR}/embedded_looks.c)
+target_include_directories(limner_embedded PRIVATE ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
+target_link_libraries(limner PRIVATE limner_embedded)
+list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
+
+set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
+    PkgConfig::ASSIMP ${MESHOPTIMIZER_LIBRARY} Threads::Threads m ${CMAKE_DL_LIBS})
+target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
+target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)
+set_target_properties(limner PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+
+# The same objects with every symbol in reach, for unit tests.
+add_library(limner_inside INTERFACE)
+target_sources(limner_inside INTERFACE ${LIMNER_OBJECTS})
+target_include_directories(limner_inside INTERFACE ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
+target_link_libraries(limner_inside INTERFACE ${LIMNER_LIBRARIES})

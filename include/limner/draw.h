@@ -1,0 +1,107 @@
+/* Drawing: a renderer owns the GL context and draws a scene with a look into a picture. */
+#ifndef LIMNER_DRAW_H
+#define LIMNER_DRAW_H
+
+#include "limner/error.h"
+#include "limner/look.h"
+#include "limner/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lmn_renderer lmn_renderer;
+typedef struct lmn_drawing  lmn_drawing;
+
+/* The directions from which a scene can be viewed; see docs/reference/draw.md. */
+typedef enum lmn_view {
+    LMN_VIEW_ISO = 0,
+    LMN_VIEW_FRONT,
+    LMN_VIEW_BACK,
+    LMN_VIEW_LEFT,
+    LMN_VIEW_RIGHT,
+    LMN_VIEW_TOP,
+    LMN_VIEW_BOTTOM
+} lmn_view;
+
+/* How a renderer is made. Initialise with LMN_RENDERER_DESC_INIT. */
+typedef struct lmn_renderer_desc {
+    size_t struct_size;
+    bool   es;   /* ask for OpenGL ES 3 instead of desktop GL */
+    bool   debug; /* debug context; GL errors become LMN_GL errors */
+} lmn_renderer_desc;
+#define LMN_RENDERER_DESC_INIT {sizeof(lmn_renderer_desc), false, false}
+
+/* What to draw. Initialise with LMN_DRAW_DESC_INIT. Angles in degrees, lengths in the scene's unit, sizes in pixels. */
+typedef struct lmn_draw_desc {
+    size_t          struct_size;
+    int             width, height;      /* 1 … 16384 */
+    lmn_view        view;               /* used when neither eye nor camera is given */
+    bool            eye_given;          /* use eye, target, up */
+    double          eye[3], target[3], up[3];
+    const char     *camera;             /* name of a camera of the scene, or NULL */
+    bool            orthographic;
+    double          fov_deg;            /* vertical, 1 … 170 */
+    double          fit;                /* share of the frame that the projected bounds fill, 0.01 … 10 */
+    double          time_s;             /* seconds on the scene's timeline */
+    uint32_t        seed;
+    int             samples;            /* supersamples a pixel, a square number 1 … 64 */
+    const char     *background;         /* colour, "none", or NULL for the look's ground */
+    const char     *select;             /* selector that restricts what is drawn and fitted, or NULL */
+    bool            maps;               /* keep the AOVs for lmn_drawing_write_maps */
+    bool            profile;            /* time each pass in an extra frame */
+    lmn_progress_fn progress;           /* NULL: silent */
+    void           *progress_user;
+} lmn_draw_desc;
+#define LMN_DRAW_DESC_INIT \
+    {sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0, 0.9, \
+     0.0, 0, 1, NULL, NULL, false, false, NULL, NULL}
+
+/* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.
+ * A renderer belongs to the thread that made it. Errors: LMN_USAGE (desc), LMN_GL, LMN_MEMORY. */
+LMN_API lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error);
+
+/* Frees a renderer and sets the handle to NULL; NULL and a pointer to NULL are accepted. */
+LMN_API void lmn_renderer_destroy(lmn_renderer **renderer);
+
+/* The driver as JSON: versions, limits, paths, extensions used. Free with lmn_text_free. NULL when memory is gone. */
+LMN_API char *lmn_renderer_json(const lmn_renderer *renderer);
+
+/* Draws. The result owns its pixels and its report; end it with lmn_drawing_destroy. The renderer keeps GPU copies of
+ * the scene until another scene is drawn.
+ * Errors: LMN_USAGE (desc, selector), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
+LMN_API lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                            const lmn_draw_desc *desc, lmn_error *error);
+
+/* Frees a drawing and sets the handle to NULL; NULL and a pointer to NULL are accepted. */
+LMN_API void lmn_drawing_destroy(lmn_drawing **drawing);
+
+/* The picture: RGBA, 8 bits, sRGB, straight alpha, row 0 on top, width·4 bytes a row; borrowed from the drawing. */
+LMN_API const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height);
+
+/* Writes the picture. The format comes from `format` (".png") or, when that is NULL, from the path's ending; path "-" is
+ * standard output. A file appears whole or not at all. `bytes` (may be NULL) gets the size.
+ * Errors: LMN_USAGE (unknown ending), LMN_WRITE, LMN_MEMORY. */
+LMN_API lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
+                                     lmn_error *error);
+
+/* Writes depth.pfm, normal.pfm, id.png, edge.png and shade.png into a folder (made when missing). The drawing must have
+ * been made with desc.maps. Errors: LMN_USAGE, LMN_WRITE, LMN_MEMORY. */
+LMN_API lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error);
+
+/* The report as JSON (docs/reference/report.md). Free with lmn_text_free. NULL when memory is gone. */
+LMN_API char *lmn_drawing_report_json(const lmn_drawing *drawing);
+
+/* How many warnings the drawing has, and one of them as text (borrowed; NULL when out of range). */
+LMN_API size_t      lmn_drawing_warning_count(const lmn_drawing *drawing);
+LMN_API const char *lmn_drawing_warning_at(const lmn_drawing *drawing, size_t index, const char **code, size_t *count);
+
+/* Measures whole frames of looks against `plain`, drawn in turn, as JSON (docs/reference/bench.md). Free with
+ * lmn_text_free. Errors: those of lmn_look_load and lmn_draw. */
+LMN_API lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks,
+                                  size_t look_count, const lmn_draw_desc *desc, int repeat, lmn_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,11 @@
+/* Limner draws 3D models the way people draw. This header is all of the public API. */
+#ifndef LIMNER_LIMNER_H
+#define LIMNER_LIMNER_H
+
+#include "limner/draw.h"
+#include "limner/error.h"
+#include "limner/look.h"
+#include "limner/scene.h"
+#include "limner/version.h"
+
+#endif

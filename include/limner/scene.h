@@ -1,0 +1,71 @@
+/* Scenes: what is drawn. A tree of nodes with meshes, materials, cameras, lights and animations. */
+#ifndef LIMNER_SCENE_H
+#define LIMNER_SCENE_H
+
+#include "limner/error.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lmn_scene lmn_scene;
+
+/* Which of the file's axes points up. AUTO takes the convention of the format. */
+typedef enum lmn_up_axis { LMN_UP_AUTO = 0, LMN_UP_Y, LMN_UP_Z } lmn_up_axis;
+
+/* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
+typedef struct lmn_load_desc {
+    size_t          struct_size; /* set by LMN_LOAD_DESC_INIT */
+    lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY are +Y up, STL is +Z up */
+    lmn_progress_fn progress;    /* NULL: silent */
+    void           *progress_user;
+} lmn_load_desc;
+#define LMN_LOAD_DESC_INIT {sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL}
+
+/* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */
+typedef struct lmn_scene_info {
+    size_t   parts, nodes, meshes, materials, textures, cameras, lights, animations, skins;
+    uint64_t triangles; /* instances counted */
+    double   bounds_min[3], bounds_max[3]; /* all 0 when the scene is empty */
+    char     up; /* 'y' or 'z' */
+} lmn_scene_info;
+
+/* A part: a node with geometry. Parts are numbered from 1, depth-first in input order. */
+typedef struct lmn_part_info {
+    uint32_t    id;
+    const char *name; /* node name, else mesh name, else "part-ID"; borrowed from the scene */
+    const char *path; /* names from the root joined by '/'; borrowed */
+    uint64_t    triangles;
+    size_t      instances;
+    double      bounds_min[3], bounds_max[3];
+} lmn_part_info;
+
+/* Makes an empty scene; end it with lmn_scene_destroy. Errors: LMN_MEMORY. No GL context needed. */
+LMN_API lmn_status lmn_scene_create(lmn_scene **out, lmn_error *error);
+
+/* Frees a scene and sets the handle to NULL; NULL and a pointer to NULL are accepted. */
+LMN_API void lmn_scene_destroy(lmn_scene **scene);
+
+/* Reads a model file and adds its content under a new root. The first file decides the scene's up axis; later ones are
+ * rotated to it. On any error the scene is unchanged.
+ * Errors: LMN_USAGE (desc), LMN_READ, LMN_FORMAT, LMN_LIMIT, LMN_UNSUPPORTED, LMN_MEMORY, LMN_CANCELLED.
+ * No GL context needed; different scenes may be loaded on different threads. */
+LMN_API lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load_desc *desc, lmn_error *error);
+
+/* Counts and bounds of the scene in its rest pose. */
+LMN_API lmn_scene_info lmn_scene_info_of(const lmn_scene *scene);
+
+/* The part with this index (0 … parts−1). Strings live as long as the scene is not changed. False when out of range. */
+LMN_API bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_info *out);
+
+/* Everything about the scene as JSON text (documented in docs/reference/info.md); free with lmn_text_free.
+ * NULL when memory is gone. */
+LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
+
+/* Frees text that Limner returned. NULL is accepted. */
+LMN_API void lmn_text_free(char *text);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

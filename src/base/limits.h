@@ -1,0 +1,22 @@
+/* Hard limits on untrusted input, in one place. Printed by `limner doctor` and documented in docs/reference/limits.md.
+ * Exceeding one is LMN_LIMIT with the limit in the message, never a crash. */
+#ifndef LIMNER_BASE_LIMITS_H
+#define LIMNER_BASE_LIMITS_H
+
+#define LIMIT_FILE_BYTES      ((size_t)4 << 30)  /* one input file or side file */
+#define LIMIT_VERTICES        ((size_t)200000000) /* of a scene */
+#define LIMIT_TRIANGLES       ((size_t)200000000) /* of a scene, before instancing */
+#define LIMIT_NODES           ((size_t)1000000)
+#define LIMIT_INSTANCES       ((size_t)10000000)  /* of a scene */
+#define LIMIT_NODE_DEPTH      1024                /* of the node tree */
+#define LIMIT_IMAGE_SIDE      16384               /* pixels, a texture's width or height */
+#define LIMIT_IMAGE_PIXELS    ((size_t)1 << 28)
+#define LIMIT_JSON_DEPTH      256
+#define LIMIT_POLYGON_CORNERS 65536               /* of one face in PLY or OBJ */
+#define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
+#define LIMIT_LOOK_RULES      256
+#define LIMIT_PICTURE_SIDE    16384               /* pixels, supersampling counted */
+#define LIMIT_IMPORT_SECONDS  120                 /* the child process that reads foreign formats */
+#define LIMIT_IMPORT_MEMORY   ((size_t)8 << 30)   /* its address space */
+
+#endif

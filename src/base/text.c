@@ -1,0 +1,267 @@
+#include "base/text.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static bool reserve(text *t, size_t more)
+{
+    size_t wanted;
+    if (t->failed || !size_add(t->size, more, &wanted) || !size_add(wanted, 1, &wanted) ||
+        !mem_grow((void **)&t->data, &t->capacity, wanted, 1)) {
+        t->failed = true;
+        return false;
+    }
+    return true;
+}
+
+void text_append(text *t, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    if (length < 0)
+        t->failed = true;
+    else if (reserve(t, (size_t)length)) {
+        vsnprintf(t->data + t->size, (size_t)length + 1, format, again);
+        t->size += (size_t)length;
+    }
+    va_end(again);
+}
+
+void text_append_bytes(text *t, const char *bytes, size_t size)
+{
+    if (!reserve(t, size))
+        return;
+    if (size)
+        memcpy(t->data + t->size, bytes, size);
+    t->size += size;
+    t->data[t->size] = '\0';
+}
+
+void text_release(text *t)
+{
+    mem_free(t->data);
+    memset(t, 0, sizeof *t);
+}
+
+char *text_take(text *t)
+{
+    if (!t->failed && !t->data)
+        text_append_bytes(t, "", 0);
+    if (t->failed) {
+        text_release(t);
+        return NULL;
+    }
+    char *data = t->data;
+    memset(t, 0, sizeof *t);
+    return data;
+}
+
+static bool same_word(const char *from, const char *end, const char *word)
+{
+    for (; *word; from++, word++)
+        if (from >= end || (*from | 0x20) != *word)
+            return false;
+    return true;
+}
+
+static const char *parse_word(const char *from, const char *end, double *out)
+{
+    if (same_word(from, end, "infinity"))
+        return *out = INFINITY, from + 8;
+    if (same_word(from, end, "inf"))
+        return *out = INFINITY, from + 3;
+    if (same_word(from, end, "nan"))
+        return *out = NAN, from + 3;
+    return NULL;
+}
+
+/* Reads "e[+-]digits" behind a mantissa; without digits the 'e' is not part of the number. */
+static const char *parse_exponent(const char *at, const char *end, long *exponent)
+{
+    if (at >= end || (*at | 0x20) != 'e')
+        return at;
+    const char *p = at + 1;
+    bool negative = p < end && *p == '-';
+    if (p < end && (*p == '-' || *p == '+'))
+        p++;
+    if (p >= end || *p < '0' || *p > '9')
+        return at;
+    long value = 0;
+    for (; p < end && *p >= '0' && *p <= '9'; p++)
+        if (value < 100000)
+            value = value * 10 + (*p - '0');
+    *exponent += negative ? -value : value;
+    return p;
+}
+
+static double scale_by_ten(double mantissa, long exponent)
+{
+    static const double exact[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    if (mantissa == 0.0)
+        return mantissa;
+    if (exponent >= 0 && exponent <= 22)
+        return mantissa * exact[exponent];
+    if (exponent < 0 && exponent >= -22)
+        return mantissa / exact[-exponent];
+    if (exponent > 400 || exponent < -400)
+        return exponent > 0 ? mantissa * INFINITY : mantissa * 0.0;
+    return (double)((long double)mantissa * powl(10.0L, (long double)exponent));
+}
+
+const char *text_parse_double(const char *from, const char *end, double *out)
+{
+    bool negative = from < end && *from == '-';
+    if (from < end && (*from == '-' || *from == '+'))
+        from++;
+    const char *word_end = parse_word(from, end, out);
+    if (word_end) {
+        *out = negative ? -*out : *out;
+        return word_end;
+    }
+    uint64_t mantissa = 0;
+    long exponent = 0;
+    bool digits = false, behind_point = false;
+    const char *p = from;
+    for (; p < end; p++) {
+        if (*p == '.' && !behind_point) {
+            behind_point = true;
+            continue;
+        }
+        if (*p < '0' || *p > '9')
+            break;
+        digits = true;
+        /* 19 digits fit; what follows is below a double's precision and only moves the exponent. */
+        if (mantissa < UINT64_C(922337203685477579)) {
+            mantissa = mantissa * 10 + (uint64_t)(*p - '0');
+            exponent -= behind_point;
+        } else {
+            exponent += !behind_point;
+        }
+    }
+    if (!digits)
+        return NULL;
+    p = parse_exponent(p, end, &exponent);
+    double value = scale_by_ten((double)mantissa, exponent);
+    *out = negative ? -value : value;
+    return p;
+}
+
+const char *text_parse_int(const char *from, const char *end, long long *out)
+{
+    bool negative = from < end && *from == '-';
+    if (from < end && (*from == '-' || *from == '+'))
+        from++;
+    if (from >= end || *from < '0' || *from > '9')
+        return NULL;
+    long long value = 0;
+    for (; from < end && *from >= '0' && *from <= '9'; from++)
+        if (__builtin_mul_overflow(value, 10, &value) || __builtin_add_overflow(value, *from - '0', &value))
+            return NULL;
+    *out = negative ? -value : value;
+    return from;
+}
+
+bool text_is_double(const char *whole, double *out)
+{
+    const char *end = whole + strlen(whole);
+    return text_parse_double(whole, end, out) == end && end != whole;
+}
+
+bool text_is_int(const char *whole, long long *out)
+{
+    const char *end = whole + strlen(whole);
+    return text_parse_int(whole, end, out) == end && end != whole;
+}
+
+bool text_glob(const char *pattern, const char *subject)
+{
+    const char *star = NULL, *retry = NULL;
+    while (*subject) {
+        if (*pattern == '*') {
+            star = pattern++;
+            retry = subject;
+        } else if (*pattern == '?' || *pattern == *subject) {
+            pattern++;
+            subject++;
+        } else if (star) {
+            pattern = star + 1;
+            subject = ++retry;
+        } else {
+            return false;
+        }
+    }
+    while (*pattern == '*')
+        pattern++;
+    return *pattern == '\0';
+}
+
+bool text_is_utf8(const char *bytes, size_t size)
+{
+    const unsigned char *p = (const unsigned char *)bytes, *end = p + size;
+    while (p < end) {
+        unsigned lead = *p++;
+        if (lead < 0x80)
+            continue;
+        int more = lead >= 0xF0 && lead <= 0xF4 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : -1;
+        if (lead > 0xF4 || more < 0 || end - p < more)
+            return false;
+        unsigned code = lead & (0x3Fu >> more);
+        for (int i = 0; i < more; i++, p++) {
+            if ((*p & 0xC0) != 0x80)
+                return false;
+            code = code << 6 | (*p & 0x3F);
+        }
+        if ((more == 2 && (code < 0x800 || (code >= 0xD800 && code <= 0xDFFF))) ||
+            (more == 3 && (code < 0x10000 || code > 0x10FFFF)))
+            return false;
+    }
+    return true;
+}
+
+enum { NAME_MAX_COMPARED = 63 };
+
+static size_t edit_distance(const char *a, size_t a_size, const char *b, size_t b_size)
+{
+    size_t row[NAME_MAX_COMPARED + 1];
+    for (size_t j = 0; j <= b_size; j++)
+        row[j] = j;
+    for (size_t i = 1; i <= a_size; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= b_size; j++) {
+            size_t changed = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            size_t best = changed < row[j] + 1 ? changed : row[j] + 1;
+            row[j] = best < row[j - 1] + 1 ? best : row[j - 1] + 1;
+        }
+    }
+    return row[b_size];
+}
+
+const char *text_nearest(const char *name, const char *const *candidates, size_t count)
+{
+    const char *best = NULL;
+    size_t length = strlen(name), best_distance = length / 3 + 2;
+    if (length > NAME_MAX_COMPARED)
+        return NULL;
+    for (size_t i = 0; i < count; i++) {
+        size_t other = strlen(candidates[i]);
+        if (other > NAME_MAX_COMPARED)
+            continue;
+        size_t distance = edit_distance(name, length, candidates[i], other);
+        if (distance < best_distance && distance < other) {
+            best_distance = distance;
+            best = candidates[i];
+        }
+    }
+    return best;
+}

@@ -1,0 +1,36 @@
+/* Text: growing strings, numbers that ignore the locale, globs, and the nearest name for a message. */
+#ifndef LIMNER_BASE_TEXT_H
+#define LIMNER_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A growing string. Zero-initialise; the first failure sticks in `failed` and later appends do nothing. */
+typedef struct text {
+    char  *data; /* NUL-terminated, or NULL when empty */
+    size_t size, capacity;
+    bool   failed;
+} text;
+
+void text_append(text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void text_append_bytes(text *t, const char *bytes, size_t size);
+void text_release(text *t);
+/* Hands the string over (free with mem_free); NULL when an append failed. */
+char *text_take(text *t);
+
+/* Parses a decimal number ("-1.5e3", "nan" and "inf" in any case) whatever the locale. Returns the end of the number, or
+ * NULL when `from` starts with none. Reads no further than `end`. No leading blanks. */
+const char *text_parse_double(const char *from, const char *end, double *out);
+const char *text_parse_int(const char *from, const char *end, long long *out);
+/* The whole string must be the number. */
+bool text_is_double(const char *whole, double *out);
+bool text_is_int(const char *whole, long long *out);
+
+/* Shell-like match: '*' any run, '?' one character. Case-sensitive. */
+bool text_glob(const char *pattern, const char *subject);
+/* Is the string valid UTF-8? */
+bool text_is_utf8(const char *bytes, size_t size);
+/* The candidate nearest to `name` by edit distance, or NULL when none is near enough to suggest. */
+const char *text_nearest(const char *name, const char *const *candidates, size_t count);
+
+#endif

@@ -1,0 +1,59 @@
+#include "base/warnings.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { WARNINGS_MAX = 256, WARNING_TEXT_SIZE = 512 };
+
+const char *warning_code_text(warning_code code)
+{
+    static const char *const names[] = {
+#define X(name, text) text,
+        WARNING_CODES(X)
+#undef X
+    };
+    return (unsigned)code < WARNING_CODE_COUNT ? names[code] : "unknown";
+}
+
+static void add(warnings *list, warning_code code, const char *message, size_t count)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].code == code && strcmp(list->items[i].text, message) == 0) {
+            list->items[i].count += count;
+            return;
+        }
+    if (list->count >= WARNINGS_MAX ||
+        !mem_grow((void **)&list->items, &list->capacity, list->count + 1, sizeof *list->items))
+        return;
+    char *copy = mem_copy_text(message);
+    if (copy)
+        list->items[list->count++] = (warning){code, copy, count};
+}
+
+void warnings_add(warnings *list, warning_code code, const char *format, ...)
+{
+    char message[WARNING_TEXT_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    if (list && length >= 0)
+        add(list, code, message, 1);
+}
+
+void warnings_append(warnings *list, const warnings *more)
+{
+    for (size_t i = 0; i < more->count; i++)
+        add(list, more->items[i].code, more->items[i].text, more->items[i].count);
+}
+
+void warnings_release(warnings *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        mem_free(list->items[i].text);
+    mem_free(list->items);
+    memset(list, 0, sizeof *list);
+}

@@ -1,0 +1,44 @@
+/* Warnings: what was ignored or repaired, for the report. Equal ones are counted, not repeated. */
+#ifndef LIMNER_BASE_WARNINGS_H
+#define LIMNER_BASE_WARNINGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The codes; tests assert these, not the text. */
+#define WARNING_CODES(X)                                                                                              \
+    X(WARNING_IGNORED, "ignored")                 /* valid content that Limner does not use */                        \
+    X(WARNING_MISSING_FILE, "missing-file")       /* a texture or buffer beside the model */                          \
+    X(WARNING_BAD_VALUE, "bad-value")             /* a value that was dropped or replaced */                          \
+    X(WARNING_BAD_GEOMETRY, "bad-geometry")       /* degenerate triangles, NaN vertices: left out */                  \
+    X(WARNING_BAD_TEXTURE, "bad-texture")         /* an image that cannot be decoded */                               \
+    X(WARNING_TRANSPARENCY, "transparency")       /* drawn as a cut-out */                                            \
+    X(WARNING_NO_MATCH, "no-match")               /* a rule that selects nothing */                                   \
+    X(WARNING_UNUSED, "unused")                   /* a setting without effect */
+
+typedef enum warning_code {
+#define X(name, text) name,
+    WARNING_CODES(X)
+#undef X
+        WARNING_CODE_COUNT
+} warning_code;
+
+typedef struct warning {
+    warning_code code;
+    char        *text;
+    size_t       count;
+} warning;
+
+/* Zero-initialise. */
+typedef struct warnings {
+    warning *items;
+    size_t   count, capacity;
+} warnings;
+
+const char *warning_code_text(warning_code code);
+/* Adds a warning or counts it again. When memory is gone it is dropped: a warning is never worth an error. */
+void warnings_add(warnings *list, warning_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void warnings_append(warnings *list, const warnings *more);
+void warnings_release(warnings *list);
+
+#endif

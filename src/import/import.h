@@ -1,0 +1,37 @@
+/* Import: files to scenes. One file a format; import.c holds the table. */
+#ifndef LIMNER_IMPORT_IMPORT_H
+#define LIMNER_IMPORT_IMPORT_H
+
+#include "base/file.h"
+#include "scene/scene.h"
+
+/* What a reader gets: the file's bytes, its path for side files and messages, and an empty scene to fill. Progress may be
+ * NULL; import_progress returns LMN_CANCELLED when the caller wants to stop. */
+typedef struct import_job {
+    const char     *path;
+    const file_data *file;
+    lmn_scene      *scene;
+    lmn_progress_fn progress;
+    void           *progress_user;
+} import_job;
+
+typedef struct import_format {
+    const char *name;       /* "glTF" */
+    const char *endings;    /* ".gltf .glb" */
+    char        up;         /* the format's convention: 'y' or 'z' */
+    bool (*recognises)(const file_data *file);                       /* by content; NULL: by ending only */
+    lmn_status (*read)(const import_job *job, lmn_error *error);
+} import_format;
+
+extern const import_format import_gltf, import_stl, import_ply, import_assimp;
+
+/* Reads a file into a new finished scene (owned by the caller). `up` LMN_UP_AUTO takes the format's convention.
+ * Content decides the format first, the ending second; a mismatch is an error that says so. */
+lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *desc, lmn_error *error);
+
+lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error);
+
+/* Decodes PNG, JPEG or WebP bytes to RGBA8. Errors: LMN_FORMAT, LMN_LIMIT, LMN_UNSUPPORTED, LMN_MEMORY. */
+lmn_status import_image(image *out, const unsigned char *bytes, size_t size, lmn_error *error);
+
+#endif

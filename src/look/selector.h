@@ -1,0 +1,19 @@
+/* Selectors: which parts a rule draws.
+ *   *            every part             Wheel*        glob on the part's name
+ *   Truck/\*\/Axle glob on the path (it contains '/')
+ *   [key]        has the attribute      [key=glob]    and its value matches; [material=glob] and [id=N] are built in
+ *   a, b         either                 a [key=x]     both          !a   not
+ */
+#ifndef LIMNER_LOOK_SELECTOR_H
+#define LIMNER_LOOK_SELECTOR_H
+
+#include "scene/scene.h"
+
+typedef struct selector selector;
+
+/* Errors: LMN_USAGE (what is wrong, where), LMN_MEMORY. */
+lmn_status selector_parse(selector **out, const char *text, lmn_error *error);
+void       selector_destroy(selector **s);
+bool       selector_matches(const selector *s, const lmn_scene *scene, size_t part_index);
+
+#endif

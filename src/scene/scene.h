@@ -1,0 +1,233 @@
+/* The scene's data: what importers fill and everything else reads. Indices into the scene's arrays are int32_t, NONE = −1.
+ * Angles are radians, colours linear RGBA, matrices column-major doubles acting on columns. */
+#ifndef LIMNER_SCENE_SCENE_H
+#define LIMNER_SCENE_SCENE_H
+
+#include "base/error.h"
+#include "base/warnings.h"
+#include "limner/scene.h"
+
+enum { NONE = -1, UV_SETS = 2 };
+
+typedef struct vec2 { float x, y; } vec2;
+typedef struct vec3 { float x, y, z; } vec3;
+typedef struct vec4 { float x, y, z, w; } vec4;
+typedef struct mat4 { double m[16]; } mat4;
+typedef struct box3 { vec3 min, max; } box3; /* empty: min > max */
+
+/* One morph target: offsets per vertex, arrays NULL when absent. */
+typedef struct morph_target {
+    vec3 *positions, *normals;
+} morph_target;
+
+/* Which edges of a primitive a file wants shown (EXT_mesh_primitive_edge_visibility); kept for later. */
+typedef struct edge_visibility {
+    uint8_t *values; /* 3 per triangle, edge k runs from corner k to k+1: 0 hidden, 1 silhouette, 2 hard, 3 repeated */
+} edge_visibility;
+
+/* Triangles of one material. Vertices as the file has them; positions are always there, other arrays may be NULL.
+ * `indices` is always there, 3 per triangle, each < vertex_count. */
+typedef struct primitive {
+    uint32_t        vertex_count, index_count;
+    vec3           *positions;
+    vec3           *normals;        /* unit; NULL: made from the crease angle when drawn */
+    vec2           *uvs[UV_SETS];
+    vec4           *colours;        /* linear, straight alpha */
+    uint16_t       *joints;         /* 4 per vertex */
+    vec4           *weights;        /* of the joints, sum 1 */
+    uint32_t       *indices;
+    int32_t         material;       /* NONE: the default material */
+    morph_target   *morphs;
+    size_t          morph_count;
+    edge_visibility edges;
+    box3            bounds;         /* of positions; set by primitive_finish */
+} primitive;
+
+typedef struct mesh {
+    char      *name; /* may be NULL */
+    primitive *primitives;
+    size_t     primitive_count;
+    float     *morph_weights; /* defaults, as many as the first primitive has morphs */
+    size_t     morph_weight_count;
+} mesh;
+
+typedef enum image_format { IMAGE_RGBA8 } image_format;
+
+typedef struct image {
+    char    *name;
+    uint32_t width, height;
+    uint8_t *pixels; /* RGBA, row 0 on top, NULL when it could not be decoded */
+} image;
+
+typedef enum wrap_mode { WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR } wrap_mode;
+
+/* A use of an image by a material. uv' = offset + R(rotation)·scale·uv (KHR_texture_transform). */
+typedef struct texture_use {
+    int32_t   image; /* NONE: no texture */
+    int32_t   uv_set;
+    wrap_mode wrap_u, wrap_v;
+    bool      nearest;
+    float     offset[2], scale[2], rotation;
+} texture_use;
+#define TEXTURE_USE_NONE {NONE, 0, WRAP_REPEAT, WRAP_REPEAT, false, {0, 0}, {1, 1}, 0}
+
+typedef enum alpha_mode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } alpha_mode;
+
+typedef struct material {
+    char       *name;
+    vec4        base_colour; /* linear, straight alpha */
+    texture_use base_texture, normal_texture;
+    float       normal_scale;
+    float       emissive[3];
+    float       shininess; /* Phong exponent the file asks for; 0 = the look decides */
+    alpha_mode  alpha;
+    float       alpha_cutoff;
+    bool        double_sided, unlit;
+} material;
+
+typedef struct camera {
+    char  *name;
+    bool   orthographic;
+    double fov_y;           /* radians, perspective */
+    double half_height;     /* orthographic */
+    double near, far;       /* far 0 = none */
+} camera;
+
+typedef enum light_type { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } light_type;
+
+typedef struct light {
+    char      *name;
+    light_type type;
+    float      colour[3]; /* linear */
+    float      intensity;
+    float      range, inner_cone, outer_cone;
+} light;
+
+/* Free-form facts a file states about a node: glTF extras, later city attributes. Values as text. */
+typedef struct attribute {
+    char *key, *value;
+} attribute;
+
+/* One node. Its world matrix is parent · local; `local` is matrix when `has_matrix`, else T·R·S. */
+typedef struct node {
+    char      *name; /* may be NULL */
+    int32_t    parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
+    bool       has_matrix;
+    mat4       matrix;
+    double     translation[3], rotation[4] /* x y z w */, scale[3];
+    int32_t    mesh, skin, camera, light;
+    mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
+    size_t     instance_count; /* 0: the node itself is the one instance */
+    float     *morph_weights; /* NULL: the mesh's */
+    size_t     morph_weight_count;
+    attribute *attributes;
+    size_t     attribute_count;
+} node;
+
+typedef struct skin {
+    char    *name;
+    int32_t *joints; /* node indices */
+    mat4    *inverse_binds;
+    size_t   joint_count;
+} skin;
+
+typedef enum animation_path { PATH_TRANSLATION, PATH_ROTATION, PATH_SCALE, PATH_WEIGHTS } animation_path;
+typedef enum interpolation { INTERPOLATION_LINEAR, INTERPOLATION_STEP, INTERPOLATION_CUBIC } interpolation;
+
+/* `values` holds key_count · components numbers, times three (in-tangent, value, out-tangent) for cubic. */
+typedef struct animation_channel {
+    int32_t        node;
+    animation_path path;
+    interpolation  interpolation;
+    size_t         key_count, components;
+    float         *times, *values;
+} animation_channel;
+
+typedef struct animation {
+    char              *name;
+    animation_channel *channels;
+    size_t             channel_count;
+    double             duration; /* seconds: the last key */
+} animation;
+
+/* A part: node with geometry, in drawing order; ids start at 1 = index + 1. */
+typedef struct part {
+    int32_t node;
+    char   *name, *path;
+} part;
+
+struct lmn_scene {
+    node      *nodes;
+    size_t     node_count, node_capacity;
+    mesh      *meshes;
+    size_t     mesh_count, mesh_capacity;
+    material  *materials;
+    size_t     material_count, material_capacity;
+    image     *images;
+    size_t     image_count, image_capacity;
+    camera    *cameras;
+    size_t     camera_count, camera_capacity;
+    light     *lights;
+    size_t     light_count, light_capacity;
+    skin      *skins;
+    size_t     skin_count, skin_capacity;
+    animation *animations;
+    size_t     animation_count, animation_capacity;
+    part      *parts;
+    size_t     part_count;
+    uint64_t   revision; /* changes whenever the content does; never repeats within a process's scene */
+    char       up;       /* 'y', 'z', or 0 while empty */
+    warnings   warnings;
+    double     load_ms;
+};
+
+/* --- building: importers fill a scene of their own, then it is merged ------------------------------------------- */
+
+/* Append a zeroed (NONE where that is the neutral value) element; NULL when memory is gone. Pointers into an array are
+ * valid until the next append to it. Strings and arrays stored in elements are owned by the scene (mem_alloc). */
+node      *scene_append_node(lmn_scene *scene);
+mesh      *scene_append_mesh(lmn_scene *scene);
+material  *scene_append_material(lmn_scene *scene); /* white, opaque, no textures */
+image     *scene_append_image(lmn_scene *scene);
+camera    *scene_append_camera(lmn_scene *scene);
+light     *scene_append_light(lmn_scene *scene);
+skin      *scene_append_skin(lmn_scene *scene);
+animation *scene_append_animation(lmn_scene *scene);
+
+/* Appends `child` as the last child of `parent` (both indices; parent NONE makes a root, which needs no call). */
+void scene_link_child(lmn_scene *scene, int32_t parent, int32_t child);
+
+/* Frees everything a mesh or primitive owns, not the struct itself. */
+void mesh_release(mesh *m);
+void primitive_release(primitive *p);
+
+/* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
+ * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
+ * `file` stands in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. */
+lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
+
+/* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to `into`'s up
+ * axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
+lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error);
+
+/* --- reading ---------------------------------------------------------------------------------------------------- */
+
+/* World matrices of all nodes in the rest pose, node_count of them; free with mem_free. NULL when memory is gone. */
+mat4 *scene_world_matrices(const lmn_scene *scene);
+mat4  node_local_matrix(const node *n);
+
+/* The scene's bounds with these world matrices: skinned and morphed parts as they are drawn. Empty box when nothing. */
+box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
+box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
+
+mat4 mat4_identity(void);
+mat4 mat4_multiply(const mat4 *a, const mat4 *b); /* a · b */
+vec3 mat4_transform_point(const mat4 *m, vec3 p);
+mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3]);
+box3 box3_empty(void);
+bool box3_is_empty(box3 b);
+box3 box3_union(box3 a, box3 b);
+box3 box3_with_point(box3 b, vec3 p);
+box3 box3_transform(box3 b, const mat4 *m); /* the box around the 8 moved corners */
+
+#endif

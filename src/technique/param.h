@@ -1,0 +1,88 @@
+/* Parameter tables: every parameter is declared once, as a row, and everything else follows from the row: the look file's
+ * keys, their validation and messages, --set, the reference, sliders, and the shader's uniforms. */
+#ifndef LIMNER_TECHNIQUE_PARAM_H
+#define LIMNER_TECHNIQUE_PARAM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/colour.h"
+#include "base/error.h"
+
+enum { PALETTE_MAX = 8 };
+
+/* A short list of colours, darkest first. */
+typedef struct palette {
+    int32_t count;
+    colour  colours[PALETTE_MAX];
+} palette;
+
+typedef struct direction {
+    float x, y, z;
+} direction;
+
+typedef enum param_type {
+    PARAM_INT,       /* int32_t  → uniform int */
+    PARAM_FLOAT,     /* float    → uniform float; NaN inside means "auto" where can_auto */
+    PARAM_BOOL,      /* bool     → uniform bool */
+    PARAM_ENUM,      /* int32_t index into names → uniform int */
+    PARAM_COLOUR,    /* colour   → uniform vec4, linear, straight alpha */
+    PARAM_DIRECTION, /* direction → uniform vec3, as given (not normalised); text "x,y,z" or a JSON array */
+    PARAM_PALETTE    /* palette  → uniform vec4 u_KEY[8] and int u_KEY_count; text "#a,#b,…" or a JSON array */
+} param_type;
+
+typedef enum param_unit { UNIT_NONE, UNIT_PX, UNIT_DEGREES, UNIT_COUNT, UNIT_SHARE } param_unit;
+
+typedef struct param {
+    const char        *key; /* also the struct field, the look key and the uniform u_KEY */
+    param_type         type;
+    size_t             offset;
+    double             def, min, max;        /* outside min…max is refused */
+    double             soft_min, soft_max;   /* slider range; both 0 = min…max */
+    colour             def_colour;
+    direction          def_direction;
+    palette            def_palette;
+    const char *const *names; /* PARAM_ENUM, NULL-terminated */
+    param_unit         unit;
+    bool               can_auto; /* the word "auto" is allowed */
+    bool               def_auto;
+    bool               logarithmic; /* slider curve */
+    bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
+    bool               cpu_only;    /* no uniform */
+    const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
+    const char        *doc;         /* one line, ends in a full stop */
+    const char        *since, *was;
+} param;
+
+/* Offset of a field, a compile error when the field has another type than the row says. */
+#define PARAM_OFFSET(S, F, T) (offsetof(S, F) + 0 * sizeof(char[_Generic(((S *)0)->F, T: 1)]))
+#define PARAM_INT_ROW(S, F, ...)       {.key = #F, .type = PARAM_INT, .offset = PARAM_OFFSET(S, F, int32_t), __VA_ARGS__}
+#define PARAM_FLOAT_ROW(S, F, ...)     {.key = #F, .type = PARAM_FLOAT, .offset = PARAM_OFFSET(S, F, float), __VA_ARGS__}
+#define PARAM_BOOL_ROW(S, F, ...)      {.key = #F, .type = PARAM_BOOL, .offset = PARAM_OFFSET(S, F, bool), __VA_ARGS__}
+#define PARAM_ENUM_ROW(S, F, ...)      {.key = #F, .type = PARAM_ENUM, .offset = PARAM_OFFSET(S, F, int32_t), __VA_ARGS__}
+#define PARAM_COLOUR_ROW(S, F, ...)    {.key = #F, .type = PARAM_COLOUR, .offset = PARAM_OFFSET(S, F, colour), __VA_ARGS__}
+#define PARAM_DIRECTION_ROW(S, F, ...) {.key = #F, .type = PARAM_DIRECTION, .offset = PARAM_OFFSET(S, F, direction), __VA_ARGS__}
+#define PARAM_PALETTE_ROW(S, F, ...)   {.key = #F, .type = PARAM_PALETTE, .offset = PARAM_OFFSET(S, F, palette), __VA_ARGS__}
+#define PARAM_COUNT(array) (sizeof(array) / sizeof *(array))
+
+const char *param_type_text(param_type type); /* "int", "float", … */
+const char *param_unit_text(param_unit unit); /* "", "px", "deg", "count", "share" */
+
+/* Fills the fields of `values` with the defaults. */
+void params_set_defaults(const param *params, size_t count, void *values);
+
+/* Sets one field from text. Errors: LMN_USAGE, the message names key, value and range. */
+lmn_status param_set_text(const param *p, void *values, const char *text, lmn_error *error);
+
+/* The field as text that param_set_text takes. `out` holds `size` characters (128 suffice). */
+void param_print(const param *p, const void *values, char *out, size_t size);
+
+bool param_is_default(const param *p, const void *values);
+
+/* Reads as numbers whatever the type: the field's address. */
+const void *param_field(const param *p, const void *values);
+
+/* Does the condition `only_if`/`when` hold for these values? NULL always holds. */
+bool params_condition(const char *condition, const param *params, size_t count, const void *values);
+
+#endif

@@ -1,0 +1,91 @@
+/* What a technique is: a room's parameters, the G-buffer channels it needs and the passes it draws, all declared as data.
+ * A kind is a table of techniques that answer the same question. src/draw runs them without knowing any by name. */
+#ifndef LIMNER_TECHNIQUE_TECHNIQUE_H
+#define LIMNER_TECHNIQUE_TECHNIQUE_H
+
+#include "technique/param.h"
+
+/* What the geometry pass can write for each pixel. Only what some technique needs is drawn. */
+typedef enum channel {
+    CHANNEL_NORMAL_DEPTH = 1 << 0, /* RGBA32F: eye-space unit normal, linear eye depth (−z, file units) */
+    CHANNEL_ID           = 1 << 1, /* RG32UI: part id (0 = empty), surface id */
+    CHANNEL_ALBEDO       = 1 << 2, /* RGBA16F: unlit surface colour, linear */
+    CHANNEL_SHADE        = 1 << 3  /* RGBA16F: the surface technique's colour, linear, premultiplied */
+} channel;
+
+/* Pictures that passes read and write. A pass reads them as sampler `t_NAME`. */
+typedef enum target {
+    TARGET_NONE = 0,
+    TARGET_NORMAL_DEPTH,
+    TARGET_ID,
+    TARGET_ALBEDO,
+    TARGET_SHADE,
+    TARGET_DEPTH,      /* the figure's depth buffer */
+    TARGET_EDGE,       /* RGBA16F edge map: R profile, G inner, B combined, A id; 1 = no edge */
+    TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
+    TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
+    TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
+    TARGET_COUNT
+} target;
+
+enum { PASS_READS_MAX = 6 };
+
+typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER } pass_blend;
+
+/* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
+typedef struct pass {
+    const char *name;
+    const char *shader; /* path below src/, for example "lines/edge/four_tap.frag" */
+    target      reads[PASS_READS_MAX];
+    target      writes;
+    pass_blend  blend;
+    bool        depth;  /* test and write gl_FragDepth against the page (a depth sprite) */
+    int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
+    const char *when;   /* condition on the technique's parameters; NULL: always */
+} pass;
+
+typedef struct technique {
+    const char  *name, *doc;  /* doc: one line that ends in a full stop */
+    const char  *example;     /* JSON of a rule that shows it: test input and documentation */
+    const param *params;
+    size_t       param_count, params_size;
+    unsigned     channels;    /* of channel, that its passes read */
+    const char  *surface;     /* surface techniques: GLSL file with `vec4 surface_colour(surface_point p)` */
+    const pass  *passes;
+    size_t       pass_count;
+    bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
+    bool         reflects;    /* surface: wants TARGET_REFLECTION */
+} technique;
+
+typedef enum kind_id {
+    KIND_SCENE,   /* look-wide: light and geometry preparation */
+    KIND_LAYERS,
+    KIND_LINES,
+    KIND_SURFACE,
+    KIND_COMPOSE,
+    KIND_FINISH,  /* look-wide: the sheet */
+    KIND_COUNT
+} kind_id;
+
+/* A table of techniques. Parameters in `common` belong to every technique of the kind; their struct is the first member of
+ * each technique's parameter struct. */
+typedef struct kind {
+    kind_id                 id;
+    const char             *name, *doc;
+    const technique *const *techniques;
+    size_t                  technique_count;
+    const technique        *standard; /* used when a rule does not say; NULL: nothing is drawn by this kind */
+    const char             *selector_key; /* "technique", or another key that names the technique ("operator" for lines) */
+    bool                    look_wide;    /* one for the whole look instead of one a rule */
+    bool                    array;        /* a rule may hold several, drawn in order */
+    const param            *common;
+    size_t                  common_count;
+} kind;
+
+/* A technique with values for its parameters. */
+typedef struct technique_use {
+    const technique *technique;
+    void            *values; /* technique->params_size bytes, owned */
+} technique_use;
+
+#endif
