@@ -37,7 +37,8 @@ vec3 pair(ivec2 pixel, ivec2 side, vec3 normal, float depth, float tolerance, ui
     float excess = unexplained(slope_before, across, slope_behind);
     float profile = smoothstep(0.5, 1.0, excess / tolerance) * (across > 0.0 ? 1.0 : far_weight);
     vec3 other = towards_eye(texel(t_normal_depth, pixel + side).xyz, vec2(pixel + side) + 0.5);
-    float inner = smoothstep(u_crease_range.x, u_crease_range.y, dot(normal, other)) * crease_weight;
+    float faint = cos(radians(max(u_crease - u_smooth, 0.0)));
+    float inner = (1.0 - smoothstep(cos(radians(u_crease)), faint, dot(normal, other))) * crease_weight;
     float between = 0.0;
 #if PARTS
     uint other_id = texelFetch(t_id, clamp(pixel + side, ivec2(0), ivec2(u_size) - 1), 0).r;
