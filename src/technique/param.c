@@ -386,23 +386,51 @@ static bool is_set(const param *p, const void *values)
     return false;
 }
 
+static double number_of(const param *p, const void *values)
+{
+    const void *field = param_field(p, values);
+    if (p->type == PARAM_FLOAT)
+        return (double)*(const float *)field;
+    if (p->type == PARAM_INT || p->type == PARAM_ENUM)
+        return *(const int32_t *)field;
+    return is_set(p, values) ? 1 : 0;
+}
+
+/* One term of a condition, without the '&' behind it. */
+static bool term_holds(const char *term, size_t length, const param *params, size_t count, const void *values)
+{
+    const char *end = term + length;
+    bool negated = length && *term == '!';
+    const char *key = term + negated, *sign = key;
+    while (sign < end && !strchr("=<>", *sign))
+        sign++;
+    const param *p = find_row(params, count, key, (size_t)(sign - key));
+    if (!p)
+        return false;
+    bool holds;
+    if (sign == end) {
+        holds = is_set(p, values);
+    } else if (*sign == '=') {
+        char is[128];
+        param_print(p, values, is, sizeof is);
+        holds = strlen(is) == (size_t)(end - sign) - 1 && strncmp(is, sign + 1, strlen(is)) == 0;
+    } else {
+        double bound, number = number_of(p, values);
+        holds = text_parse_double(sign + 1, end, &bound) == end && (*sign == '>' ? number > bound : number < bound);
+    }
+    return holds != negated;
+}
+
 bool params_condition(const char *condition, const param *params, size_t count, const void *values)
 {
     if (!condition)
         return true;
-    bool negated = *condition == '!';
-    const char *key = condition + negated;
-    size_t length = strcspn(key, "=");
-    const param *p = find_row(params, count, key, length);
-    if (!p)
-        return false;
-    bool holds;
-    if (key[length] == '=') {
-        char is[128];
-        param_print(p, values, is, sizeof is);
-        holds = strcmp(is, key + length + 1) == 0;
-    } else {
-        holds = is_set(p, values);
+    for (const char *at = condition;; at++) {
+        size_t length = strcspn(at, "&");
+        if (!term_holds(at, length, params, count, values))
+            return false;
+        at += length;
+        if (!*at)
+            return true;
     }
-    return holds != negated;
 }
