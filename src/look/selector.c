@@ -124,9 +124,9 @@ static lmn_status read_all(reader *r, selector *s)
     return LMN_OK;
 }
 
-lmn_status selector_parse(selector **out, const char *text, lmn_error *error)
+lmn_status selector_parse(selector **out, const char *written, lmn_error *error)
 {
-    reader r = {text, text, error};
+    reader r = {written, written, error};
     *out = NULL;
     selector *s = mem_calloc(1, sizeof *s);
     if (!s)

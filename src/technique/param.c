@@ -38,6 +38,10 @@ size_t param_size(param_type type)
  * everything that is no part of a C number is that point. */
 static void print_float(float value, char out[NUMBER_SIZE])
 {
+    if (value == truncf(value) && fabsf(value) < 1e7f) {
+        snprintf(out, NUMBER_SIZE, "%.0f", (double)value);
+        return;
+    }
     for (int digits = 1; digits <= 9; digits++) {
         char raw[NUMBER_SIZE];
         snprintf(raw, sizeof raw, "%.*g", digits, (double)value);
@@ -110,31 +114,31 @@ void params_set_defaults(const param *params, size_t count, void *values)
         set_default(&params[i], values);
 }
 
-static lmn_status wrong_value(const param *p, const char *text, lmn_error *error)
+static lmn_status wrong_value(const param *p, const char *given, lmn_error *error)
 {
     char range[RANGE_SIZE];
     switch (p->type) {
     case PARAM_INT:
         param_print_range(p, range, sizeof range);
-        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a whole number from %s", p->key, text, range);
+        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a whole number from %s", p->key, given, range);
     case PARAM_FLOAT:
         param_print_range(p, range, sizeof range);
-        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a number from %s", p->key, text, range);
+        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a number from %s", p->key, given, range);
     case PARAM_BOOL:
-        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is true or false", p->key, text);
+        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is true or false", p->key, given);
     case PARAM_COLOUR:
         return error_set(error, LMN_USAGE,
                          "%s is '%.60s'; allowed is a colour: #rgb, #rrggbb, #rrggbbaa, a basic CSS name, or none%s",
-                         p->key, text, p->can_auto ? ", or auto" : "");
+                         p->key, given, p->can_auto ? ", or auto" : "");
     case PARAM_DIRECTION:
         return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed are three numbers X,Y,Z that are not all 0%s",
-                         p->key, text, p->can_auto ? ", or auto" : "");
+                         p->key, given, p->can_auto ? ", or auto" : "");
     case PARAM_PALETTE:
         return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed are 1 to %d colours with commas between them",
-                         p->key, text, PALETTE_MAX);
+                         p->key, given, PALETTE_MAX);
     case PARAM_ENUM: break;
     }
-    return error_set(error, LMN_USAGE, "%s is '%.60s'", p->key, text);
+    return error_set(error, LMN_USAGE, "%s is '%.60s'", p->key, given);
 }
 
 static lmn_status wrong_name(const param *p, const char *name, lmn_error *error)
@@ -152,41 +156,41 @@ static lmn_status wrong_name(const param *p, const char *name, lmn_error *error)
     return status;
 }
 
-static bool is_auto(const param *p, const char *text)
+static bool is_auto(const param *p, const char *given)
 {
-    return p->can_auto && strcmp(text, "auto") == 0;
+    return p->can_auto && strcmp(given, "auto") == 0;
 }
 
-static bool parse_int(const param *p, const char *text, int32_t *out)
+static bool parse_int(const param *p, const char *given, int32_t *out)
 {
     long long value;
-    if (!text_is_int(text, &value) || (double)value < p->min || (double)value > p->max)
+    if (!text_is_int(given, &value) || (double)value < p->min || (double)value > p->max)
         return false;
     *out = (int32_t)value;
     return true;
 }
 
-static bool parse_float(const param *p, const char *text, float *out)
+static bool parse_float(const param *p, const char *given, float *out)
 {
     double value;
-    if (is_auto(p, text)) {
+    if (is_auto(p, given)) {
         *out = NAN;
         return true;
     }
     /* Written so that NaN is refused. */
-    if (!text_is_double(text, &value) || !(value >= p->min && value <= p->max) || !isfinite(value))
+    if (!text_is_double(given, &value) || !(value >= p->min && value <= p->max) || !isfinite(value))
         return false;
     *out = (float)value;
     return true;
 }
 
-static bool parse_bool(const char *text, bool *out)
+static bool parse_bool(const char *given, bool *out)
 {
     static const char *const yes[] = {"true", "yes", "on", "1"}, *const no[] = {"false", "no", "off", "0"};
     for (size_t i = 0; i < PARAM_COUNT(yes); i++) {
-        if (strcmp(text, yes[i]) == 0)
+        if (strcmp(given, yes[i]) == 0)
             return *out = true;
-        if (strcmp(text, no[i]) == 0) {
+        if (strcmp(given, no[i]) == 0) {
             *out = false;
             return true;
         }
@@ -201,11 +205,11 @@ static const char *skip_blanks(const char *at)
     return at;
 }
 
-static bool parse_direction(const param *p, const char *text, direction *out)
+static bool parse_direction(const param *p, const char *given, direction *out)
 {
     float *const parts[3] = {&out->x, &out->y, &out->z};
-    const char *at = text, *end = text + strlen(text);
-    if (is_auto(p, text)) {
+    const char *at = given, *end = given + strlen(given);
+    if (is_auto(p, given)) {
         *out = (direction){NAN, 0, 0};
         return true;
     }
@@ -222,10 +226,10 @@ static bool parse_direction(const param *p, const char *text, direction *out)
     return *skip_blanks(at) == '\0' && (out->x != 0 || out->y != 0 || out->z != 0);
 }
 
-static bool parse_palette(const char *text, palette *out)
+static bool parse_palette(const char *given, palette *out)
 {
     palette result = {0};
-    for (const char *at = text;;) {
+    for (const char *at = given;;) {
         at = skip_blanks(at);
         size_t length = strcspn(at, ", ");
         char word[24];
@@ -246,30 +250,30 @@ static bool parse_palette(const char *text, palette *out)
 }
 
 /* Sets nothing when it returns false. */
-static bool parse_value(const param *p, const char *text, void *field)
+static bool parse_value(const param *p, const char *given, void *field)
 {
     direction d;
     colour c;
     switch (p->type) {
-    case PARAM_INT: return parse_int(p, text, field);
-    case PARAM_FLOAT: return parse_float(p, text, field);
-    case PARAM_BOOL: return parse_bool(text, field);
+    case PARAM_INT: return parse_int(p, given, field);
+    case PARAM_FLOAT: return parse_float(p, given, field);
+    case PARAM_BOOL: return parse_bool(given, field);
     case PARAM_COLOUR:
-        if (is_auto(p, text))
+        if (is_auto(p, given))
             c = (colour){NAN, 0, 0, 0};
-        else if (!colour_parse(text, &c))
+        else if (!colour_parse(given, &c))
             return false;
         *(colour *)field = c;
         return true;
     case PARAM_DIRECTION:
-        if (!parse_direction(p, text, &d))
+        if (!parse_direction(p, given, &d))
             return false;
         *(direction *)field = d;
         return true;
-    case PARAM_PALETTE: return parse_palette(text, field);
+    case PARAM_PALETTE: return parse_palette(given, field);
     case PARAM_ENUM:
         for (int32_t i = 0; p->names[i]; i++)
-            if (strcmp(p->names[i], text) == 0) {
+            if (strcmp(p->names[i], given) == 0) {
                 *(int32_t *)field = i;
                 return true;
             }
@@ -278,11 +282,11 @@ static bool parse_value(const param *p, const char *text, void *field)
     return false;
 }
 
-lmn_status param_set_text(const param *p, void *values, const char *text, lmn_error *error)
+lmn_status param_set_text(const param *p, void *values, const char *given, lmn_error *error)
 {
-    if (parse_value(p, text, field_of(p, values)))
+    if (parse_value(p, given, field_of(p, values)))
         return LMN_OK;
-    return p->type == PARAM_ENUM ? wrong_name(p, text, error) : wrong_value(p, text, error);
+    return p->type == PARAM_ENUM ? wrong_name(p, given, error) : wrong_value(p, given, error);
 }
 
 bool param_is_auto(const param *p, const void *values)
