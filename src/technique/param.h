@@ -46,6 +46,7 @@ typedef struct param {
     param_unit         unit;
     bool               can_auto; /* the word "auto" is allowed */
     bool               def_auto;
+    const char        *auto_from;   /* colours: "auto" takes the value of this key */
     bool               logarithmic; /* slider curve */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               cpu_only;    /* no uniform */
@@ -82,7 +83,8 @@ bool param_is_default(const param *p, const void *values);
 /* Reads as numbers whatever the type: the field's address. */
 const void *param_field(const param *p, const void *values);
 
-/* Does the condition `only_if`/`when` hold for these values? NULL always holds. */
+/* Does the condition hold for these values? NULL always holds. "key" (not zero), "key=name", "key>number", "key<number";
+ * several joined by '&' must all hold. */
 bool params_condition(const char *condition, const param *params, size_t count, const void *values);
 
 #endif

@@ -1,0 +1,23 @@
+/* opaque: the figure becomes a depth sprite: colour with true depth, so that figures and plain geometry occlude each other per
+ * pixel. Lines outside the boundary take the depth of the surface they belong to. Seed 000, sections 3.7 and 4.7; rows E03, E08,
+ * E15, E20. */
+#include "compose/compose.h"
+
+static const pass passes[] = {
+    {.name = "sprite", .shader = "compose/sprite.frag",
+     .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_GROUND}, .writes = TARGET_PAGE,
+     .blend = BLEND_OVER, .depth = true},
+};
+
+static const technique opaque = {
+    .name = "opaque", .doc = "Colour with true depth, lines on top.", .example = "{\"compose\": \"opaque\", \"lines\": \"four-tap\"}",
+    .channels = CHANNEL_SHADE | CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
+};
+
+static const technique *const techniques[] = {&opaque};
+
+const kind kind_compose = {
+    .id = KIND_COMPOSE, .name = "compose", .doc = "How a figure meets the page.",
+    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &opaque,
+    .selector_key = "technique",
+};

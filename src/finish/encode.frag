@@ -1,0 +1,23 @@
+/* The page to sRGB with straight alpha, once, at the end; supersamples are averaged here, in linear light. */
+uniform sampler2D t_page;
+uniform int u_samples; /* a side */
+layout(location = 0) out vec4 out_0;
+
+vec3 encoded(vec3 linear)
+{
+    vec3 low = linear * 12.92;
+    vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
+    return mix(high, low, vec3(lessThanEqual(linear, vec3(0.0031308))));
+}
+
+void main()
+{
+    ivec2 corner = ivec2(gl_FragCoord.xy) * u_samples;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < u_samples; y++)
+        for (int x = 0; x < u_samples; x++)
+            sum += texelFetch(t_page, corner + ivec2(x, y), 0);
+    sum /= float(u_samples * u_samples);
+    vec3 straight = sum.a > 0.0 ? clamp(sum.rgb / sum.a, 0.0, 1.0) : vec3(0.0);
+    out_0 = vec4(encoded(straight), sum.a);
+}

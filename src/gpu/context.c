@@ -1,0 +1,202 @@
+/* The context: EGL without a surface, so that no display is needed. */
+#include "gpu/gpu_private.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
+{
+    if (g->failed)
+        return;
+    char message[sizeof g->error.message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    g->failed = true;
+    error_set(&g->error, status, "%s", message);
+}
+
+bool gpu_failed(const gpu *g)
+{
+    return g->failed;
+}
+
+lmn_status gpu_check(gpu *g, lmn_error *error)
+{
+    if (!g->failed)
+        return LMN_OK;
+    g->failed = false;
+    if (error)
+        *error = g->error;
+    return g->error.status;
+}
+
+void gpu_finish(gpu *g)
+{
+    glFinish();
+    (void)g;
+}
+
+const gpu_facts *gpu_facts_of(const gpu *g)
+{
+    return &g->facts;
+}
+
+uint64_t gpu_draw_count(const gpu *g)
+{
+    return g->draws;
+}
+
+static lmn_status no_gl(gpu **g, lmn_error *error, const char *what)
+{
+    lmn_status status = error_set(error, LMN_GL, "no usable OpenGL: %s", what);
+    error_hint(error, "install Mesa's software driver: apt-get install libegl1 libgl1-mesa-dri; `limner doctor` tells more");
+    gpu_destroy(g);
+    return status;
+}
+
+static EGLDisplay open_display(void)
+{
+    const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    EGLDisplay display = EGL_NO_DISPLAY;
+    if (extensions && strstr(extensions, "EGL_MESA_platform_surfaceless"))
+        display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    if (display == EGL_NO_DISPLAY && extensions && strstr(extensions, "EGL_EXT_platform_device") &&
+        strstr(extensions, "EGL_EXT_device_enumeration")) {
+        EGLDeviceEXT device;
+        EGLint count = 0;
+        if (eglQueryDevicesEXT(1, &device, &count) && count > 0)
+            display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, NULL);
+    }
+    return display != EGL_NO_DISPLAY ? display : eglGetDisplay(EGL_DEFAULT_DISPLAY);
+}
+
+static EGLContext open_context(EGLDisplay display, bool es, bool debug)
+{
+    EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, es ? 0 : 3,
+        debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE, EGL_TRUE,
+        EGL_NONE,
+    };
+    EGLint core[] = {
+        EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE, EGL_TRUE,
+        EGL_NONE,
+    };
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, es ? attributes : core);
+}
+
+static void read_facts(gpu *g, bool debug)
+{
+    gpu_facts *f = &g->facts;
+    f->vendor = (const char *)glGetString(GL_VENDOR);
+    f->renderer = (const char *)glGetString(GL_RENDERER);
+    f->version = (const char *)glGetString(GL_VERSION);
+    f->shading = (const char *)glGetString(GL_SHADING_LANGUAGE_VERSION);
+    f->es = !epoxy_is_desktop_gl();
+    f->debug = debug;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &f->max_texture);
+    glGetIntegerv(GL_MAX_SAMPLES, &f->max_samples);
+    glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &f->max_attachments);
+    int version = epoxy_gl_version();
+    const char *path = getenv("LIMNER_PATH");
+    bool able = f->es ? version >= 31 : version >= 43;
+    f->fast = able && !(path && strcmp(path, "floor") == 0);
+    if (able) {
+        GLint64 storage = 0;
+        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage);
+        f->max_storage_mib = (int)(storage >> 20);
+    }
+}
+
+static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar *message,
+                                const void *user)
+{
+    (void)source, (void)id, (void)severity, (void)length;
+    gpu *g = (gpu *)(uintptr_t)user;
+    if (type == GL_DEBUG_TYPE_ERROR)
+        gpu_fail(g, LMN_GL, "the driver reports: %s", message);
+}
+
+lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
+{
+    *out = NULL;
+    gpu *g = mem_calloc(1, sizeof *g);
+    if (!g)
+        return error_memory(error);
+    g->display = open_display();
+    g->context = EGL_NO_CONTEXT;
+    EGLint major = 0, minor = 0;
+    if (g->display == EGL_NO_DISPLAY || !eglInitialize(g->display, &major, &minor)) {
+        g->display = EGL_NO_DISPLAY;
+        return no_gl(&g, error, "EGL finds no display and no surfaceless driver");
+    }
+    if (!eglBindAPI(es ? EGL_OPENGL_ES_API : EGL_OPENGL_API))
+        return no_gl(&g, error, "EGL offers no OpenGL");
+    g->context = open_context(g->display, es, debug);
+    if (g->context == EGL_NO_CONTEXT)
+        return no_gl(&g, error, es ? "the driver gives no OpenGL ES 3.0 context" : "the driver gives no OpenGL 3.3 core context");
+    if (!eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, g->context))
+        return no_gl(&g, error, "the context cannot be used without a surface");
+    read_facts(g, debug);
+    if (g->facts.es && !epoxy_has_gl_extension("GL_EXT_color_buffer_float") && epoxy_gl_version() < 32)
+        return no_gl(&g, error, "the driver cannot draw into float pictures (EXT_color_buffer_float)");
+    if (debug && (!g->facts.es || epoxy_gl_version() >= 32 || epoxy_has_gl_extension("GL_KHR_debug"))) {
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        glDebugMessageCallback(on_message, g);
+    }
+    glGenVertexArrays(1, &g->empty_array);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    *out = g;
+    return LMN_OK;
+}
+
+void gpu_make_current(gpu *g)
+{
+    eglBindAPI(g->facts.es ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
+    if (!eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, g->context))
+        gpu_fail(g, LMN_GL, "the OpenGL context cannot be made current on this thread");
+}
+
+static void release_objects(gpu *g)
+{
+    for (size_t i = 0; i < g->program_count; i++) {
+        for (int u = 0; u < g->programs[i]->uniform_count; u++)
+            mem_free((char *)g->programs[i]->uniforms[u].name);
+        glDeleteProgram(g->programs[i]->name);
+        mem_free(g->programs[i]->key);
+        mem_free(g->programs[i]);
+    }
+    for (size_t i = 0; i < g->target_count; i++) {
+        gpu_forget_framebuffers(g, g->targets[i]);
+        glDeleteTextures(1, &g->targets[i]->name);
+        mem_free(g->targets[i]);
+    }
+    glDeleteVertexArrays(1, &g->empty_array);
+}
+
+void gpu_destroy(gpu **handle)
+{
+    if (!handle || !*handle)
+        return;
+    gpu *g = *handle;
+    if (g->context != EGL_NO_CONTEXT) {
+        gpu_make_current(g);
+        release_objects(g);
+        mem_free(g->programs);
+        mem_free(g->targets);
+        eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(g->display, g->context);
+    }
+    /* The display is process-wide and shared with other renderers; it is not terminated. */
+    mem_free(g);
+    *handle = NULL;
+}

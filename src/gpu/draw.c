@@ -1,0 +1,200 @@
+/* Passes, state, and draw calls. */
+#include "gpu/gpu_private.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+void gpu_forget_framebuffers(gpu *g, const gpu_texture *t)
+{
+    for (int i = 0; i < g->framebuffer_count;) {
+        framebuffer *f = &g->framebuffers[i];
+        bool uses = f->depth == t;
+        for (int c = 0; c < GPU_COLOURS_MAX; c++)
+            uses = uses || f->colours[c] == t;
+        if (!uses) {
+            i++;
+            continue;
+        }
+        glDeleteFramebuffers(1, &f->name);
+        g->framebuffers[i] = g->framebuffers[--g->framebuffer_count];
+    }
+}
+
+static framebuffer *place_for(gpu *g)
+{
+    if (g->framebuffer_count < FRAMEBUFFERS_MAX)
+        return &g->framebuffers[g->framebuffer_count++];
+    framebuffer *oldest = &g->framebuffers[0];
+    for (int i = 1; i < g->framebuffer_count; i++)
+        if (g->framebuffers[i].used < oldest->used)
+            oldest = &g->framebuffers[i];
+    glDeleteFramebuffers(1, &oldest->name);
+    return oldest;
+}
+
+static void bind_framebuffer(gpu *g, const gpu_pass *pass)
+{
+    g->clock++;
+    for (int i = 0; i < g->framebuffer_count; i++) {
+        framebuffer *f = &g->framebuffers[i];
+        if (f->depth == pass->depth && memcmp(f->colours, pass->colours, sizeof f->colours) == 0) {
+            f->used = g->clock;
+            glBindFramebuffer(GL_FRAMEBUFFER, f->name);
+            return;
+        }
+    }
+    framebuffer *f = place_for(g);
+    *f = (framebuffer){.depth = pass->depth, .used = g->clock};
+    memcpy(f->colours, pass->colours, sizeof f->colours);
+    glGenFramebuffers(1, &f->name);
+    glBindFramebuffer(GL_FRAMEBUFFER, f->name);
+    GLenum buffers[GPU_COLOURS_MAX];
+    for (int i = 0; i < pass->colour_count; i++) {
+        buffers[i] = GL_COLOR_ATTACHMENT0 + (GLenum)i;
+        glFramebufferTexture2D(GL_FRAMEBUFFER, buffers[i], GL_TEXTURE_2D, pass->colours[i]->name, 0);
+    }
+    if (pass->colour_count == 0)
+        buffers[0] = GL_NONE;
+    glDrawBuffers(pass->colour_count ? pass->colour_count : 1, buffers);
+    if (pass->depth)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, pass->depth->name, 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        gpu_fail(g, LMN_GL, "the driver cannot draw into this set of pictures");
+}
+
+static void clear_targets(const gpu_pass *pass)
+{
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    for (int i = 0; i < pass->colour_count; i++) {
+        const float *v = pass->clear_values[i];
+        if (pass->colours[i]->format == GPU_RG32UI)
+            glClearBufferuiv(GL_COLOR, i, (GLuint[]){(GLuint)v[0], (GLuint)v[1], 0, 0});
+        else
+            glClearBufferfv(GL_COLOR, i, v);
+    }
+    if (pass->depth && !pass->keep_depth) {
+        glDepthMask(GL_TRUE);
+        glClearBufferfv(GL_DEPTH, 0, (GLfloat[]){1.0f});
+    }
+}
+
+void gpu_pass_begin(gpu *g, const gpu_pass *pass)
+{
+    if (g->failed)
+        return;
+    bind_framebuffer(g, pass);
+    const gpu_texture *any = pass->colour_count ? pass->colours[0] : pass->depth;
+    glViewport(0, 0, any->width, any->height);
+    if (pass->clear)
+        clear_targets(pass);
+    if (pass->scissor[2] > 0) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(pass->scissor[0], pass->scissor[1], pass->scissor[2], pass->scissor[3]);
+    } else {
+        glDisable(GL_SCISSOR_TEST);
+    }
+}
+
+void gpu_use(gpu *g, gpu_program *p, gpu_state state)
+{
+    g->program = p;
+    g->next_unit = 0;
+    if (g->failed || !p)
+        return;
+    glUseProgram(p->name);
+    if (state.depth_test || state.depth_write)
+        glEnable(GL_DEPTH_TEST);
+    else
+        glDisable(GL_DEPTH_TEST);
+    glDepthFunc(state.depth_test ? GL_LEQUAL : GL_ALWAYS);
+    glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
+    glDisable(GL_CULL_FACE);
+    if (state.blend == GPU_BLEND_NONE) {
+        glDisable(GL_BLEND);
+        return;
+    }
+    glEnable(GL_BLEND);
+    glBlendEquation(state.blend == GPU_BLEND_MIN ? GL_MIN : GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, state.blend == GPU_BLEND_MIN ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void gpu_draw_screen(gpu *g)
+{
+    if (g->failed || !g->program)
+        return;
+    glBindVertexArray(g->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    g->draws++;
+}
+
+static size_t add_attribute(gpu_mesh *m, GLuint index, int components, uint32_t count, const float *data)
+{
+    if (!data)
+        return 0;
+    size_t bytes = sizeof(float) * (size_t)components * count;
+    glGenBuffers(1, &m->buffers[index]);
+    glBindBuffer(GL_ARRAY_BUFFER, m->buffers[index]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, data, GL_STATIC_DRAW);
+    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray(index);
+    return bytes;
+}
+
+gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
+{
+    if (g->failed)
+        return NULL;
+    gpu_mesh *m = mem_calloc(1, sizeof *m);
+    if (!m) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return NULL;
+    }
+    m->index_count = data->index_count;
+    m->vertex_count = data->vertex_count;
+    m->has_colours = data->colours != NULL;
+    glGenVertexArrays(1, &m->array);
+    glBindVertexArray(m->array);
+    m->bytes += add_attribute(m, 0, 3, data->vertex_count, data->positions);
+    m->bytes += add_attribute(m, 1, 3, data->vertex_count, data->normals);
+    m->bytes += add_attribute(m, 2, 2, data->vertex_count, data->uvs[0]);
+    m->bytes += add_attribute(m, 3, 2, data->vertex_count, data->uvs[1]);
+    m->bytes += add_attribute(m, 4, 4, data->vertex_count, data->colours);
+    glGenBuffers(1, &m->buffers[5]);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[5]);
+    size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, data->indices, GL_STATIC_DRAW);
+    m->bytes += index_bytes;
+    glBindVertexArray(0);
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        gpu_fail(g, LMN_MEMORY, "the driver has no memory for a mesh of %u vertices", data->vertex_count);
+    return m;
+}
+
+void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
+{
+    (void)g;
+    if (!*m)
+        return;
+    glDeleteVertexArrays(1, &(*m)->array);
+    glDeleteBuffers(6, (*m)->buffers);
+    mem_free(*m);
+    *m = NULL;
+}
+
+size_t gpu_mesh_bytes(const gpu_mesh *m)
+{
+    return m ? m->bytes : 0;
+}
+
+void gpu_draw_mesh(gpu *g, gpu_mesh *m)
+{
+    if (g->failed || !g->program || !m)
+        return;
+    glBindVertexArray(m->array);
+    if (!m->has_colours)
+        glVertexAttrib4f(4, 1, 1, 1, 1);
+    glDrawElements(GL_TRIANGLES, (GLsizei)m->index_count, GL_UNSIGNED_INT, NULL);
+    g->draws++;
+}

@@ -1,0 +1,116 @@
+/* GPU: context, programs, textures, meshes and passes over OpenGL 3.3 core or ES 3.0. Thin and explicit; GL is called nowhere
+ * else. The first error sticks: later calls do nothing, gpu_check returns it. */
+#ifndef LIMNER_GPU_GPU_H
+#define LIMNER_GPU_GPU_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "base/text.h"
+
+typedef struct gpu         gpu;
+typedef struct gpu_texture gpu_texture;
+typedef struct gpu_program gpu_program;
+typedef struct gpu_mesh    gpu_mesh;
+
+typedef enum gpu_format { GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT } gpu_format;
+typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER } gpu_blend;
+typedef enum gpu_wrap { GPU_CLAMP, GPU_REPEAT, GPU_MIRROR } gpu_wrap;
+enum { GPU_COLOURS_MAX = 4 };
+
+/* Makes a context without display or window and makes it current on this thread. Errors: LMN_GL (with what is missing and how
+ * to get it), LMN_MEMORY. */
+lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error);
+void       gpu_destroy(gpu **g);
+void       gpu_make_current(gpu *g);
+/* Returns the sticky error and clears it. */
+lmn_status gpu_check(gpu *g, lmn_error *error);
+void       gpu_fail(gpu *g, lmn_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+bool       gpu_failed(const gpu *g);
+/* Waits until everything is done. */
+void gpu_finish(gpu *g);
+
+typedef struct gpu_facts {
+    const char *vendor, *renderer, *version, *shading; /* owned by the context */
+    bool        es, debug;
+    int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
+    bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
+} gpu_facts;
+const gpu_facts *gpu_facts_of(const gpu *g);
+
+/* --- textures and targets ------------------------------------------------------------------------------------------ */
+
+/* A texture from pixels (RGBA8 or SRGB8), with mip levels. NULL after an error. */
+gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest, gpu_wrap wrap_u,
+                                gpu_wrap wrap_v);
+void         gpu_texture_destroy(gpu *g, gpu_texture **t);
+/* A picture to draw into, from a pool; nearest sampling, clamped. Its content is undefined. */
+gpu_texture *gpu_target_acquire(gpu *g, int width, int height, gpu_format format);
+void         gpu_target_release(gpu *g, gpu_texture *t);
+/* Frees the pool's unused pictures. */
+void gpu_targets_trim(gpu *g);
+int  gpu_texture_width(const gpu_texture *t);
+int  gpu_texture_height(const gpu_texture *t);
+/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, DEPTH32F → 1 float. */
+void gpu_read(gpu *g, gpu_texture *t, void *out);
+
+/* --- programs ------------------------------------------------------------------------------------------------------ */
+
+/* Compiles (or finds) a program. Paths are below src/, several joined by '+' make one stage; `prelude` is GLSL put before both stages. `#include "path"` in shader
+ * files is resolved below src/. NULL after an error; compile errors name file and line. */
+gpu_program *gpu_program_of(gpu *g, const char *vertex, const char *fragment, const char *prelude);
+size_t       gpu_program_count(const gpu *g);
+
+/* --- meshes -------------------------------------------------------------------------------------------------------- */
+
+/* Vertex data; arrays other than positions may be NULL. Colours are linear, straight alpha. */
+typedef struct gpu_mesh_data {
+    uint32_t        vertex_count, index_count;
+    const float    *positions, *normals, *uvs[2], *colours;
+    const uint32_t *indices;
+} gpu_mesh_data;
+gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
+void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
+size_t    gpu_mesh_bytes(const gpu_mesh *m);
+
+/* --- drawing ------------------------------------------------------------------------------------------------------- */
+
+typedef struct gpu_pass {
+    gpu_texture *colours[GPU_COLOURS_MAX];
+    int          colour_count;
+    gpu_texture *depth;
+    bool         clear;                                /* all colours to clear_values, depth to 1 */
+    bool         keep_depth;                           /* with clear: leave the depth as it is */
+    float        clear_values[GPU_COLOURS_MAX][4];     /* RG32UI takes them as integers */
+    int          scissor[4];                           /* x, y, width, height; width 0 = all. Clears ignore it. */
+} gpu_pass;
+void gpu_pass_begin(gpu *g, const gpu_pass *pass);
+
+typedef struct gpu_state {
+    bool      depth_test, depth_write; /* test is "less or equal" */
+    gpu_blend blend;
+} gpu_state;
+/* Selects program and state for what follows; textures of the last program are forgotten. */
+void gpu_use(gpu *g, gpu_program *p, gpu_state state);
+/* Uniforms of the program in use; names that it does not have are ignored. */
+void gpu_set_int(gpu *g, const char *name, int value);
+void gpu_set_uint(gpu *g, const char *name, unsigned value);
+void gpu_set_float(gpu *g, const char *name, float value);
+void gpu_set_vec2(gpu *g, const char *name, float x, float y);
+void gpu_set_vec3(gpu *g, const char *name, const float v[3]);
+void gpu_set_vec4(gpu *g, const char *name, const float v[4]);
+void gpu_set_vec4_array(gpu *g, const char *name, const float *v, int count);
+void gpu_set_mat3(gpu *g, const char *name, const float m[9]);
+void gpu_set_mat4(gpu *g, const char *name, const float m[16]);
+/* Binds a texture to a sampler; `linear` asks for filtering (16-bit float and 8-bit formats only). */
+void gpu_set_texture(gpu *g, const char *name, gpu_texture *t, bool linear);
+bool gpu_has_uniform(gpu *g, const char *name);
+/* One triangle that covers the target. */
+void gpu_draw_screen(gpu *g);
+void gpu_draw_mesh(gpu *g, gpu_mesh *m);
+/* Draw calls since the context was made. */
+uint64_t gpu_draw_count(const gpu *g);
+
+#endif

@@ -1,0 +1,66 @@
+/* What the files of this folder share. */
+#ifndef LIMNER_GPU_GPU_PRIVATE_H
+#define LIMNER_GPU_GPU_PRIVATE_H
+
+#include <epoxy/gl.h>
+#include <epoxy/egl.h>
+
+#include "gpu/gpu.h"
+
+enum { FRAMEBUFFERS_MAX = 64, UNIFORMS_MAX = 96 };
+
+struct gpu_texture {
+    GLuint     name;
+    int        width, height;
+    gpu_format format;
+    bool       mipmapped, nearest, in_use;
+    bool       linear; /* the filter that is set now */
+};
+
+typedef struct uniform_slot {
+    const char *name; /* owned by the program */
+    GLint       location;
+} uniform_slot;
+
+struct gpu_program {
+    GLuint       name;
+    char        *key;
+    uniform_slot uniforms[UNIFORMS_MAX];
+    int          uniform_count;
+};
+
+struct gpu_mesh {
+    GLuint   array, buffers[6];
+    uint32_t index_count, vertex_count;
+    size_t   bytes;
+    bool     has_normals, has_colours;
+};
+
+/* A framebuffer object for one set of attachments. */
+typedef struct framebuffer {
+    GLuint       name;
+    gpu_texture *colours[GPU_COLOURS_MAX], *depth;
+    uint64_t     used;
+} framebuffer;
+
+struct gpu {
+    EGLDisplay    display;
+    EGLContext    context;
+    gpu_facts     facts;
+    lmn_error     error;
+    bool          failed;
+    gpu_texture **targets;
+    size_t        target_count, target_capacity;
+    gpu_program **programs;
+    size_t        program_count, program_capacity;
+    framebuffer   framebuffers[FRAMEBUFFERS_MAX];
+    int           framebuffer_count;
+    uint64_t      clock, draws;
+    GLuint        empty_array;
+    gpu_program  *program; /* in use */
+    int           next_unit;
+};
+
+void gpu_forget_framebuffers(gpu *g, const gpu_texture *t);
+
+#endif

@@ -1,0 +1,298 @@
+/* Programs: shader files with #include, a generated prelude, and compile errors that name file and line. */
+#include "gpu/gpu_private.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/embedded.h"
+#include "base/file.h"
+#include "base/memory.h"
+
+enum { FILES_MAX = 24, INCLUDE_DEPTH_MAX = 8 };
+
+/* The files a shader was put together from; #line numbers them, since drivers refuse names. */
+typedef struct source {
+    text        body;
+    const char *files[FILES_MAX];
+    int         file_count;
+} source;
+
+static const char desktop_head[] = "#version 330 core\n";
+static const char es_head[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+                              "precision highp usampler2D;\n";
+
+static bool append_file(gpu *g, source *s, const char *path, int depth);
+
+static const char *embedded_text(const char *path, size_t *size)
+{
+    for (size_t i = 0; i < embedded_shaders_count; i++)
+        if (strcmp(embedded_shaders[i].path, path) == 0) {
+            *size = embedded_shaders[i].size;
+            return embedded_shaders[i].data;
+        }
+    return NULL;
+}
+
+/* LIMNER_SHADER_DIR lets shaders be edited without a build. */
+static char *load_text(gpu *g, const char *path)
+{
+    const char *folder = getenv("LIMNER_SHADER_DIR");
+    if (folder) {
+        text joined = {0};
+        text_append(&joined, "%s/%s", folder, path);
+        char *name = text_take(&joined);
+        file_data data;
+        if (name && file_load(&data, name, NULL) == LMN_OK) {
+            char *copy = mem_copy_text((const char *)data.data);
+            file_data_release(&data);
+            mem_free(name);
+            return copy;
+        }
+        mem_free(name);
+    }
+    size_t size;
+    const char *found = embedded_text(path, &size);
+    if (!found)
+        gpu_fail(g, LMN_INTERNAL, "shader file src/%s is not in the library", path);
+    return found ? mem_copy_text(found) : NULL;
+}
+
+static bool append_include(gpu *g, source *s, const char *line, size_t length, int depth)
+{
+    const char *open = memchr(line, '"', length);
+    const char *close = open ? memchr(open + 1, '"', length - (size_t)(open + 1 - line)) : NULL;
+    if (!close) {
+        gpu_fail(g, LMN_INTERNAL, "a shader's #include has no quoted path");
+        return false;
+    }
+    char path[128];
+    size_t size = (size_t)(close - open) - 1;
+    if (size >= sizeof path)
+        return false;
+    memcpy(path, open + 1, size);
+    path[size] = '\0';
+    for (int i = 0; i < s->file_count; i++)
+        if (strcmp(s->files[i], path) == 0)
+            return true;
+    return append_file(g, s, path, depth + 1);
+}
+
+static bool append_file(gpu *g, source *s, const char *path, int depth)
+{
+    if (depth > INCLUDE_DEPTH_MAX || s->file_count >= FILES_MAX) {
+        gpu_fail(g, LMN_INTERNAL, "shader includes are nested too deep at src/%s", path);
+        return false;
+    }
+    char *content = load_text(g, path);
+    if (!content)
+        return false;
+    int id = s->file_count++;
+    s->files[id] = mem_copy_text(path);
+    bool good = s->files[id] != NULL;
+    text_append(&s->body, "#line 1 %d\n", id);
+    int number = 1;
+    for (const char *line = content; good && *line; number++) {
+        const char *end = strchr(line, '\n');
+        size_t length = end ? (size_t)(end - line) + 1 : strlen(line);
+        if (strncmp(line, "#include", 8) == 0) {
+            good = append_include(g, s, line, length, depth);
+            text_append(&s->body, "#line %d %d\n", number + 1, id);
+        } else {
+            text_append_bytes(&s->body, line, length);
+        }
+        line += length;
+    }
+    mem_free(content);
+    return good;
+}
+
+/* Appends the files of a '+'-joined list. */
+static bool append_files(gpu *g, source *s, const char *list)
+{
+    char path[128];
+    for (const char *at = list; *at;) {
+        size_t length = strcspn(at, "+");
+        if (length >= sizeof path)
+            return false;
+        memcpy(path, at, length);
+        path[length] = '\0';
+        if (!append_file(g, s, path, 0))
+            return false;
+        at += length + (at[length] == '+');
+    }
+    return true;
+}
+
+static void source_release(source *s)
+{
+    for (int i = 0; i < s->file_count; i++)
+        mem_free((char *)s->files[i]);
+    text_release(&s->body);
+}
+
+/* Turns "0:12(3): error: …" and "ERROR: 0:12: …" into "src/FILE:12: error: …". */
+static void explain(gpu *g, const source *s, const char *log)
+{
+    const char *at = strncmp(log, "ERROR: ", 7) == 0 ? log + 7 : log;
+    char *behind;
+    long file = strtol(at, &behind, 10);
+    if (behind != at && *behind == ':' && file >= 0 && file < s->file_count) {
+        long line = strtol(behind + 1, &behind, 10);
+        gpu_fail(g, LMN_GL, "src/%s:%ld: %s", s->files[file], line, behind);
+    } else {
+        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", s->file_count ? s->files[0] : "?", log);
+    }
+}
+
+static GLuint compile(gpu *g, GLenum stage, const char *path, const char *prelude)
+{
+    source s = {0};
+    GLuint shader = 0;
+    text_append(&s.body, "%s%s", g->facts.es ? es_head : desktop_head, prelude);
+    if (append_files(g, &s, path) && !s.body.failed) {
+        shader = glCreateShader(stage);
+        const char *body = s.body.data;
+        glShaderSource(shader, 1, &body, NULL);
+        glCompileShader(shader);
+        GLint good = GL_FALSE;
+        glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+        if (!good) {
+            char log[1024] = "";
+            glGetShaderInfoLog(shader, sizeof log, NULL, log);
+            explain(g, &s, log);
+            glDeleteShader(shader);
+            shader = 0;
+        }
+    }
+    source_release(&s);
+    return shader;
+}
+
+static GLuint link_program(gpu *g, GLuint vertex, GLuint fragment, const char *path)
+{
+    GLuint program = glCreateProgram();
+    glAttachShader(program, vertex);
+    glAttachShader(program, fragment);
+    glLinkProgram(program);
+    GLint good = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &good);
+    if (good)
+        return program;
+    char log[1024] = "";
+    glGetProgramInfoLog(program, sizeof log, NULL, log);
+    gpu_fail(g, LMN_GL, "src/%s: the driver cannot link the program: %s", path, log);
+    glDeleteProgram(program);
+    return 0;
+}
+
+static gpu_program *add_program(gpu *g, GLuint name, char *key)
+{
+    gpu_program *p = mem_calloc(1, sizeof *p);
+    if (!p || !mem_grow((void **)&g->programs, &g->program_capacity, g->program_count + 1, sizeof *g->programs)) {
+        mem_free(p);
+        glDeleteProgram(name);
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return NULL;
+    }
+    p->name = name;
+    p->key = key;
+    g->programs[g->program_count++] = p;
+    return p;
+}
+
+gpu_program *gpu_program_of(gpu *g, const char *vertex, const char *fragment, const char *prelude)
+{
+    if (g->failed)
+        return NULL;
+    text joined = {0};
+    text_append(&joined, "%s|%s|%s", vertex, fragment, prelude);
+    char *key = text_take(&joined);
+    if (!key) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return NULL;
+    }
+    for (size_t i = 0; i < g->program_count; i++)
+        if (strcmp(g->programs[i]->key, key) == 0) {
+            mem_free(key);
+            return g->programs[i];
+        }
+    GLuint vertex_shader = compile(g, GL_VERTEX_SHADER, vertex, prelude);
+    GLuint fragment_shader = vertex_shader ? compile(g, GL_FRAGMENT_SHADER, fragment, prelude) : 0;
+    GLuint name = fragment_shader ? link_program(g, vertex_shader, fragment_shader, fragment) : 0;
+    glDeleteShader(vertex_shader);
+    glDeleteShader(fragment_shader);
+    gpu_program *program = name ? add_program(g, name, key) : NULL;
+    if (!program)
+        mem_free(key);
+    return program;
+}
+
+size_t gpu_program_count(const gpu *g)
+{
+    return g->program_count;
+}
+
+static GLint location_of(gpu *g, const char *name)
+{
+    gpu_program *p = g->program;
+    if (!p)
+        return -1;
+    for (int i = 0; i < p->uniform_count; i++)
+        if (strcmp(p->uniforms[i].name, name) == 0)
+            return p->uniforms[i].location;
+    GLint location = glGetUniformLocation(p->name, name);
+    char *copy = p->uniform_count < UNIFORMS_MAX ? mem_copy_text(name) : NULL;
+    if (copy)
+        p->uniforms[p->uniform_count++] = (uniform_slot){copy, location};
+    return location;
+}
+
+bool gpu_has_uniform(gpu *g, const char *name)
+{
+    return location_of(g, name) >= 0;
+}
+
+void gpu_set_int(gpu *g, const char *name, int value)
+{
+    glUniform1i(location_of(g, name), value);
+}
+
+void gpu_set_uint(gpu *g, const char *name, unsigned value)
+{
+    glUniform1ui(location_of(g, name), value);
+}
+
+void gpu_set_float(gpu *g, const char *name, float value)
+{
+    glUniform1f(location_of(g, name), value);
+}
+
+void gpu_set_vec2(gpu *g, const char *name, float x, float y)
+{
+    glUniform2f(location_of(g, name), x, y);
+}
+
+void gpu_set_vec3(gpu *g, const char *name, const float v[3])
+{
+    glUniform3fv(location_of(g, name), 1, v);
+}
+
+void gpu_set_vec4(gpu *g, const char *name, const float v[4])
+{
+    glUniform4fv(location_of(g, name), 1, v);
+}
+
+void gpu_set_vec4_array(gpu *g, const char *name, const float *v, int count)
+{
+    glUniform4fv(location_of(g, name), count, v);
+}
+
+void gpu_set_mat3(gpu *g, const char *name, const float m[9])
+{
+    glUniformMatrix3fv(location_of(g, name), 1, GL_FALSE, m);
+}
+
+void gpu_set_mat4(gpu *g, const char *name, const float m[16])
+{
+    glUniformMatrix4fv(location_of(g, name), 1, GL_FALSE, m);
+}

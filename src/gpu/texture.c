@@ -1,0 +1,203 @@
+/* Textures, and pictures to draw into from a pool. */
+#include "gpu/gpu_private.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+typedef struct format_row {
+    GLenum internal, format, type;
+} format_row;
+
+static const format_row formats[GPU_FORMAT_COUNT] = {
+    [GPU_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+    [GPU_SRGB8] = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE},
+    [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT},
+    [GPU_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
+    [GPU_RG32UI] = {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT},
+    [GPU_DEPTH32F] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
+};
+
+int gpu_texture_width(const gpu_texture *t)
+{
+    return t->width;
+}
+
+int gpu_texture_height(const gpu_texture *t)
+{
+    return t->height;
+}
+
+static GLint wrap_of(gpu_wrap wrap)
+{
+    return wrap == GPU_REPEAT ? GL_REPEAT : wrap == GPU_MIRROR ? GL_MIRRORED_REPEAT : GL_CLAMP_TO_EDGE;
+}
+
+static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const void *pixels, gpu_wrap wrap_u, gpu_wrap wrap_v)
+{
+    if (g->failed)
+        return NULL;
+    if (width > g->facts.max_texture || height > g->facts.max_texture) {
+        gpu_fail(g, LMN_LIMIT, "a picture of %dx%d pixels is larger than the driver's limit of %d a side", width, height,
+                 g->facts.max_texture);
+        return NULL;
+    }
+    gpu_texture *t = mem_calloc(1, sizeof *t);
+    if (!t) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return NULL;
+    }
+    t->width = width;
+    t->height = height;
+    t->format = format;
+    const format_row *row = &formats[format];
+    glGenTextures(1, &t->name);
+    glBindTexture(GL_TEXTURE_2D, t->name);
+    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)row->internal, width, height, 0, row->format, row->type, pixels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap_of(wrap_u));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap_of(wrap_v));
+    return t;
+}
+
+gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest, gpu_wrap wrap_u,
+                                gpu_wrap wrap_v)
+{
+    gpu_texture *t = make(g, width, height, format, pixels, wrap_u, wrap_v);
+    if (!t)
+        return NULL;
+    t->mipmapped = true;
+    t->nearest = nearest;
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    if (!nearest && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8.0f);
+    return t;
+}
+
+void gpu_texture_destroy(gpu *g, gpu_texture **t)
+{
+    (void)g;
+    if (!*t)
+        return;
+    glDeleteTextures(1, &(*t)->name);
+    mem_free(*t);
+    *t = NULL;
+}
+
+gpu_texture *gpu_target_acquire(gpu *g, int width, int height, gpu_format format)
+{
+    for (size_t i = 0; i < g->target_count; i++) {
+        gpu_texture *t = g->targets[i];
+        if (!t->in_use && t->width == width && t->height == height && t->format == format) {
+            t->in_use = true;
+            return t;
+        }
+    }
+    if (!mem_grow((void **)&g->targets, &g->target_capacity, g->target_count + 1, sizeof *g->targets)) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return NULL;
+    }
+    gpu_texture *t = make(g, width, height, format, NULL, GPU_CLAMP, GPU_CLAMP);
+    if (!t)
+        return NULL;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    t->nearest = true;
+    t->in_use = true;
+    g->targets[g->target_count++] = t;
+    return t;
+}
+
+void gpu_target_release(gpu *g, gpu_texture *t)
+{
+    (void)g;
+    if (t)
+        t->in_use = false;
+}
+
+void gpu_targets_trim(gpu *g)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < g->target_count; i++) {
+        gpu_texture *t = g->targets[i];
+        if (t->in_use) {
+            g->targets[kept++] = t;
+            continue;
+        }
+        gpu_forget_framebuffers(g, t);
+        glDeleteTextures(1, &t->name);
+        mem_free(t);
+    }
+    g->target_count = kept;
+}
+
+void gpu_set_texture(gpu *g, const char *name, gpu_texture *t, bool linear)
+{
+    if (g->failed || !t || !gpu_has_uniform(g, name))
+        return;
+    int unit = g->next_unit++;
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(GL_TEXTURE_2D, t->name);
+    if (!t->mipmapped && t->linear != linear) {
+        GLint filter = linear ? GL_LINEAR : GL_NEAREST;
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+        t->linear = linear;
+    }
+    gpu_set_int(g, name, unit);
+}
+
+/* ES reads no depth back directly: it goes through a shader into a float picture. */
+static void read_depth_by_copy(gpu *g, gpu_texture *t, float *out)
+{
+    gpu_texture *copy = gpu_target_acquire(g, t->width, t->height, GPU_RGBA32F);
+    float *wide = mem_alloc(sizeof(float) * 4 * (size_t)t->width * (size_t)t->height);
+    if (copy && wide) {
+        gpu_pass_begin(g, &(gpu_pass){.colours = {copy}, .colour_count = 1});
+        gpu_use(g, gpu_program_of(g, "gpu/screen.vert", "gpu/copy_depth.frag", ""), (gpu_state){0});
+        gpu_set_texture(g, "t_depth", t, false);
+        gpu_draw_screen(g);
+        gpu_read(g, copy, wide);
+        for (size_t i = 0, count = (size_t)t->width * (size_t)t->height; i < count; i++)
+            out[i] = wide[i * 4];
+    }
+    if (!wide)
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+    mem_free(wide);
+    gpu_target_release(g, copy);
+}
+
+void gpu_read(gpu *g, gpu_texture *t, void *out)
+{
+    if (g->failed || !t)
+        return;
+    if (t->format == GPU_DEPTH32F) {
+        if (g->facts.es) {
+            read_depth_by_copy(g, t, out);
+            return;
+        }
+        gpu_pass_begin(g, &(gpu_pass){.depth = t});
+        glReadPixels(0, 0, t->width, t->height, GL_DEPTH_COMPONENT, GL_FLOAT, out);
+        return;
+    }
+    gpu_pass_begin(g, &(gpu_pass){.colours = {t}, .colour_count = 1});
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    GLenum type = t->format == GPU_RGBA16F ? GL_FLOAT : formats[t->format].type;
+    if (t->format == GPU_RG32UI && g->facts.es) {
+        /* ES guarantees four-component integer reads only. */
+        size_t count = (size_t)t->width * (size_t)t->height;
+        uint32_t *wide = mem_alloc(count * 16);
+        if (!wide) {
+            gpu_fail(g, LMN_MEMORY, "out of memory");
+            return;
+        }
+        glReadPixels(0, 0, t->width, t->height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, wide);
+        for (size_t i = 0; i < count; i++)
+            memcpy((uint32_t *)out + i * 2, wide + i * 4, 8);
+        mem_free(wide);
+        return;
+    }
+    glReadPixels(0, 0, t->width, t->height, formats[t->format].format, type, out);
+}

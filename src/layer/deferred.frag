@@ -1,0 +1,27 @@
+/* Shades a figure from its G-buffer. Seed 000, section 3.6; row E04. */
+#include "light/point.glsl"
+
+uniform sampler2D  t_normal_depth;
+uniform usampler2D t_id;
+uniform sampler2D  t_albedo;
+uniform vec2 u_size;
+uniform vec2 u_unproject; /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
+layout(location = 0) out vec4 out_shade;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    uvec2 id = texelFetch(t_id, pixel, 0).rg;
+    if (id.r == 0u || (id.g & 0x80000000u) != 0u) {
+        out_shade = vec4(0.0);
+        return;
+    }
+    vec4 normal_depth = texelFetch(t_normal_depth, pixel, 0);
+    vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
+    vec3 eye = vec3(ndc * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
+    vec3 normal = normal_depth.xyz;
+    if (dot(normal, towards_viewer(eye)) < 0.0)
+        normal = -normal;
+    vec4 albedo = texelFetch(t_albedo, pixel, 0);
+    out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false));
+}

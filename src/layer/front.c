@@ -1,0 +1,24 @@
+/* front: the visible surface only. Seed 000, sections 3.6 and 4.7; rows E04, E15, E18. */
+#include "layer/layer.h"
+
+static const char *const shading_names[] = {"forward", "deferred", NULL};
+
+static const param params[] = {
+    PARAM_BOOL_ROW(front_values, complement, .def = 1, .cpu_only = true,
+                   .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they meet this rule's parts."),
+    PARAM_ENUM_ROW(front_values, shading, .names = shading_names, .cpu_only = true,
+                   .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards."),
+};
+
+static const technique front = {
+    .name = "front", .doc = "The visible surface.", .example = "{\"layers\": \"front\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(front_values),
+};
+
+static const technique *const techniques[] = {&front};
+
+const kind kind_layers = {
+    .id = KIND_LAYERS, .name = "layers", .doc = "Which surfaces of a figure are seen.",
+    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &front,
+    .selector_key = "technique",
+};

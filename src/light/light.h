@@ -1,0 +1,21 @@
+/* The kind "scene": light and what else belongs to the whole scene. */
+#ifndef LIMNER_LIGHT_LIGHT_H
+#define LIMNER_LIGHT_LIGHT_H
+
+#include "technique/technique.h"
+
+extern const kind kind_scene;
+
+enum { LIGHTS_MAX = 8 };
+
+typedef enum light_source { LIGHTS_STUDIO, LIGHTS_FILE } light_source;
+
+/* The parameters, read by src/draw when it sets the scene up. */
+typedef struct scene_values {
+    direction light_direction;
+    float     fill, crease_angle;
+    int32_t   lights;
+    float     light_scale;
+} scene_values;
+
+#endif

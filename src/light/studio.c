@@ -1,0 +1,30 @@
+/* studio: a key light that goes with the viewer and a weaker fill light from the other side, or the file's own lights. */
+#include "light/light.h"
+
+static const char *const source_names[] = {"studio", "file", NULL};
+
+static const param params[] = {
+    PARAM_DIRECTION_ROW(scene_values, light_direction, .def_direction = {-0.45f, 0.75f, 0.85f}, .min = -1e6, .max = 1e6, .cpu_only = true,
+                        .doc = "Direction towards the key light as the viewer sees it: right, up, to the viewer."),
+    PARAM_FLOAT_ROW(scene_values, fill, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+                    .doc = "Strength of a fill light from the other side."),
+    PARAM_FLOAT_ROW(scene_values, crease_angle, .def = 30, .min = 0, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true,
+                    .doc = "Faces that meet at less are smoothed where a model brings no normals."),
+    PARAM_ENUM_ROW(scene_values, lights, .names = source_names, .cpu_only = true,
+                   .doc = "studio: the two lights above; file: the model's lights, if it has any."),
+    PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,
+                    .doc = "Multiplies all lights."),
+};
+
+static const technique studio = {
+    .name = "studio", .doc = "Light and geometry preparation.", .example = "{\"surface\": \"lit\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(scene_values),
+};
+
+static const technique *const techniques[] = {&studio};
+
+const kind kind_scene = {
+    .id = KIND_SCENE, .name = "scene", .doc = "Light and geometry preparation, for the whole look.",
+    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &studio,
+    .selector_key = "technique", .look_wide = true,
+};

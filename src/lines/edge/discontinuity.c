@@ -1,0 +1,36 @@
+/* discontinuity: lines where visibility, orientation or part changes, whatever the slant of the surfaces. Goes past the
+ * operators of seed 000 (4.3) and seed 004 (2.2), whose depth differences also answer to a plane seen at a grazing angle:
+ * here a depth step counts only as far as the slopes on both of its sides do not explain it. Window depth is affine in
+ * screen space on any plane, so a plane gives exactly nothing. Rows E19, E22, and the edge-set test. */
+#include "lines/lines.h"
+
+typedef struct discontinuity {
+    lines_common common;
+    float        step, crease, smooth;
+    bool         parts;
+} discontinuity;
+
+static const param params[] = {
+    PARAM_FLOAT_ROW(discontinuity, step, .def = 0.0006, .min = 0.00001, .max = 1, .soft_min = 0.0001, .soft_max = 0.1,
+                    .unit = UNIT_SHARE, .logarithmic = true,
+                    .doc = "Smallest depth step that is a profile line, as a share of the figure's depth range."),
+    PARAM_FLOAT_ROW(discontinuity, crease, .def = 38, .min = 1, .max = 179, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
+                    .doc = "Smallest angle between neighbouring normals that is an inner line."),
+    PARAM_FLOAT_ROW(discontinuity, smooth, .def = 6, .min = 0.1, .max = 60, .soft_max = 20, .unit = UNIT_DEGREES,
+                    .doc = "Range of angles below the crease angle in which inner lines fade in."),
+    PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
+};
+
+static const pass passes[] = {
+    LINES_PASSES_BEFORE,
+    {.name = "edges", .shader = "lines/edge/discontinuity.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
+     .writes = TARGET_EDGE},
+    LINES_PASSES_BEHIND,
+};
+
+const technique lines_discontinuity = {
+    .name = "discontinuity", .doc = "Steps of depth that no slope explains, creases by angle, and part borders.",
+    .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(discontinuity),
+    .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
+};

@@ -1,0 +1,40 @@
+/* What edge operators share. Edge map: R profile, G inner, B both, A id; 1 = no edge. */
+layout(location = 0) out vec4 out_edge;
+
+uniform float u_near; /* of the figure, eye depth */
+uniform float u_far;
+uniform vec2  u_size;
+
+/* Normalised linear depth, 0 at the figure's near plane, 1 at its far plane and where nothing is. */
+float normalised(float depth)
+{
+    return clamp((depth - u_near) / (u_far - u_near), 0.0, 1.0);
+}
+
+/* An intensity after threshold and gain; at threshold 0 and gain 1 only clamped. */
+float emphasised(float intensity)
+{
+    return 1.0 - clamp((1.0 - intensity - u_threshold) * u_gain, 0.0, 1.0);
+}
+
+void write_edges(float profile, float inner, float id)
+{
+    profile = emphasised(profile);
+    inner = emphasised(inner);
+    out_edge = vec4(profile, inner, profile * inner, emphasised(id));
+}
+
+vec4 texel(sampler2D map, ivec2 at)
+{
+    return texelFetch(map, clamp(at, ivec2(0), ivec2(u_size) - 1), 0);
+}
+
+/* Bilinear sample by hand: 32-bit float pictures have no filter on every driver. `at` in pixels, centres at .5. */
+vec4 bilinear(sampler2D map, vec2 at)
+{
+    vec2 corner = floor(at - 0.5);
+    vec2 f = at - 0.5 - corner;
+    ivec2 i = ivec2(corner);
+    return mix(mix(texel(map, i), texel(map, i + ivec2(1, 0)), f.x),
+               mix(texel(map, i + ivec2(0, 1)), texel(map, i + ivec2(1, 1)), f.x), f.y);
+}

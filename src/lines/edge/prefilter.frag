@@ -1,0 +1,17 @@
+/* Sharpens (or, negative, blurs) the normal-depth buffer: centre 1 + 8s, each neighbour −s. Seed 004, section 2.2, says "a simple
+ * sharpen kernel with factor about −0.1", which widens and strengthens lines when read as an amount: the neighbours then weigh
+ * +0.1 each. Row P6. */
+uniform vec2 u_size;
+layout(location = 0) out vec4 out_0;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(u_size) - 1;
+    vec4 sum = vec4(0.0);
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++)
+            if (x != 0 || y != 0)
+                sum += texelFetch(t_normal_depth, clamp(pixel + ivec2(x, y), ivec2(0), last), 0);
+    vec4 centre = texelFetch(t_normal_depth, pixel, 0);
+    out_0 = centre * (1.0 + 8.0 * u_sharpen) - u_sharpen * sum;
+}

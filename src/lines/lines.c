@@ -1,0 +1,52 @@
+/* The table of line techniques and what all of them share. */
+#include "lines/lines.h"
+
+static const char *const contrasts[] = {"none", "double", "adaptive", "directed", NULL};
+
+static const param common[] = {
+    PARAM_COLOUR_ROW(lines_common, colour, .def_colour = {0.09f, 0.10f, 0.12f, 1},
+                     .doc = "Colour of profile lines: silhouettes and borders."),
+    PARAM_COLOUR_ROW(lines_common, inner_colour, .can_auto = true, .def_auto = true, .auto_from = "colour",
+                     .doc = "Colour of inner lines: creases; auto takes colour."),
+    PARAM_COLOUR_ROW(lines_common, id_colour, .can_auto = true, .def_auto = true, .auto_from = "colour",
+                     .doc = "Colour of lines between parts; auto takes colour."),
+    PARAM_FLOAT_ROW(lines_common, width, .def = 2, .min = 0.5, .max = 32, .soft_min = 1, .soft_max = 8, .unit = UNIT_PX,
+                    .doc = "Width of the lines; above 2 they grow from the detected map."),
+    PARAM_FLOAT_ROW(lines_common, profile_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of profile lines; 0 hides them."),
+    PARAM_FLOAT_ROW(lines_common, inner_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of inner lines; 0 hides them."),
+    PARAM_FLOAT_ROW(lines_common, id_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of lines between parts; 0 hides them."),
+    PARAM_FLOAT_ROW(lines_common, gain, .def = 1, .min = 0, .max = 1000, .soft_min = 0.5, .soft_max = 50, .logarithmic = true,
+                    .doc = "Multiplies the detected ink; 1 keeps the operator's formula."),
+    PARAM_FLOAT_ROW(lines_common, threshold, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Ink below this share is paper; taken off before the gain."),
+    PARAM_FLOAT_ROW(lines_common, sharpen, .def = 0, .min = -0.12, .max = 1, .soft_min = -0.12, .soft_max = 0.5,
+                    .doc = "Sharpening of the normal-depth buffer before detection; -0.1 gives softer and stronger lines."),
+    PARAM_ENUM_ROW(lines_common, contrast, .names = contrasts, .variant = true,
+                   .doc = "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
+                          "the dark colour by the ground; directed puts the second line towards the outside."),
+    PARAM_COLOUR_ROW(lines_common, light_colour, .def_colour = {1, 1, 1, 1}, .only_if = "contrast>0",
+                     .doc = "The second or the light colour of contrast-aware lines."),
+    PARAM_FLOAT_ROW(lines_common, offset_x, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4, .unit = UNIT_PX,
+                    .only_if = "contrast=double", .doc = "How far the second line lies to the right."),
+    PARAM_FLOAT_ROW(lines_common, offset_y, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4, .unit = UNIT_PX,
+                    .only_if = "contrast=double", .doc = "How far the second line lies down."),
+    PARAM_FLOAT_ROW(lines_common, suppress, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "contrast=adaptive",
+                    .doc = "Luminance step across a line above which the picture shows the edge by itself and the line is left out; "
+                           "0 keeps all lines."),
+    PARAM_FLOAT_ROW(lines_common, blur, .def = 6, .min = 1, .max = 32, .unit = UNIT_PX, .only_if = "contrast=adaptive",
+                    .doc = "Radius in which the ground's brightness is averaged."),
+};
+
+static const technique *const techniques[] = {
+    &lines_discontinuity, &lines_four_tap, &lines_sobel, &lines_saito, &lines_saito_normalised, &lines_denormal,
+    &lines_id,            &lines_colour,
+};
+
+const kind kind_lines = {
+    .id = KIND_LINES, .name = "lines", .doc = "Where lines are, and how they are inked.",
+    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = NULL,
+    .selector_key = "operator", .array = true, .common = common, .common_count = PARAM_COUNT(common),
+};

@@ -1,0 +1,18 @@
+/* flat: one colour, no light. Seed 000, figures drawn by lines alone; row E23. */
+#include "surface/surface.h"
+
+typedef struct flat {
+    colour colour;
+    float  model_colour;
+} flat;
+
+static const param params[] = {
+    PARAM_COLOUR_ROW(flat, colour, .def_colour = {1, 1, 1, 1}, .doc = "Colour of the surface; a transparent one leaves lines alone."),
+    PARAM_FLOAT_ROW(flat, model_colour, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the model's own colour."),
+};
+
+const technique surface_flat = {
+    .name = "flat", .doc = "One colour without light.", .example = "{\"surface\": {\"technique\": \"flat\", \"colour\": \"#eeddcc\"}}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(flat),
+    .surface = "surface/flat.glsl", .direct = true,
+};

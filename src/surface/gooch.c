@@ -1,0 +1,24 @@
+/* gooch: tone from cool to warm, so that shadow stays readable and lines stay the darkest, highlights the lightest thing. Seed 000,
+ * section 4.6 and listings 3-1, 3-2; seed 002, section 3.2.2; rows E10, grossmann 2. The seeds leave the colours open; these are
+ * near those of Gooch's paper. */
+#include "surface/surface.h"
+
+typedef struct gooch {
+    colour cool, warm;
+    float  cool_share, warm_share, specular, shininess;
+} gooch;
+
+static const param params[] = {
+    PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.32f, 0.40f, 0.66f, 1}, .doc = "Tone of places turned away from the light."),
+    PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.80f, 0.72f, 0.48f, 1}, .doc = "Tone of places turned to the light."),
+    PARAM_FLOAT_ROW(gooch, cool_share, .def = 0.2, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much of the model's colour is added to the cool tone."),
+    PARAM_FLOAT_ROW(gooch, warm_share, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much of the model's colour is added to the warm tone."),
+    PARAM_FLOAT_ROW(gooch, specular, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the highlight."),
+    PARAM_FLOAT_ROW(gooch, shininess, .def = 32, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true, .doc = "Sharpness of the highlight; the seed has 32."),
+};
+
+const technique surface_gooch = {
+    .name = "gooch", .doc = "Cool-to-warm tones for technical illustration.", .example = "{\"surface\": \"gooch\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(gooch),
+    .surface = "surface/gooch.glsl", .direct = true,
+};

@@ -1,0 +1,12 @@
+#include "light/light.glsl"
+
+uniform sampler2D t_reflection;
+uniform vec2 u_size;
+
+/* The mirrored scene was drawn with the same projection, so it is looked up at the same pixel. */
+vec4 surface_colour(surface_point p)
+{
+    vec4 seen = texture(t_reflection, gl_FragCoord.xy / u_size);
+    vec3 reflected = seen.rgb + u_tint.rgb * (1.0 - seen.a);
+    return vec4(mix(u_tint.rgb * p.albedo.rgb, reflected, u_reflectivity), 1.0);
+}

@@ -1,0 +1,12 @@
+/* The kind "surface": how area is filled. A technique is a GLSL function `vec4 surface_colour(surface_point p)`. */
+#ifndef LIMNER_SURFACE_SURFACE_H
+#define LIMNER_SURFACE_SURFACE_H
+
+#include "technique/technique.h"
+
+extern const kind kind_surface;
+
+extern const technique surface_lambert, surface_flat, surface_lit, surface_tones, surface_toon, surface_gooch, surface_textured,
+    surface_mirror;
+
+#endif

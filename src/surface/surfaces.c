@@ -1,0 +1,13 @@
+/* The table of surface techniques. */
+#include "surface/surface.h"
+
+static const technique *const techniques[] = {
+    &surface_lambert, &surface_flat,     &surface_lit,    &surface_tones,
+    &surface_toon,    &surface_gooch,    &surface_textured, &surface_mirror,
+};
+
+const kind kind_surface = {
+    .id = KIND_SURFACE, .name = "surface", .doc = "How area is filled.",
+    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &surface_lambert,
+    .selector_key = "technique",
+};

@@ -1,0 +1,34 @@
+/* toon: bands the summed light, then smooths only the borders between bands. Seed 000, sections 3.4 and 4.6 (the shade map is
+ * blurred by four samples that cover nine texels); row E12. */
+#include "surface/surface.h"
+
+typedef struct toon {
+    int32_t bands;
+    float   softness, shadow, light, highlight, saturation;
+    bool    seed_blur;
+} toon;
+
+static const param params[] = {
+    PARAM_INT_ROW(toon, bands, .def = 3, .min = 1, .max = 16, .soft_min = 2, .soft_max = 6, .unit = UNIT_COUNT,
+                  .doc = "Number of flat tones between shadow and full light."),
+    PARAM_FLOAT_ROW(toon, softness, .def = 1, .min = 0, .max = 8, .soft_max = 3, .unit = UNIT_PX,
+                    .doc = "Width of the blend across a tone border; 0 is hard."),
+    PARAM_FLOAT_ROW(toon, shadow, .def = 0.42, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Brightness of the darkest tone."),
+    PARAM_FLOAT_ROW(toon, light, .def = 1, .min = 0, .max = 2, .soft_max = 1.2, .unit = UNIT_SHARE, .doc = "Brightness of the lightest tone."),
+    PARAM_FLOAT_ROW(toon, highlight, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the hard-edged highlight; 0 leaves it out."),
+    PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2, .doc = "Saturation of the tones; cartoons like more than nature."),
+    PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
+                   .doc = "Smooths tone borders by blurring the shade map as the seed does, instead of by the border's own distance."),
+};
+
+static const pass passes[] = {
+    {.name = "blur tones", .shader = "surface/toon_blur.frag", .reads = {TARGET_SHADE, TARGET_ID}, .writes = TARGET_SHADE,
+     .when = "seed_blur"},
+};
+
+const technique surface_toon = {
+    .name = "toon", .doc = "Flat tones with antialiased borders, from the sum of all lights.",
+    .example = "{\"surface\": {\"technique\": \"toon\", \"bands\": 4}, \"lines\": \"discontinuity\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(toon), .channels = CHANNEL_ID,
+    .surface = "surface/toon.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
+};
