@@ -89,13 +89,13 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     s->renderer = r;
     gpu_make_current(r->g);
     lmn_status status = bring_scene(r, scene, look, desc, error);
+    int side = maps ? 1 : square_root(desc->samples);
     if (status == LMN_OK)
-        status = plan_create(&s->plan, scene, look, &r->up, desc->select, maps, notes, error);
+        status = plan_create(&s->plan, scene, look, &r->up, desc->select, side, maps, notes, error);
     if (status == LMN_OK)
         status = place_camera(s, scene, desc, error);
     if (status != LMN_OK)
         return status;
-    int side = maps ? 1 : square_root(desc->samples);
     const gpu_facts *facts = gpu_facts_of(r->g);
     int limit = facts->max_texture < LIMIT_PICTURE_SIDE ? facts->max_texture : LIMIT_PICTURE_SIDE;
     if (desc->width * side > limit || desc->height * side > limit) {

@@ -308,7 +308,7 @@ static void draw_parts(frame *f, const figure_state *s, outputs o)
             set_common(f, s);
             set_projection(f);
             if (o.shade >= 0)
-                uniforms_set(f->g, own_set(surface), (float)f->samples);
+                uniforms_set(f->g, own_set(surface));
             if (f->mirror_depth)
                 gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
             if (s->targets[TARGET_REFLECTION])
@@ -383,7 +383,7 @@ static void shade_deferred(frame *f, figure_state *s)
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true});
         gpu_use(f->g, p, (gpu_state){0});
         set_common(f, s);
-        uniforms_set(f->g, own_set(surface), (float)f->samples);
+        uniforms_set(f->g, own_set(surface));
         gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
         gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
         gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);
@@ -449,7 +449,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         set_common(f, s);
         gpu_set_int(f->g, "u_iteration", iteration);
         for (size_t i = 0; i < params->count; i++)
-            uniforms_set(f->g, params->sets[i], (float)f->samples);
+            uniforms_set(f->g, params->sets[i]);
         for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++) {
             /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
             bool linear = p->reads[i] == TARGET_SHADE || p->reads[i] == TARGET_EDGE;
@@ -465,10 +465,8 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     watch_stop(f, w, group, p->name);
 }
 
-static bool pass_applies(const frame *f, kind_id id, const pass *p, const technique_use *use)
+static bool pass_applies(kind_id id, const pass *p, const technique_use *use)
 {
-    /* Conditions on lengths hold for what is seen: a width of 2 stays 2 whatever the supersampling. */
-    (void)f;
     const technique *t = use->technique;
     const kind *k = kinds[id];
     if (!p->when)
@@ -495,7 +493,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         params.sets[params.count++] = common_set(KIND_LINES, &s->figure->rule->uses[KIND_LINES][line_count - 1]);
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
-        if (!pass_applies(f, id, p, use))
+        if (!pass_applies(id, p, use))
             continue;
         for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
             run_pass(f, s, p, &params, kinds[id]->name, k);
@@ -535,7 +533,7 @@ static void release_targets(frame *f, figure_state *s)
             gpu_target_release(f->g, s->targets[i]);
 }
 
-static int reach_of(const figure *fig, int samples)
+static int reach_of(const figure *fig)
 {
     const rule *r = fig->rule;
     float widest = 0;
@@ -545,7 +543,7 @@ static int reach_of(const figure *fig, int samples)
             if (k->common[p].unit == UNIT_PX && k->common[p].type == PARAM_FLOAT)
                 widest += fabsf(*(const float *)param_field(&k->common[p], r->uses[KIND_LINES][i].values));
     }
-    return (int)ceilf(widest) * samples + 2;
+    return (int)ceilf(widest) + 2;
 }
 
 static void draw_direct(frame *f, figure_state *s)
@@ -571,7 +569,7 @@ static void draw_figure(frame *f, const figure *fig)
     s.far = fmin(farthest + margin, f->camera.far);
     if (!(s.far > s.near))
         s.far = s.near + 1;
-    camera_pixels(&f->camera, fig->box, f->width, f->height, reach_of(fig, f->samples), s.pixels);
+    camera_pixels(&f->camera, fig->box, f->width, f->height, reach_of(fig), s.pixels);
     if (s.pixels[2] <= 0 || s.pixels[3] <= 0 || gpu_failed(f->g))
         return;
     if (fig->reflects && !f->mirror_depth)

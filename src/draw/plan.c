@@ -10,6 +10,44 @@ const technique_use *rule_use(const rule *r, kind_id id)
     return r->use_counts[id] ? &r->uses[id][0] : NULL;
 }
 
+static void scale_lengths(const param *params, size_t count, void *values, int pixel_scale)
+{
+    for (size_t i = 0; i < count; i++)
+        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
+            *(float *)((char *)values + params[i].offset) *= (float)pixel_scale;
+}
+
+/* Copies the uses of a rule; selectors and names stay the look's. */
+static bool copy_rule(rule *out, const rule *from, int pixel_scale)
+{
+    *out = *from;
+    memset(out->uses, 0, sizeof out->uses);
+    for (int k = 0; k < KIND_COUNT; k++) {
+        size_t count = from->use_counts[k];
+        out->uses[k] = mem_calloc(count, sizeof(technique_use));
+        if (!out->uses[k])
+            return false;
+        for (size_t i = 0; i < count; i++) {
+            const technique *t = from->uses[k][i].technique;
+            out->uses[k][i] = (technique_use){t, mem_copy(from->uses[k][i].values, t->params_size)};
+            if (!out->uses[k][i].values)
+                return false;
+            scale_lengths(t->params, t->param_count, out->uses[k][i].values, pixel_scale);
+            scale_lengths(kinds[k]->common, kinds[k]->common_count, out->uses[k][i].values, pixel_scale);
+        }
+    }
+    return true;
+}
+
+static void release_rule(rule *r)
+{
+    for (int k = 0; k < KIND_COUNT; k++) {
+        for (size_t i = 0; r->uses[k] && i < r->use_counts[k]; i++)
+            mem_free(r->uses[k][i].values);
+        mem_free(r->uses[k]);
+    }
+}
+
 static unsigned channels_of(const rule *r)
 {
     unsigned channels = 0;
@@ -118,7 +156,7 @@ static void share_parts(plan *p, const upload *up, warnings *notes)
 }
 
 lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
-                       bool as_sprites, warnings *notes, lmn_error *error)
+                       int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->scene = scene;
@@ -126,10 +164,14 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     out->box = box3_empty();
     out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
-    bool good = out->selected && out->figures;
+    out->rules = mem_calloc(look->rule_count, sizeof *out->rules);
+    bool good = out->selected && out->figures && out->rules;
     for (size_t r = 0; good && r < look->rule_count; r++) {
+        out->rule_count++;
+        if (!copy_rule(&out->rules[r], &look->rules[r], pixel_scale))
+            return error_memory(error);
         figure *f = &out->figures[out->figure_count++];
-        *f = (figure){.rule = &look->rules[r], .box = box3_empty()};
+        *f = (figure){.rule = &out->rules[r], .box = box3_empty()};
         f->designated = mem_calloc(scene->part_count, sizeof *f->designated);
         good = f->designated != NULL;
     }
@@ -149,6 +191,9 @@ void plan_release(plan *p)
 {
     for (size_t i = 0; i < p->figure_count; i++)
         mem_free(p->figures[i].designated);
+    for (size_t i = 0; i < p->rule_count; i++)
+        release_rule(&p->rules[i]);
+    mem_free(p->rules);
     mem_free(p->figures);
     mem_free(p->selected);
     memset(p, 0, sizeof *p);

@@ -21,6 +21,8 @@ typedef struct figure {
 typedef struct plan {
     const lmn_scene *scene;
     const lmn_look  *look;
+    rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted) */
+    size_t           rule_count;
     bool            *selected; /* per part */
     size_t           selected_count;
     figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
@@ -28,10 +30,10 @@ typedef struct plan {
     box3             box; /* of everything drawn */
 } plan;
 
-/* `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),
+/* Lengths in pixels are multiplied by `pixel_scale`. `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),
  * LMN_FORMAT (nothing to draw), LMN_MEMORY. Warnings (rules that select nothing) go to `notes`. */
 lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
-                       bool as_sprites, warnings *notes, lmn_error *error);
+                       int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error);
 void       plan_release(plan *p);
 
 /* The use of a kind that holds one technique; NULL when the rule has none. */

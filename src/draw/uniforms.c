@@ -84,7 +84,7 @@ static void set_palette(gpu *g, const char *name, const palette *p)
     gpu_set_vec4_array(g, name, values[0], PALETTE_MAX);
 }
 
-void uniforms_set(gpu *g, param_set set, float pixel_scale)
+void uniforms_set(gpu *g, param_set set)
 {
     for (size_t i = 0; i < set.count; i++) {
         const param *p = &set.params[i];
@@ -98,7 +98,7 @@ void uniforms_set(gpu *g, param_set set, float pixel_scale)
         case PARAM_INT:
         case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;
         case PARAM_BOOL: gpu_set_int(g, name, *(const bool *)field); break;
-        case PARAM_FLOAT: gpu_set_float(g, name, *(const float *)field * (p->unit == UNIT_PX ? pixel_scale : 1.0f)); break;
+        case PARAM_FLOAT: gpu_set_float(g, name, *(const float *)field); break;
         case PARAM_COLOUR:
             uniforms_linear(colour_of(set, p), linear);
             gpu_set_vec4(g, name, linear);

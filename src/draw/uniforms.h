@@ -14,8 +14,8 @@ typedef struct param_set {
 
 /* Appends declarations of the parameters: uniforms u_KEY, and #define KEY for variants. */
 void uniforms_declare(text *prelude, param_set set);
-/* Sets the uniforms of the program in use. Lengths in pixels are multiplied by `pixel_scale` (supersampling). */
-void uniforms_set(gpu *g, param_set set, float pixel_scale);
+/* Sets the uniforms of the program in use. */
+void uniforms_set(gpu *g, param_set set);
 
 /* A linear colour from the sRGB of a parameter, premultiplied by nothing. */
 void uniforms_linear(colour c, float out[4]);

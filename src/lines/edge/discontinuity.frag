@@ -30,10 +30,13 @@ vec3 pair(vec2 side, float before, float next, float behind_next, vec3 normal, f
     float slope_behind = behind_next >= 1.0 ? depth - before : behind_next - next;
     float excess = unexplained(slope_before, across, slope_behind);
     float nearness = across > 0.0 ? 1.0 : far_weight;
-    float profile = smoothstep(0.5, 1.0, excess / tolerance) * nearness;
     vec3 other = towards_eye(neighbour(t_normal_depth, side).xyz, gl_FragCoord.xy + side);
     float faint = cos(radians(max(u_crease - u_smooth, 0.0)));
     float inner = (1.0 - smoothstep(cos(radians(u_crease)), faint, dot(normal, other))) * crease_weight;
+    /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
+     * along such creases change class from pixel to pixel. */
+    excess -= inner * 0.5 * max(abs(slope_before), abs(slope_behind));
+    float profile = smoothstep(0.5, 1.0, excess / tolerance) * nearness;
     float between = 0.0;
 #if PARTS
     uint other_id = textureLod(t_id, (gl_FragCoord.xy + side) / u_size, 0.0).r;
