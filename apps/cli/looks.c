@@ -16,7 +16,7 @@ static const option options[] = {
 enum { TEXT_SIZE = 256 };
 
 /* A value as people write it after --set: without quotes and brackets. */
-static void print_value(const json_t *value, char out[TEXT_SIZE])
+static void print_value(const json_t *value, const char *separator, char out[TEXT_SIZE])
 {
     size_t length = 0, i;
     json_t *item;
@@ -30,8 +30,8 @@ static void print_value(const json_t *value, char out[TEXT_SIZE])
     }
     json_array_foreach (value, i, item) {
         char one[TEXT_SIZE];
-        print_value(item, one);
-        int written = snprintf(out + length, TEXT_SIZE - length, "%s%s", i ? "," : "", one);
+        print_value(item, separator, one);
+        int written = snprintf(out + length, TEXT_SIZE - length, "%s%s", i ? separator : "", one);
         if (written < 0 || (size_t)written >= TEXT_SIZE - length)
             return;
         length += (size_t)written;
@@ -44,13 +44,17 @@ static void print_allowed(const json_t *p, char out[TEXT_SIZE])
     const char *type = text_at(p, "type", "");
     const char *unit = text_at(p, "unit", ""), *or_auto = json_is_true(json_object_get(p, "auto")) ? ", auto" : "";
     bool shown = strcmp(unit, "px") == 0 || strcmp(unit, "deg") == 0;
+    const char *form = strcmp(type, "bool") == 0        ? "true, false"
+                       : strcmp(type, "direction") == 0 ? "X,Y,Z"
+                       : strcmp(type, "palette") == 0   ? "colours with commas"
+                                                        : type;
     if (json_object_get(p, "min"))
         snprintf(out, TEXT_SIZE, "%.6g to %.6g%s%s%s", number_at(p, "min", 0), number_at(p, "max", 0), shown ? " " : "",
                  shown ? unit : "", or_auto);
-    else if (json_object_get(p, "values")) {
-        print_value(json_object_get(p, "values"), out);
-    } else
-        snprintf(out, TEXT_SIZE, "%s%s", strcmp(type, "bool") == 0 ? "true, false" : type, or_auto);
+    else if (json_object_get(p, "values"))
+        print_value(json_object_get(p, "values"), ", ", out);
+    else
+        snprintf(out, TEXT_SIZE, "%s%s", form, or_auto);
 }
 
 static void print_use(const json_t *use)
@@ -60,8 +64,8 @@ static void print_use(const json_t *use)
     printf("\n  %s: %s. %s\n", text_at(use, "kind", ""), text_at(use, "technique", ""), text_at(use, "doc", ""));
     json_array_foreach (json_object_get(use, "parameters"), i, p) {
         char value[TEXT_SIZE], allowed[TEXT_SIZE], standard[TEXT_SIZE];
-        print_value(json_object_get(p, "value"), value);
-        print_value(json_object_get(p, "default"), standard);
+        print_value(json_object_get(p, "value"), ",", value);
+        print_value(json_object_get(p, "default"), ",", standard);
         print_allowed(p, allowed);
         bool changed = strcmp(value, standard) != 0;
         printf("    %-26s = %-10s  (%s%s%s)\n%33s%s\n", text_at(p, "name", ""), value, allowed, changed ? "; default " : "",
@@ -110,7 +114,7 @@ static void print_parameters(const json_t *list)
     json_array_foreach (list, i, p) {
         char allowed[TEXT_SIZE], standard[TEXT_SIZE];
         print_allowed(p, allowed);
-        print_value(json_object_get(p, "default"), standard);
+        print_value(json_object_get(p, "default"), ",", standard);
         printf("| `%s` | %s | %s | %s | ", text_at(p, "name", ""), text_at(p, "type", ""), allowed, standard);
         print_cell(text_at(p, "doc", ""));
         if (json_object_get(p, "only_if"))

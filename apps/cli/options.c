@@ -279,7 +279,7 @@ int options_parse(const command *c, int count, char **arguments, void *values, w
     char hint[96];
     snprintf(hint, sizeof hint, "`limner %s --help` shows how it is used", c->name);
     if (inputs->count < c->inputs_min)
-        return message_usage(hint, "%s is missing", c->inputs);
+        return message_usage(hint, "no %.*s is given", (int)strcspn(c->inputs, "\xE2"), c->inputs); /* without the … */
     if (inputs->count > c->inputs_max)
         return message_usage(hint, "'%.80s' is one argument too many", inputs->items[c->inputs_max]);
     return 0;
