@@ -5,7 +5,8 @@
 #include "scene/scene.h"
 
 /* Merges vertices whose positions are equal (−0 = +0) and rewrites indices; for files without sharing, such as STL.
- * Only positions may be present. Order of first appearance is kept. Errors: LMN_MEMORY. */
+ * Only positions may be present. Indices may be NULL: each three vertices are a triangle. Order of first appearance is
+ * kept. Errors: LMN_MEMORY. */
 lmn_status mesh_weld_positions(primitive *p, lmn_error *error);
 
 /* For each vertex the first vertex at the same position: vertex_count entries, free with mem_free; NULL = memory gone. */

@@ -40,7 +40,7 @@ typedef struct primitive {
     morph_target   *morphs;
     size_t          morph_count;
     edge_visibility edges;
-    box3            bounds;         /* of positions; set by primitive_finish */
+    box3            bounds;         /* of positions; set by scene_finish */
 } primitive;
 
 typedef struct mesh {
@@ -112,6 +112,7 @@ typedef struct attribute {
 typedef struct node {
     char      *name; /* may be NULL */
     int32_t    parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
+    int32_t    last_child; /* makes scene_link_child O(1) */
     bool       has_matrix;
     mat4       matrix;
     double     translation[3], rotation[4] /* x y z w */, scale[3];
@@ -150,10 +151,13 @@ typedef struct animation {
     double             duration; /* seconds: the last key */
 } animation;
 
-/* A part: node with geometry, in drawing order; ids start at 1 = index + 1. */
+/* A part: node with geometry, in drawing order; ids start at 1 = index + 1. Counts and bounds are kept here, in the
+ * scene's axes, because asking for them part by part would walk the whole tree each time. */
 typedef struct part {
-    int32_t node;
-    char   *name, *path;
+    int32_t  node;
+    char    *name, *path; /* paths are unique */
+    uint64_t triangles;   /* of one instance */
+    box3     bounds;      /* rest pose, all instances */
 } part;
 
 struct lmn_scene {
@@ -175,11 +179,18 @@ struct lmn_scene {
     size_t     animation_count, animation_capacity;
     part      *parts;
     size_t     part_count;
+    char     **files; /* paths as they were given, one per merged file */
+    size_t     file_count, file_capacity;
     uint64_t   revision; /* changes whenever the content does; never repeats within a process's scene */
     char       up;       /* 'y', 'z', or 0 while empty */
     warnings   warnings;
     double     load_ms;
 };
+
+/* An empty scene; NULL when memory is gone. */
+lmn_scene *scene_new(void);
+/* Frees a scene and all it owns. NULL is accepted. */
+void scene_free(lmn_scene *scene);
 
 /* --- building: importers fill a scene of their own, then it is merged ------------------------------------------- */
 
@@ -200,6 +211,8 @@ void scene_link_child(lmn_scene *scene, int32_t parent, int32_t child);
 /* Frees everything a mesh or primitive owns, not the struct itself. */
 void mesh_release(mesh *m);
 void primitive_release(primitive *p);
+/* Puts the primitives into the mesh's array; the mesh then owns what they hold. False when memory is gone. */
+bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
 
 /* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
  * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
@@ -210,6 +223,12 @@ lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
  * axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error);
 
+/* A copy of `size` bytes as valid UTF-8 without control characters (bad bytes become U+FFFD), for names from files. NULL
+ * when memory is gone. */
+char *scene_clean_name(const char *bytes, size_t size);
+/* "spot" for "models/spot.stl": what a file's root node is called. NULL when memory is gone. */
+char *scene_name_of_file(const char *path);
+
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
 /* World matrices of all nodes in the rest pose, node_count of them; free with mem_free. NULL when memory is gone. */
@@ -219,6 +238,17 @@ mat4  node_local_matrix(const node *n);
 /* The scene's bounds with these world matrices: skinned and morphed parts as they are drawn. Empty box when nothing. */
 box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
 box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
+
+/* The same for any node with a mesh. */
+box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index);
+/* The node after this one, depth first, within the tree below `root`; NONE at the end. */
+int32_t scene_next_node(const lmn_scene *scene, int32_t root, int32_t current);
+
+/* The scene as JSON text (docs/reference/info.md); free with mem_free. NULL when memory is gone. */
+char *scene_info_json(const lmn_scene *scene);
+/* How many times a node's mesh is drawn: its instances, or once. */
+size_t node_draw_count(const node *n);
+uint64_t mesh_triangle_count(const mesh *m);
 
 mat4 mat4_identity(void);
 mat4 mat4_multiply(const mat4 *a, const mat4 *b); /* a · b */

@@ -60,8 +60,8 @@ typedef struct technique {
 typedef enum kind_id {
     KIND_SCENE,   /* look-wide: light and geometry preparation */
     KIND_LAYERS,
-    KIND_LINES,
     KIND_SURFACE,
+    KIND_LINES,
     KIND_COMPOSE,
     KIND_FINISH,  /* look-wide: the sheet */
     KIND_COUNT
@@ -80,6 +80,7 @@ typedef struct kind {
     bool                    array;        /* a rule may hold several, drawn in order */
     const param            *common;
     size_t                  common_count;
+    const pass             *fold; /* array kinds: drawn after each use but the last, to take its result into the picture */
 } kind;
 
 /* A technique with values for its parameters. */

@@ -24,6 +24,12 @@ void write_edges(float profile, float inner, float id)
     out_edge = vec4(profile, inner, profile * inner, emphasised(id));
 }
 
+/* The texel `off` pixels from this one, clamped at the border by the sampler, which costs less than fetching by index. */
+vec4 neighbour(sampler2D map, vec2 off)
+{
+    return textureLod(map, (gl_FragCoord.xy + off) / u_size, 0.0);
+}
+
 vec4 texel(sampler2D map, ivec2 at)
 {
     return texelFetch(map, clamp(at, ivec2(0), ivec2(u_size) - 1), 0);

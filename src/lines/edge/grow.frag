@@ -10,7 +10,7 @@ void main()
     vec4 least = texelFetch(t_edge, pixel, 0);
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
-            float inside = clamp(radius + 0.5 - length(vec2(x, y)), 0.0, 1.0);
+            float inside = clamp(radius + 1.0 - length(vec2(x, y)), 0.0, 1.0);
             vec4 value = texelFetch(t_edge, clamp(pixel + ivec2(x, y), ivec2(0), last), 0);
             least = min(least, mix(vec4(1.0), value, inside));
         }

@@ -1,0 +1,118 @@
+/* include/limner/scene.h: checks arguments and forwards. */
+#include "limner/scene.h"
+
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "import/import.h"
+#include "scene/scene.h"
+
+lmn_status lmn_scene_create(lmn_scene **out, lmn_error *error)
+{
+    if (!out)
+        return error_set(error, LMN_USAGE, "lmn_scene_create: `out` is NULL");
+    *out = scene_new();
+    return *out ? LMN_OK : error_memory(error);
+}
+
+void lmn_scene_destroy(lmn_scene **scene)
+{
+    if (!scene)
+        return;
+    scene_free(*scene);
+    *scene = NULL;
+}
+
+/* A caller built against an older header hands over a shorter description; what it lacks keeps its default. */
+static lmn_status complete(lmn_load_desc *full, const lmn_load_desc *given, lmn_error *error)
+{
+    *full = (lmn_load_desc)LMN_LOAD_DESC_INIT;
+    if (!given)
+        return LMN_OK;
+    if (given->struct_size < sizeof given->struct_size) {
+        error_set(error, LMN_USAGE, "lmn_scene_add_file: the description's struct_size is not set");
+        error_hint(error, "initialise it with LMN_LOAD_DESC_INIT");
+        return LMN_USAGE;
+    }
+    size_t size = given->struct_size < sizeof *full ? given->struct_size : sizeof *full;
+    memcpy(full, given, size);
+    full->struct_size = sizeof *full;
+    if (full->up_axis != LMN_UP_AUTO && full->up_axis != LMN_UP_Y && full->up_axis != LMN_UP_Z)
+        return error_set(error, LMN_USAGE, "lmn_scene_add_file: up_axis %d is none of AUTO, Y, Z", (int)full->up_axis);
+    return LMN_OK;
+}
+
+lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load_desc *desc, lmn_error *error)
+{
+    if (!scene)
+        return error_set(error, LMN_USAGE, "lmn_scene_add_file: `scene` is NULL");
+    if (!path || !path[0])
+        return error_set(error, LMN_USAGE, "lmn_scene_add_file: the path is empty");
+    lmn_load_desc full;
+    lmn_status status = complete(&full, desc, error);
+    if (status != LMN_OK)
+        return status;
+    lmn_scene *loaded = NULL;
+    status = import_file(&loaded, path, &full, error);
+    if (status == LMN_OK)
+        status = scene_merge(scene, loaded, path, error);
+    scene_free(loaded);
+    return status;
+}
+
+static void put_bounds(box3 box, double min[3], double max[3])
+{
+    if (box3_is_empty(box))
+        box = (box3){{0, 0, 0}, {0, 0, 0}};
+    const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
+    memcpy(min, low, sizeof low);
+    memcpy(max, high, sizeof high);
+}
+
+lmn_scene_info lmn_scene_info_of(const lmn_scene *scene)
+{
+    lmn_scene_info info = {.up = 'y'};
+    if (!scene)
+        return info;
+    info.parts = scene->part_count;
+    info.nodes = scene->node_count;
+    info.meshes = scene->mesh_count;
+    info.materials = scene->material_count;
+    info.textures = scene->image_count;
+    info.cameras = scene->camera_count;
+    info.lights = scene->light_count;
+    info.animations = scene->animation_count;
+    info.skins = scene->skin_count;
+    box3 box = box3_empty();
+    for (size_t i = 0; i < scene->part_count; i++) {
+        info.triangles += scene->parts[i].triangles * node_draw_count(&scene->nodes[scene->parts[i].node]);
+        box = box3_union(box, scene->parts[i].bounds);
+    }
+    put_bounds(box, info.bounds_min, info.bounds_max);
+    if (scene->up)
+        info.up = scene->up;
+    return info;
+}
+
+bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_info *out)
+{
+    if (!scene || !out || index >= scene->part_count)
+        return false;
+    const part *p = &scene->parts[index];
+    *out = (lmn_part_info){.id = (uint32_t)index + 1, .name = p->name, .path = p->path};
+    out->instances = node_draw_count(&scene->nodes[p->node]);
+    out->triangles = p->triangles * out->instances;
+    put_bounds(p->bounds, out->bounds_min, out->bounds_max);
+    return true;
+}
+
+char *lmn_scene_info_json(const lmn_scene *scene)
+{
+    return scene ? scene_info_json(scene) : NULL;
+}
+
+void lmn_text_free(char *text)
+{
+    mem_free(text);
+}

@@ -1,0 +1,62 @@
+#include "import/build.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+/* sRGB 0.8: paper-like shades stay visible on both white and dark grounds. */
+static const float plain_grey = 0.6038f;
+
+int32_t build_plain_material(lmn_scene *scene, bool has_colours)
+{
+    material *m = scene_append_material(scene);
+    if (!m)
+        return NONE;
+    m->name = mem_copy_text("default");
+    if (!m->name)
+        return NONE;
+    if (!has_colours)
+        m->base_colour = (vec4){plain_grey, plain_grey, plain_grey, 1};
+    return (int32_t)scene->material_count - 1;
+}
+
+lmn_status build_part(lmn_scene *scene, primitive *p, const char *name, lmn_error *error)
+{
+    mesh *m = scene_append_mesh(scene);
+    if (!m || !mesh_set_primitives(m, p, 1)) {
+        primitive_release(p);
+        return error_memory(error);
+    }
+    memset(p, 0, sizeof *p);
+    node *n = scene_append_node(scene);
+    if (!n)
+        return error_memory(error);
+    n->mesh = (int32_t)scene->mesh_count - 1;
+    n->name = mem_copy_text(name);
+    return !name || n->name ? LMN_OK : error_memory(error);
+}
+
+bool build_attribute(node *n, const char *key, const char *value)
+{
+    attribute *grown = mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown);
+    if (!grown)
+        return false;
+    n->attributes = grown;
+    attribute *a = &grown[n->attribute_count];
+    *a = (attribute){mem_copy_text(key), mem_copy_text(value)};
+    if (!a->key || !a->value) {
+        mem_free(a->key);
+        mem_free(a->value);
+        return false;
+    }
+    n->attribute_count++;
+    return true;
+}
+
+int build_line(const char *from, const char *at)
+{
+    int line = 1;
+    for (; from < at; from++)
+        line += *from == '\n';
+    return line;
+}

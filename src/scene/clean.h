@@ -1,0 +1,16 @@
+/* Inside the scene folder: repairing one primitive. */
+#ifndef LIMNER_SCENE_CLEAN_H
+#define LIMNER_SCENE_CLEAN_H
+
+#include "scene/scene.h"
+
+/* What was found, summed over primitives. */
+typedef struct clean_counts {
+    uint64_t triangles, degenerate, not_finite, normals, values;
+} clean_counts;
+
+/* Drops triangles without area or with vertices that are not finite, then vertices that no triangle uses; makes normals
+ * unit and other numbers finite; sets the bounds. Indices must be in range. False when memory is gone. */
+bool primitive_clean(primitive *p, clean_counts *counts);
+
+#endif

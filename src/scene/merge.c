@@ -1,0 +1,199 @@
+/* Moving a finished scene into another, below a new root. */
+#include <string.h>
+
+#include "base/limits.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "scene/parts.h"
+#include "scene/scene.h"
+
+/* Where the elements of `from` begin in `into`. */
+typedef struct offsets {
+    int32_t nodes, meshes, materials, images, cameras, lights, skins;
+} offsets;
+
+static bool reserve_all(lmn_scene *into, const lmn_scene *from)
+{
+#define RESERVE(array, count, capacity, more)                                                                         \
+    mem_grow((void **)&into->array, &into->capacity, into->count + (more), sizeof *into->array)
+    return RESERVE(nodes, node_count, node_capacity, from->node_count + 1) &&
+           RESERVE(meshes, mesh_count, mesh_capacity, from->mesh_count) &&
+           RESERVE(materials, material_count, material_capacity, from->material_count) &&
+           RESERVE(images, image_count, image_capacity, from->image_count) &&
+           RESERVE(cameras, camera_count, camera_capacity, from->camera_count) &&
+           RESERVE(lights, light_count, light_capacity, from->light_count) &&
+           RESERVE(skins, skin_count, skin_capacity, from->skin_count) &&
+           RESERVE(animations, animation_count, animation_capacity, from->animation_count) &&
+           RESERVE(files, file_count, file_capacity, 1);
+#undef RESERVE
+}
+
+static void shift(int32_t *index, int32_t by)
+{
+    if (*index != NONE)
+        *index += by;
+}
+
+static void shift_references(lmn_scene *s, const offsets *by)
+{
+    for (size_t i = 0; i < s->node_count; i++) {
+        node *n = &s->nodes[i];
+        int32_t *links[] = {&n->parent, &n->first_child, &n->last_child, &n->next_sibling};
+        for (int k = 0; k < 4; k++)
+            shift(links[k], by->nodes);
+        shift(&n->mesh, by->meshes);
+        shift(&n->skin, by->skins);
+        shift(&n->camera, by->cameras);
+        shift(&n->light, by->lights);
+    }
+    for (size_t i = 0; i < s->mesh_count; i++)
+        for (size_t k = 0; k < s->meshes[i].primitive_count; k++)
+            shift(&s->meshes[i].primitives[k].material, by->materials);
+    for (size_t i = 0; i < s->material_count; i++) {
+        shift(&s->materials[i].base_texture.image, by->images);
+        shift(&s->materials[i].normal_texture.image, by->images);
+    }
+    for (size_t i = 0; i < s->skin_count; i++)
+        for (size_t k = 0; k < s->skins[i].joint_count; k++)
+            shift(&s->skins[i].joints[k], by->nodes);
+    for (size_t i = 0; i < s->animation_count; i++)
+        for (size_t k = 0; k < s->animations[i].channel_count; k++)
+            shift(&s->animations[i].channels[k].node, by->nodes);
+    for (size_t i = 0; i < s->part_count; i++)
+        s->parts[i].node += by->nodes;
+}
+
+/* Brings the up axis `from` to `to`: a quarter turn about x, with exact zeros so that boxes stay boxes. */
+static mat4 up_rotation(char from, char to)
+{
+    mat4 m = mat4_identity();
+    if (from == to)
+        return m;
+    m.m[5] = m.m[10] = 0;
+    m.m[6] = from == 'y' ? 1 : -1;
+    m.m[9] = -m.m[6];
+    return m;
+}
+
+/* The file's name, with a number behind it when another root has it. */
+static char *root_name(const lmn_scene *into, const char *file)
+{
+    char *name = scene_name_of_file(file);
+    char *tried = mem_copy_text(name);
+    for (size_t number = 2; tried; number++) {
+        bool taken = false;
+        for (size_t i = 0; i < into->node_count && !taken; i++)
+            taken = into->nodes[i].parent == NONE && into->nodes[i].name && strcmp(into->nodes[i].name, tried) == 0;
+        if (!taken)
+            break;
+        text t = {0};
+        text_append(&t, "%s#%zu", name, number);
+        mem_free(tried);
+        tried = text_take(&t);
+    }
+    mem_free(name);
+    return tried;
+}
+
+static lmn_status check_room(const lmn_scene *into, const lmn_scene *from, const char *file, lmn_error *error)
+{
+    size_t vertices = 0, triangles = 0, instances = 0;
+    const lmn_scene *both[] = {into, from};
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < both[k]->mesh_count; i++)
+            for (size_t j = 0; j < both[k]->meshes[i].primitive_count; j++) {
+                vertices += both[k]->meshes[i].primitives[j].vertex_count;
+                triangles += both[k]->meshes[i].primitives[j].index_count / 3;
+            }
+        for (size_t i = 0; i < both[k]->node_count; i++)
+            instances += both[k]->nodes[i].instance_count;
+    }
+    const char *what = NULL;
+    size_t limit = 0;
+    if (into->node_count + from->node_count + 1 > LIMIT_NODES)
+        what = "nodes", limit = LIMIT_NODES;
+    else if (vertices > LIMIT_VERTICES)
+        what = "vertices", limit = LIMIT_VERTICES;
+    else if (triangles > LIMIT_TRIANGLES)
+        what = "triangles", limit = LIMIT_TRIANGLES;
+    else if (instances > LIMIT_INSTANCES)
+        what = "instances", limit = LIMIT_INSTANCES;
+    if (!what)
+        return LMN_OK;
+    return error_in_file(error, LMN_LIMIT, file, 0, "with this file the scene would have more than %zu %s", limit, what);
+}
+
+static void move_elements(lmn_scene *into, lmn_scene *from)
+{
+#define MOVE(array, count)                                                                                            \
+    do {                                                                                                              \
+        if (from->count)                                                                                              \
+            memcpy(into->array + into->count, from->array, from->count * sizeof *from->array);                        \
+        into->count += from->count;                                                                                   \
+        from->count = 0;                                                                                              \
+    } while (0)
+    MOVE(nodes, node_count);
+    MOVE(meshes, mesh_count);
+    MOVE(materials, material_count);
+    MOVE(images, image_count);
+    MOVE(cameras, camera_count);
+    MOVE(lights, light_count);
+    MOVE(skins, skin_count);
+    MOVE(animations, animation_count);
+    MOVE(parts, part_count);
+#undef MOVE
+}
+
+/* Behind this nothing can fail. */
+static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, const mat4 *place)
+{
+    offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,  (int32_t)into->material_count,
+                  (int32_t)into->image_count,    (int32_t)into->camera_count, (int32_t)into->light_count,
+                  (int32_t)into->skin_count};
+    shift_references(from, &by);
+    int32_t root = by.nodes - 1;
+    node *n = scene_append_node(into); /* room was reserved */
+    n->name = name;
+    n->has_matrix = true;
+    n->matrix = *place;
+    move_elements(into, from);
+    for (size_t i = (size_t)by.nodes; i < into->node_count; i++)
+        if (into->nodes[i].parent == NONE)
+            scene_link_child(into, root, (int32_t)i);
+    into->files[into->file_count++] = path;
+    warnings_append(&into->warnings, &from->warnings);
+    warnings_release(&from->warnings);
+    into->load_ms += from->load_ms;
+    into->revision++;
+}
+
+lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)
+{
+    lmn_status status = check_room(into, from, file, error);
+    if (status != LMN_OK)
+        return status;
+    mat4 place = up_rotation(from->up, into->up ? into->up : from->up);
+    char *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
+    part *parts = NULL, *grown = NULL;
+    size_t part_count = 0;
+    bool good = name && path && reserve_all(into, from) &&
+                parts_list(from, name, (uint32_t)into->part_count, &place, &parts, &part_count);
+    if (good) {
+        grown = mem_realloc(into->parts, (into->part_count + part_count) * sizeof *grown);
+        good = grown != NULL;
+    }
+    if (!good) {
+        mem_free(name);
+        mem_free(path);
+        parts_release(parts, part_count);
+        return error_memory(error);
+    }
+    into->parts = grown;
+    parts_release(from->parts, from->part_count);
+    from->parts = parts;
+    from->part_count = part_count;
+    if (!into->up)
+        into->up = from->up;
+    commit(into, from, name, path, &place);
+    return LMN_OK;
+}

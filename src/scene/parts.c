@@ -1,0 +1,193 @@
+#include "scene/parts.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+/* A path is cut here, so that a deep tree of long names does not grow without bounds. */
+enum { PATH_BYTES_MAX = 1024, PATH_DEPTH_MAX = 1100 };
+
+/* Paths seen so far, open addressing; `repeats` counts how often a path was asked for. */
+typedef struct path_entry {
+    const char *path;
+    size_t      repeats;
+} path_entry;
+
+typedef struct path_set {
+    path_entry *entries;
+    size_t      capacity; /* a power of two */
+} path_set;
+
+typedef struct listing {
+    const lmn_scene *scene;
+    const char      *prefix;
+    uint32_t         first_id;
+    mat4            *worlds;
+    part            *parts;
+    size_t           count;
+    path_set         seen;
+} listing;
+
+static uint64_t hash_text(const char *t)
+{
+    uint64_t h = UINT64_C(14695981039346656037);
+    for (; *t; t++)
+        h = (h ^ (unsigned char)*t) * UINT64_C(1099511628211);
+    return h ^ (h >> 29);
+}
+
+static path_entry *find_path(const path_set *set, const char *path)
+{
+    size_t slot = hash_text(path) & (set->capacity - 1);
+    while (set->entries[slot].path && strcmp(set->entries[slot].path, path) != 0)
+        slot = (slot + 1) & (set->capacity - 1);
+    return &set->entries[slot];
+}
+
+static const char *own_name(const lmn_scene *s, int32_t index)
+{
+    const node *n = &s->nodes[index];
+    if (n->name && n->name[0])
+        return n->name;
+    const char *mesh_name = n->mesh != NONE ? s->meshes[n->mesh].name : NULL;
+    return mesh_name && mesh_name[0] ? mesh_name : NULL;
+}
+
+static void append_cut(text *t, const char *part)
+{
+    size_t length = strlen(part);
+    size_t room = t->size < PATH_BYTES_MAX ? PATH_BYTES_MAX - t->size : 0;
+    if (length > room) {
+        length = room;
+        /* Never cut inside a UTF-8 character. */
+        while (length > 0 && ((unsigned char)part[length] & 0xC0) == 0x80)
+            length--;
+    }
+    text_append_bytes(t, part, length);
+}
+
+/* Names from the root joined by '/'; nodes without a name in between are left out. */
+static char *make_path(const listing *l, int32_t index, const char *name)
+{
+    int32_t chain[PATH_DEPTH_MAX];
+    int depth = 0;
+    for (int32_t n = l->scene->nodes[index].parent; n != NONE && depth < PATH_DEPTH_MAX; n = l->scene->nodes[n].parent)
+        chain[depth++] = n;
+    text t = {0};
+    if (l->prefix) {
+        append_cut(&t, l->prefix);
+        append_cut(&t, "/");
+    }
+    while (depth-- > 0) {
+        const char *step = own_name(l->scene, chain[depth]);
+        if (!step)
+            continue;
+        append_cut(&t, step);
+        append_cut(&t, "/");
+    }
+    append_cut(&t, name);
+    return text_take(&t);
+}
+
+/* Takes `path` over and returns it or, when another part has it, the path with "#2", "#3" … behind it. */
+static char *make_unique(path_set *set, char *path)
+{
+    path_entry *entry = find_path(set, path);
+    if (!entry->path) {
+        *entry = (path_entry){path, 1};
+        return path;
+    }
+    for (;;) {
+        text t = {0};
+        text_append(&t, "%s#%zu", path, ++entry->repeats);
+        char *changed = text_take(&t);
+        if (!changed) {
+            mem_free(path);
+            return NULL;
+        }
+        path_entry *other = find_path(set, changed);
+        if (!other->path) {
+            *other = (path_entry){changed, 1};
+            mem_free(path);
+            return changed;
+        }
+        mem_free(changed);
+    }
+}
+
+static bool is_part(const lmn_scene *s, int32_t index)
+{
+    int32_t m = s->nodes[index].mesh;
+    return m != NONE && mesh_triangle_count(&s->meshes[m]) > 0;
+}
+
+static bool add_part(listing *l, int32_t index)
+{
+    char fallback[32];
+    const char *name = own_name(l->scene, index);
+    if (!name) {
+        snprintf(fallback, sizeof fallback, "part-%u", (unsigned)(l->first_id + l->count + 1));
+        name = fallback;
+    }
+    part *p = &l->parts[l->count];
+    *p = (part){.node = index, .name = mem_copy_text(name)};
+    l->count++;
+    if (!p->name)
+        return false;
+    char *path = make_path(l, index, name);
+    p->path = path ? make_unique(&l->seen, path) : NULL;
+    if (!p->path)
+        return false;
+    p->triangles = mesh_triangle_count(&l->scene->meshes[l->scene->nodes[index].mesh]);
+    p->bounds = node_bounds(l->scene, l->worlds, index);
+    return true;
+}
+
+static bool add_tree(listing *l, int32_t root)
+{
+    for (int32_t n = root; n != NONE; n = scene_next_node(l->scene, root, n))
+        if (is_part(l->scene, n) && !add_part(l, n))
+            return false;
+    return true;
+}
+
+bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const mat4 *place, part **out,
+                size_t *out_count)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->node_count; i++)
+        count += is_part(s, (int32_t)i);
+    listing l = {.scene = s, .prefix = prefix, .first_id = first_id};
+    l.seen.capacity = 16;
+    while (l.seen.capacity < count * 3)
+        l.seen.capacity *= 2;
+    l.seen.entries = mem_calloc(l.seen.capacity, sizeof *l.seen.entries);
+    l.parts = mem_calloc(count, sizeof *l.parts);
+    l.worlds = scene_world_matrices(s);
+    bool good = l.seen.entries && l.parts && l.worlds;
+    for (size_t i = 0; good && place && i < s->node_count; i++)
+        l.worlds[i] = mat4_multiply(place, &l.worlds[i]);
+    for (size_t i = 0; good && i < s->node_count; i++)
+        if (s->nodes[i].parent == NONE)
+            good = add_tree(&l, (int32_t)i);
+    mem_free(l.seen.entries);
+    mem_free(l.worlds);
+    if (!good) {
+        parts_release(l.parts, l.count);
+        return false;
+    }
+    *out = l.parts;
+    *out_count = l.count;
+    return true;
+}
+
+void parts_release(part *parts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        mem_free(parts[i].name);
+        mem_free(parts[i].path);
+    }
+    mem_free(parts);
+}

@@ -1,0 +1,14 @@
+/* Inside the scene folder: the list of parts. */
+#ifndef LIMNER_SCENE_PARTS_H
+#define LIMNER_SCENE_PARTS_H
+
+#include "scene/scene.h"
+
+/* Numbers the nodes that draw triangles, depth first: names, unique paths, counts and bounds. `prefix` and its slash stand
+ * in front of each path (NULL: none), ids start behind `first_id`, `place` moves the bounds (NULL: not). The result and
+ * its strings belong to the caller. False when memory is gone. */
+bool parts_list(const lmn_scene *scene, const char *prefix, uint32_t first_id, const mat4 *place, part **out,
+                size_t *out_count);
+void parts_release(part *parts, size_t count);
+
+#endif

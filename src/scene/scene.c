@@ -1,0 +1,254 @@
+/* A scene's memory: making, appending, freeing. */
+#include "scene/scene.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "scene/parts.h"
+
+lmn_scene *scene_new(void)
+{
+    return mem_calloc(1, sizeof(lmn_scene));
+}
+
+/* Makes room for one more zeroed element and counts it. */
+static void *append(void **array, size_t *capacity, size_t *count, size_t element_size)
+{
+    if (*count >= INT32_MAX - 1 || !mem_grow(array, capacity, *count + 1, element_size))
+        return NULL;
+    void *element = (char *)*array + *count * element_size;
+    memset(element, 0, element_size);
+    ++*count;
+    return element;
+}
+
+node *scene_append_node(lmn_scene *s)
+{
+    node *n = append((void **)&s->nodes, &s->node_capacity, &s->node_count, sizeof *n);
+    if (!n)
+        return NULL;
+    n->parent = n->first_child = n->last_child = n->next_sibling = NONE;
+    n->mesh = n->skin = n->camera = n->light = NONE;
+    n->rotation[3] = 1;
+    n->scale[0] = n->scale[1] = n->scale[2] = 1;
+    n->matrix = mat4_identity();
+    return n;
+}
+
+mesh *scene_append_mesh(lmn_scene *s)
+{
+    return append((void **)&s->meshes, &s->mesh_capacity, &s->mesh_count, sizeof *s->meshes);
+}
+
+material *scene_append_material(lmn_scene *s)
+{
+    material *m = append((void **)&s->materials, &s->material_capacity, &s->material_count, sizeof *m);
+    if (!m)
+        return NULL;
+    m->base_colour = (vec4){1, 1, 1, 1};
+    m->base_texture = m->normal_texture = (texture_use)TEXTURE_USE_NONE;
+    m->normal_scale = 1;
+    m->alpha_cutoff = 0.5f;
+    return m;
+}
+
+image *scene_append_image(lmn_scene *s)
+{
+    return append((void **)&s->images, &s->image_capacity, &s->image_count, sizeof *s->images);
+}
+
+camera *scene_append_camera(lmn_scene *s)
+{
+    return append((void **)&s->cameras, &s->camera_capacity, &s->camera_count, sizeof *s->cameras);
+}
+
+light *scene_append_light(lmn_scene *s)
+{
+    light *l = append((void **)&s->lights, &s->light_capacity, &s->light_count, sizeof *l);
+    if (!l)
+        return NULL;
+    l->colour[0] = l->colour[1] = l->colour[2] = l->intensity = 1;
+    l->outer_cone = 0.78539816f;
+    return l;
+}
+
+skin *scene_append_skin(lmn_scene *s)
+{
+    return append((void **)&s->skins, &s->skin_capacity, &s->skin_count, sizeof *s->skins);
+}
+
+animation *scene_append_animation(lmn_scene *s)
+{
+    return append((void **)&s->animations, &s->animation_capacity, &s->animation_count, sizeof *s->animations);
+}
+
+void scene_link_child(lmn_scene *s, int32_t parent, int32_t child)
+{
+    s->nodes[child].parent = parent;
+    if (parent == NONE)
+        return;
+    node *p = &s->nodes[parent];
+    if (p->last_child == NONE)
+        p->first_child = child;
+    else
+        s->nodes[p->last_child].next_sibling = child;
+    p->last_child = child;
+}
+
+void primitive_release(primitive *p)
+{
+    mem_free(p->positions);
+    mem_free(p->normals);
+    for (int i = 0; i < UV_SETS; i++)
+        mem_free(p->uvs[i]);
+    mem_free(p->colours);
+    mem_free(p->joints);
+    mem_free(p->weights);
+    mem_free(p->indices);
+    for (size_t i = 0; i < p->morph_count; i++) {
+        mem_free(p->morphs[i].positions);
+        mem_free(p->morphs[i].normals);
+    }
+    mem_free(p->morphs);
+    mem_free(p->edges.values);
+    memset(p, 0, sizeof *p);
+}
+
+void mesh_release(mesh *m)
+{
+    mem_free(m->name);
+    for (size_t i = 0; i < m->primitive_count; i++)
+        primitive_release(&m->primitives[i]);
+    mem_free(m->primitives);
+    mem_free(m->morph_weights);
+    memset(m, 0, sizeof *m);
+}
+
+bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count)
+{
+    m->primitives = mem_copy(primitives, count * sizeof *primitives);
+    if (!m->primitives)
+        return false;
+    m->primitive_count = count;
+    return true;
+}
+
+static void node_release(node *n)
+{
+    mem_free(n->name);
+    mem_free(n->instances);
+    mem_free(n->morph_weights);
+    for (size_t i = 0; i < n->attribute_count; i++) {
+        mem_free(n->attributes[i].key);
+        mem_free(n->attributes[i].value);
+    }
+    mem_free(n->attributes);
+}
+
+static void animation_release(animation *a)
+{
+    mem_free(a->name);
+    for (size_t i = 0; i < a->channel_count; i++) {
+        mem_free(a->channels[i].times);
+        mem_free(a->channels[i].values);
+    }
+    mem_free(a->channels);
+}
+
+static void release_drawables(lmn_scene *s)
+{
+    for (size_t i = 0; i < s->node_count; i++)
+        node_release(&s->nodes[i]);
+    for (size_t i = 0; i < s->mesh_count; i++)
+        mesh_release(&s->meshes[i]);
+    parts_release(s->parts, s->part_count);
+    mem_free(s->nodes);
+    mem_free(s->meshes);
+}
+
+static void release_appearance(lmn_scene *s)
+{
+    for (size_t i = 0; i < s->material_count; i++)
+        mem_free(s->materials[i].name);
+    for (size_t i = 0; i < s->image_count; i++) {
+        mem_free(s->images[i].name);
+        mem_free(s->images[i].pixels);
+    }
+    for (size_t i = 0; i < s->camera_count; i++)
+        mem_free(s->cameras[i].name);
+    for (size_t i = 0; i < s->light_count; i++)
+        mem_free(s->lights[i].name);
+    mem_free(s->materials);
+    mem_free(s->images);
+    mem_free(s->cameras);
+    mem_free(s->lights);
+}
+
+void scene_free(lmn_scene *s)
+{
+    if (!s)
+        return;
+    release_drawables(s);
+    release_appearance(s);
+    for (size_t i = 0; i < s->skin_count; i++) {
+        mem_free(s->skins[i].name);
+        mem_free(s->skins[i].joints);
+        mem_free(s->skins[i].inverse_binds);
+    }
+    mem_free(s->skins);
+    for (size_t i = 0; i < s->animation_count; i++)
+        animation_release(&s->animations[i]);
+    mem_free(s->animations);
+    for (size_t i = 0; i < s->file_count; i++)
+        mem_free(s->files[i]);
+    mem_free(s->files);
+    warnings_release(&s->warnings);
+    mem_free(s);
+}
+
+/* The length of the valid UTF-8 character at `p`, 0 when there is none. */
+static size_t character_length(const char *p, size_t left)
+{
+    for (size_t length = 1; length <= 4 && length <= left; length++)
+        if (text_is_utf8(p, length))
+            return length;
+    return 0;
+}
+
+char *scene_clean_name(const char *bytes, size_t size)
+{
+    text t = {0};
+    for (size_t i = 0; i < size;) {
+        size_t length = character_length(bytes + i, size - i);
+        bool control = length == 1 && ((unsigned char)bytes[i] < 0x20 || bytes[i] == 0x7F);
+        if (length == 0 || control)
+            text_append_bytes(&t, "\xEF\xBF\xBD", 3);
+        else
+            text_append_bytes(&t, bytes + i, length);
+        i += length ? length : 1;
+    }
+    return text_take(&t);
+}
+
+char *scene_name_of_file(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    return length ? scene_clean_name(name, length) : mem_copy_text("model");
+}
+
+size_t node_draw_count(const node *n)
+{
+    return n->instance_count ? n->instance_count : 1;
+}
+
+uint64_t mesh_triangle_count(const mesh *m)
+{
+    uint64_t count = 0;
+    for (size_t i = 0; i < m->primitive_count; i++)
+        count += m->primitives[i].index_count / 3;
+    return count;
+}

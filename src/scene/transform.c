@@ -1,0 +1,109 @@
+/* Matrices and boxes. */
+#include <math.h>
+
+#include "scene/scene.h"
+
+mat4 mat4_identity(void)
+{
+    mat4 m = {{0}};
+    m.m[0] = m.m[5] = m.m[10] = m.m[15] = 1;
+    return m;
+}
+
+mat4 mat4_multiply(const mat4 *a, const mat4 *b)
+{
+    mat4 out;
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += a->m[k * 4 + row] * b->m[column * 4 + k];
+            out.m[column * 4 + row] = sum;
+        }
+    return out;
+}
+
+vec3 mat4_transform_point(const mat4 *m, vec3 p)
+{
+    const double *e = m->m;
+    double x = p.x, y = p.y, z = p.z;
+    return (vec3){(float)(e[0] * x + e[4] * y + e[8] * z + e[12]), (float)(e[1] * x + e[5] * y + e[9] * z + e[13]),
+                  (float)(e[2] * x + e[6] * y + e[10] * z + e[14])};
+}
+
+mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3])
+{
+    double x = r[0], y = r[1], z = r[2], w = r[3];
+    double length = sqrt(x * x + y * y + z * z + w * w);
+    /* A file may hold a quaternion that is only nearly unit; a zero one means no rotation. */
+    if (length > 0) {
+        x /= length;
+        y /= length;
+        z /= length;
+        w /= length;
+    } else {
+        w = 1;
+    }
+    mat4 m = mat4_identity();
+    m.m[0] = (1 - 2 * (y * y + z * z)) * s[0];
+    m.m[1] = 2 * (x * y + z * w) * s[0];
+    m.m[2] = 2 * (x * z - y * w) * s[0];
+    m.m[4] = 2 * (x * y - z * w) * s[1];
+    m.m[5] = (1 - 2 * (x * x + z * z)) * s[1];
+    m.m[6] = 2 * (y * z + x * w) * s[1];
+    m.m[8] = 2 * (x * z + y * w) * s[2];
+    m.m[9] = 2 * (y * z - x * w) * s[2];
+    m.m[10] = (1 - 2 * (x * x + y * y)) * s[2];
+    m.m[12] = t[0];
+    m.m[13] = t[1];
+    m.m[14] = t[2];
+    return m;
+}
+
+mat4 node_local_matrix(const node *n)
+{
+    return n->has_matrix ? n->matrix : mat4_from_trs(n->translation, n->rotation, n->scale);
+}
+
+box3 box3_empty(void)
+{
+    return (box3){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+bool box3_is_empty(box3 b)
+{
+    return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z);
+}
+
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+box3 box3_union(box3 a, box3 b)
+{
+    return (box3){{smaller(a.min.x, b.min.x), smaller(a.min.y, b.min.y), smaller(a.min.z, b.min.z)},
+                  {larger(a.max.x, b.max.x), larger(a.max.y, b.max.y), larger(a.max.z, b.max.z)}};
+}
+
+box3 box3_with_point(box3 b, vec3 p)
+{
+    return box3_union(b, (box3){p, p});
+}
+
+box3 box3_transform(box3 b, const mat4 *m)
+{
+    box3 out = box3_empty();
+    if (box3_is_empty(b))
+        return out;
+    for (int i = 0; i < 8; i++) {
+        vec3 corner = {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z};
+        out = box3_with_point(out, mat4_transform_point(m, corner));
+    }
+    return out;
+}
