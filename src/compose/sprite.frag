@@ -9,7 +9,7 @@ layout(location = 0) out vec4 out_0;
 float neighbour_depth(ivec2 pixel)
 {
     ivec2 last = ivec2(u_size) - 1;
-    int reach = max(int(ceil(0.5 * u_width + float(CONTRAST))), 1);
+    int reach = max(int(ceil(0.5 * u_line_width + float(CONTRAST))), 1);
     float least = 1.0;
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {

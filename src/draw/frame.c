@@ -136,14 +136,26 @@ static void set_common(frame *f, const figure_state *s)
         set_lights(f);
 }
 
-static param_set own_set(const technique_use *use)
+static const char *prefix_of(kind_id id)
 {
-    return (param_set){use->technique->params, use->technique->param_count, use->values};
+    return id == KIND_LINES ? "u_line_" : "u_";
+}
+
+static param_set own_set(kind_id id, const technique_use *use)
+{
+    return (param_set){prefix_of(id), use->technique->params, use->technique->param_count, use->values};
 }
 
 static param_set common_set(kind_id id, const technique_use *use)
 {
-    return (param_set){kinds[id]->common, kinds[id]->common_count, use->values};
+    return (param_set){prefix_of(id), kinds[id]->common, kinds[id]->common_count, use->values};
+}
+
+/* The line technique that a composition inks; NULL when the rule has none. */
+static const technique_use *inked_lines(const rule *r)
+{
+    size_t count = r->use_counts[KIND_LINES];
+    return count ? &r->uses[KIND_LINES][count - 1] : NULL;
 }
 
 /* --- geometry pass ----------------------------------------------------------------------------------------------- */
@@ -263,7 +275,26 @@ static void declare_outputs(text *prelude, outputs o)
         text_append(prelude, "#define AT_SHADE %d\n", o.shade);
 }
 
-static gpu_program *raster_program(frame *f, const figure_state *s, const draw_item *item, const material *m, item_textures t, outputs o)
+/* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */
+static void declare_ink(text *prelude, char *path, size_t size, const frame *f, const figure_state *s, const pass *inking)
+{
+    const technique_use *lines = inked_lines(s->figure->rule), *compose = rule_use(s->figure->rule, KIND_COMPOSE);
+    bool merged = compose->technique->merges && lines->technique->detect;
+    uniforms_declare(prelude, common_set(KIND_LINES, lines));
+    text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
+    if (merged)
+        uniforms_declare(prelude, own_set(KIND_LINES, lines));
+    for (int i = 0; i < PASS_READS_MAX && inking->reads[i]; i++)
+        if (s->targets[inking->reads[i]])
+            target_declare(prelude, inking->reads[i]);
+    (void)f;
+    char joined[320];
+    snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->detect : "", merged ? "+" : "", inking->shader, path);
+    snprintf(path, size, "%s", joined);
+}
+
+static gpu_program *raster_program(frame *f, const figure_state *s, const draw_item *item, const material *m, item_textures t, outputs o,
+                                   const pass *inking)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     text prelude = {0};
@@ -271,13 +302,13 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     declare_material(&prelude, item, m, t);
     if (f->mirror_depth)
         text_append(&prelude, "#define CLIPPED\n");
-    char path[160];
+    char path[320] = "layer/raster.frag";
     if (o.shade >= 0) {
-        uniforms_declare(&prelude, own_set(surface));
+        uniforms_declare(&prelude, own_set(KIND_SURFACE, surface));
         snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface);
-    } else {
-        snprintf(path, sizeof path, "layer/raster.frag");
     }
+    if (inking)
+        declare_ink(&prelude, path, sizeof path, f, s, inking);
     char *finished = text_take(&prelude);
     gpu_program *p = finished ? gpu_program_of(f->g, "layer/raster.vert", path, finished) : NULL;
     if (!finished)
@@ -286,8 +317,17 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     return p;
 }
 
-/* Draws the figure's parts (and its complement) into the current pass. */
-static void draw_parts(frame *f, const figure_state *s, outputs o)
+static void set_ink(frame *f, const figure_state *s, const pass *inking)
+{
+    const technique_use *lines = inked_lines(s->figure->rule);
+    uniforms_set(f->g, common_set(KIND_LINES, lines));
+    uniforms_set(f->g, own_set(KIND_LINES, lines));
+    for (int i = 0; i < PASS_READS_MAX && inking->reads[i]; i++)
+        gpu_set_texture(f->g, target_name(inking->reads[i]), s->targets[inking->reads[i]], false);
+}
+
+/* Draws the figure's parts (and its complement) into the current pass; with `inking`, lines on top and no complement. */
+static void draw_parts(frame *f, const figure_state *s, outputs o, const pass *inking)
 {
     const figure *fig = s->figure;
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
@@ -296,19 +336,21 @@ static void draw_parts(frame *f, const figure_state *s, outputs o)
     gpu_program *program = NULL;
     for (size_t i = 0; i < f->up->item_count && !gpu_failed(f->g); i++) {
         const draw_item *item = &f->up->items[i];
-        if (!is_drawn(f, fig, item))
+        if (!is_drawn(f, fig, item) || (inking && !fig->designated[item->part_index]))
             continue;
         const material *m = material_of(f, item);
         if (!program || item->material != last_material || item->has_uvs != last_uvs || item->has_colours != last_colours) {
             item_textures t = textures_of(f, item, m);
-            program = raster_program(f, s, item, m, t, o);
+            program = raster_program(f, s, item, m, t, o, inking);
             gpu_use(f->g, program, (gpu_state){.depth_test = true, .depth_write = true});
             if (gpu_failed(f->g))
                 return;
             set_common(f, s);
             set_projection(f);
             if (o.shade >= 0)
-                uniforms_set(f->g, own_set(surface));
+                uniforms_set(f->g, own_set(KIND_SURFACE, surface));
+            if (inking)
+                set_ink(f, s, inking);
             if (f->mirror_depth)
                 gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
             if (s->targets[TARGET_REFLECTION])
@@ -363,7 +405,7 @@ static void draw_geometry(frame *f, figure_state *s)
     pass.depth = s->targets[TARGET_DEPTH] = acquire(f, TARGET_DEPTH);
     if (!gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &pass);
-        draw_parts(f, s, o);
+        draw_parts(f, s, o, NULL);
     }
     watch_stop(f, w, "", "geometry");
 }
@@ -373,7 +415,7 @@ static void shade_deferred(frame *f, figure_state *s)
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     stopwatch w = watch_start(f);
     text prelude = {0};
-    uniforms_declare(&prelude, own_set(surface));
+    uniforms_declare(&prelude, own_set(KIND_SURFACE, surface));
     char path[160], *finished = text_take(&prelude);
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
     s->targets[TARGET_SHADE] = acquire(f, TARGET_SHADE);
@@ -383,7 +425,7 @@ static void shade_deferred(frame *f, figure_state *s)
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true});
         gpu_use(f->g, p, (gpu_state){0});
         set_common(f, s);
-        uniforms_set(f->g, own_set(surface));
+        uniforms_set(f->g, own_set(KIND_SURFACE, surface));
         gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
         gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
         gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);
@@ -429,6 +471,17 @@ static const float *neutral(target t)
 {
     static const float paper[4] = {1, 1, 1, 1}, nothing[4] = {0, 0, 0, 0};
     return t == TARGET_EDGE ? paper : nothing;
+}
+
+/* The seed's third pass: the parts once more, with the edge map projected on them. */
+static void run_geometry_pass(frame *f, figure_state *s, const pass *p, const char *group)
+{
+    stopwatch w = watch_start(f);
+    gpu_pass onto = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
+    memcpy(onto.scissor, s->pixels, sizeof onto.scissor);
+    gpu_pass_begin(f->g, &onto);
+    draw_parts(f, s, (outputs){-1, -1, -1, 0}, inked_lines(s->figure->rule) ? p : NULL);
+    watch_stop(f, w, group, p->name);
 }
 
 static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group, int iteration)
@@ -486,17 +539,20 @@ static bool pass_applies(kind_id id, const pass *p, const technique_use *use)
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use)
 {
     const technique *t = use->technique;
-    pass_params params = {.sets = {own_set(use), common_set(id, use)}, .count = 2};
+    pass_params params = {.sets = {own_set(id, use), common_set(id, use)}, .count = 2};
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
-    size_t line_count = s->figure->rule->use_counts[KIND_LINES];
-    if (id == KIND_COMPOSE && line_count)
-        params.sets[params.count++] = common_set(KIND_LINES, &s->figure->rule->uses[KIND_LINES][line_count - 1]);
+    const technique_use *lines = inked_lines(s->figure->rule);
+    if (id == KIND_COMPOSE && lines)
+        params.sets[params.count++] = common_set(KIND_LINES, lines);
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
         if (!pass_applies(id, p, use))
             continue;
-        for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
-            run_pass(f, s, p, &params, kinds[id]->name, k);
+        if (p->geometry)
+            run_geometry_pass(f, s, p, kinds[id]->name);
+        else
+            for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
+                run_pass(f, s, p, &params, kinds[id]->name, k);
     }
 }
 
@@ -506,6 +562,9 @@ static void run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
     const kind *k = kinds[id];
+    const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = inked_lines(r);
+    if (id == KIND_LINES && lines && compose && compose->technique->merges && lines->technique->detect && !f->maps)
+        return; /* the composition detects the edges itself */
     for (size_t i = 0; i < r->use_counts[id]; i++) {
         const technique_use *use = &r->uses[id][i];
         run_use(f, s, id, use);
@@ -552,7 +611,7 @@ static void draw_direct(frame *f, figure_state *s)
     gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    draw_parts(f, s, (outputs){-1, -1, -1, 0});
+    draw_parts(f, s, (outputs){-1, -1, -1, 0}, NULL);
     watch_stop(f, w, "", "geometry");
 }
 

@@ -73,7 +73,7 @@ static json_t *gpu_json(const char *vendor, const char *renderer, const char *ve
 
 static char *dumped(json_t *root)
 {
-    char *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    char *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
     json_decref(root);
     return out;
 }

@@ -47,9 +47,9 @@ void uniforms_declare(text *prelude, param_set set)
         if (p->variant)
             declare_variant(prelude, p, set.values);
         else if (p->type == PARAM_PALETTE)
-            text_append(prelude, "uniform vec4 u_%s[%d];\nuniform int u_%s_count;\n", p->key, PALETTE_MAX, p->key);
+            text_append(prelude, "uniform vec4 %s%s[%d];\nuniform int %s%s_count;\n", set.prefix, p->key, PALETTE_MAX, set.prefix, p->key);
         else
-            text_append(prelude, "uniform %s u_%s;\n", types[p->type], p->key);
+            text_append(prelude, "uniform %s %s%s;\n", types[p->type], set.prefix, p->key);
     }
 }
 
@@ -91,7 +91,7 @@ void uniforms_set(gpu *g, param_set set)
         if (p->cpu_only || p->variant)
             continue;
         char name[72];
-        snprintf(name, sizeof name, "u_%s", p->key);
+        snprintf(name, sizeof name, "%s%s", set.prefix, p->key);
         const void *field = param_field(p, set.values);
         float linear[4];
         switch (p->type) {

@@ -7,12 +7,13 @@
 
 /* One table with the values that belong to it. */
 typedef struct param_set {
+    const char  *prefix; /* of the uniforms' names: "u_", for lines "u_line_", so that both fit into one program */
     const param *params;
     size_t       count;
     const void  *values;
 } param_set;
 
-/* Appends declarations of the parameters: uniforms u_KEY, and #define KEY for variants. */
+/* Appends declarations of the parameters: uniforms PREFIX+KEY, and #define KEY for variants. */
 void uniforms_declare(text *prelude, param_set set);
 /* Sets the uniforms of the program in use. */
 void uniforms_set(gpu *g, param_set set);

@@ -40,6 +40,7 @@ typedef struct pass {
     target      writes;
     pass_blend  blend;
     bool        depth;  /* test and write gl_FragDepth against the page (a depth sprite) */
+    bool        geometry; /* draws the figure's parts again, shaded and inked by the shader file's ink_at, instead of a full screen */
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
 } pass;
@@ -51,8 +52,10 @@ typedef struct technique {
     size_t       param_count, params_size;
     unsigned     channels;    /* of channel, that its passes read */
     const char  *surface;     /* surface techniques: GLSL file with `vec4 surface_colour(surface_point p)` */
+    const char  *detect;      /* line techniques of one pass: GLSL file with `void detect_edges()` */
     const pass  *passes;
     size_t       pass_count;
+    bool         merges;      /* compose: runs the line technique's `detect` itself instead of reading its map */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
 } technique;

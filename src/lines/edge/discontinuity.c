@@ -23,7 +23,7 @@ static const param params[] = {
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "edges", .shader = "lines/edge/discontinuity.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
+    {.name = "edges", .shader = "lines/edge/discontinuity.glsl+lines/edge/detect.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
@@ -32,5 +32,5 @@ const technique lines_discontinuity = {
     .name = "discontinuity", .doc = "Steps of depth that no slope explains, creases by angle, and part borders.",
     .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(discontinuity),
-    .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_ID, .detect = "lines/edge/discontinuity.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
 };

@@ -5,7 +5,7 @@ layout(location = 0) out vec4 out_0;
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(u_size) - 1;
-    float radius = 0.5 * (u_width - 2.0);
+    float radius = 0.5 * (u_line_width - 2.0);
     int reach = int(ceil(radius));
     vec4 least = texelFetch(t_edge, pixel, 0);
     for (int y = -reach; y <= reach; y++)

@@ -14,9 +14,9 @@ vec4 tap(vec2 off)
     return value;
 }
 
-void main()
+void detect_edges()
 {
-    float off = 0.5 * min(u_width, 2.0);
+    float off = 0.5 * min(u_line_width, 2.0);
     vec4 a = tap(vec2(-off, off)), c = tap(vec2(off, off)), f = tap(vec2(-off, -off)), h = tap(vec2(off, -off));
     float ah = 1.0 - 0.5 * abs(normalised(a.w) - normalised(h.w));
     float cf = 1.0 - 0.5 * abs(normalised(c.w) - normalised(f.w));

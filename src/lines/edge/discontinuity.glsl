@@ -1,8 +1,9 @@
 /* See discontinuity.c. A pixel is ink when visibility, orientation or part changes between it and one of its four neighbours. */
 #include "lines/edge/edge.glsl"
 
-uniform vec2  u_unproject;
-uniform float u_perspective;
+#include "light/point.glsl"
+
+uniform vec2 u_unproject;
 
 /* Part of the step `across` that the slopes before and behind it do not explain. */
 float unexplained(float before, float across, float behind)
@@ -31,8 +32,8 @@ vec3 pair(vec2 side, float before, float next, float behind_next, vec3 normal, f
     float excess = unexplained(slope_before, across, slope_behind);
     float nearness = across > 0.0 ? 1.0 : far_weight;
     vec3 other = towards_eye(neighbour(t_normal_depth, side).xyz, gl_FragCoord.xy + side);
-    float faint = cos(radians(max(u_crease - u_smooth, 0.0)));
-    float inner = (1.0 - smoothstep(cos(radians(u_crease)), faint, dot(normal, other))) * crease_weight;
+    float faint = cos(radians(max(u_line_crease - u_line_smooth, 0.0)));
+    float inner = (1.0 - smoothstep(cos(radians(u_line_crease)), faint, dot(normal, other))) * crease_weight;
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
     excess -= inner * 0.5 * max(abs(slope_before), abs(slope_behind));
@@ -50,7 +51,7 @@ float depth_at(float x, float y)
     return neighbour(t_depth, vec2(x, y)).r;
 }
 
-void main()
+void detect_edges()
 {
     float depth = depth_at(0.0, 0.0);
     float right = depth_at(1.0, 0.0), left = depth_at(-1.0, 0.0), up = depth_at(0.0, 1.0), down = depth_at(0.0, -1.0);
@@ -61,12 +62,12 @@ void main()
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         vec3 normal = towards_eye(normal_depth.xyz, gl_FragCoord.xy);
         float z = normal_depth.w;
-        float tolerance = u_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
+        float tolerance = u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
         uint id = 0u;
 #if PARTS
         id = textureLod(t_id, gl_FragCoord.xy / u_size, 0.0).r;
 #endif
-        float second = clamp(u_width - 1.0, 0.0, 1.0);
+        float second = clamp(u_line_width - 1.0, 0.0, 1.0);
         ink = pair(vec2(1.0, 0.0), left, right, depth_at(2.0, 0.0), normal, depth, tolerance, id, 1.0, second);
         ink = max(ink, pair(vec2(-1.0, 0.0), right, left, depth_at(-2.0, 0.0), normal, depth, tolerance, id, second, second));
         ink = max(ink, pair(vec2(0.0, 1.0), down, up, depth_at(0.0, 2.0), normal, depth, tolerance, id, 1.0, second));
