@@ -1,5 +1,5 @@
 /* check_layers ROOT: holds the sources against the rules of docs/ARCHITECTURE.md. Reads the table of modules there, then all
- * C files below src/, apps/, include/, tools/ and tests/. Prints FILE:LINE: what is wrong; exits 1 when anything is. */
+ * C and C++ files below src/, apps/, include/, tools/ and tests/. Prints FILE:LINE: what is wrong; exits 1 when anything is. */
 #include <ctype.h>
 #include <dirent.h>
 #include <stdbool.h>
@@ -287,7 +287,7 @@ static void check_folder(checker *c, const char *root, const char *below)
         const char *dot = strrchr(entry->d_name, '.');
         if (stat(whole, &status) == 0 && S_ISDIR(status.st_mode))
             check_folder(c, root, path);
-        else if (dot && (strcmp(dot, ".c") == 0 || strcmp(dot, ".h") == 0))
+        else if (dot && (strcmp(dot, ".c") == 0 || strcmp(dot, ".h") == 0 || strcmp(dot, ".cpp") == 0))
             check_file(c, root, path);
     }
     if (folder)

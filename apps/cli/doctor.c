@@ -134,7 +134,9 @@ static int run(const word_list *inputs, const void *values)
     bool usable = lmn_renderer_create(&renderer, &desc, &error) == LMN_OK;
     json_object_set_new(root, "usable", json_boolean(usable));
     if (usable) {
-        json_object_set_new(root, "gl", parse_and_free(lmn_renderer_json(renderer)));
+        json_t *gl = parse_and_free(lmn_renderer_json(renderer));
+        json_object_del(gl, "limner"); /* stands above already */
+        json_object_set_new(root, "gl", gl);
         missing = json_array();
     } else {
         json_object_set_new(root, "gl", json_null());
