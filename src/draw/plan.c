@@ -155,6 +155,38 @@ static void share_parts(plan *p, const upload *up, warnings *notes)
     p->figure_count = kept;
 }
 
+/* Each mirror has a plane of its own, so each part of a mirror rule becomes a figure. */
+static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
+{
+    size_t before = p->figure_count, capacity = before + p->scene->part_count;
+    figure *grown = mem_realloc(p->figures, capacity * sizeof *grown);
+    if (!grown)
+        return error_memory(error);
+    p->figures = grown;
+    for (size_t i = 0; i < before; i++) {
+        const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
+        if (!surface || !surface->technique->reflects)
+            continue;
+        for (size_t part = 0; part < p->scene->part_count && p->figures[i].part_count > 1; part++) {
+            if (!p->figures[i].designated[part])
+                continue;
+            figure single = {.rule = p->figures[i].rule, .part_count = 1, .box = up->part_boxes[part]};
+            single.designated = mem_calloc(p->scene->part_count, sizeof *single.designated);
+            if (!single.designated)
+                return error_memory(error);
+            single.designated[part] = true;
+            p->figures[p->figure_count++] = single;
+            p->figures[i].designated[part] = false;
+            p->figures[i].part_count--;
+        }
+        p->figures[i].box = box3_empty();
+        for (size_t part = 0; part < p->scene->part_count; part++)
+            if (p->figures[i].designated[part])
+                p->figures[i].box = up->part_boxes[part];
+    }
+    return LMN_OK;
+}
+
 lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
                        int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error)
 {
@@ -181,6 +213,9 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     if (status != LMN_OK)
         return status;
     share_parts(out, up, notes);
+    status = split_mirrors(out, up, error);
+    if (status != LMN_OK)
+        return status;
     for (size_t i = 0; i < out->figure_count; i++)
         settle_figure(&out->figures[i], out, as_sprites);
     order_figures(out);
