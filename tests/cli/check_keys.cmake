@@ -1,5 +1,6 @@
 # Is JSON well-formed, and is each of its keys documented? -DFILE=… -DPAGE=… ; a key is documented when the page has it in
 # backticks. Below OPEN the keys are names of the user's.
+cmake_minimum_required(VERSION 3.25)
 set(OPEN attributes strokes looks)
 file(READ ${FILE} json)
 file(READ ${PAGE} page)

@@ -31,7 +31,7 @@ row() {
     else
         grep -Eq -- "$pattern" .stderr || complain "standard error lacks: $pattern"
     fi
-    made=$(find . -type f ! -name '.*' ! -name 'in-*' -printf '%P\n' | sort | tr '\n' ' ')
+    made=$(find . -type f ! -path '*/.*' ! -name 'in-*' -printf '%P\n' | sort | tr '\n' ' ')
     [ "${made% }" = "$files" ] || complain "made '${made% }', expected '$files'"
 }
 
