@@ -11,5 +11,5 @@ static const pass passes[] = {
 
 const technique compose_opaque = {
     .name = "opaque", .doc = "Colour with true depth, lines on top.", .example = "{\"compose\": \"opaque\", \"lines\": \"four-tap\"}",
-    .channels = CHANNEL_SHADE | CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes),
 };

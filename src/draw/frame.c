@@ -114,6 +114,12 @@ static void set_lights(frame *f)
         double key[3] = {v->light_direction.x, v->light_direction.y, v->light_direction.z};
         if (key[0] == 0 && key[1] == 0 && key[2] == 0)
             key[2] = 1;
+        /* The light goes with the viewer, but what a mirror shows is lit as the scene itself is. */
+        double along = 0;
+        for (int k = 0; k < 3 && f->mirror_depth; k++)
+            along += key[k] * (double)f->clip_plane[k];
+        for (int k = 0; k < 3 && f->mirror_depth; k++)
+            key[k] -= 2 * along * (double)f->clip_plane[k];
         double fill[3] = {-key[0], -0.3 * key[1], fabs(key[2]) + 0.2};
         add_light(positions, colours, &count, key, 0, white, v->light_scale);
         if (v->fill > 0)
@@ -281,7 +287,7 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     const technique_use *lines = inked_lines(s->figure->rule), *compose = rule_use(s->figure->rule, KIND_COMPOSE);
     bool merged = compose->technique->merges && lines->technique->detect;
     uniforms_declare(prelude, common_set(KIND_LINES, lines));
-    text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
+    text_append(prelude, "#define INKED\n%s%s", merged ? "#define MERGED\n" : "", s->targets[TARGET_ID] ? "#define HAS_ID\n" : "");
     if (merged)
         uniforms_declare(prelude, own_set(KIND_LINES, lines));
     for (int i = 0; i < PASS_READS_MAX && inking->reads[i]; i++)
@@ -456,6 +462,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
             target_declare(&prelude, p->reads[i]);
     if (s->targets[TARGET_EDGE])
         text_append(&prelude, "#define HAS_LINES\n");
+    if (s->targets[TARGET_ID])
+        text_append(&prelude, "#define HAS_ID\n");
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     char *finished = text_take(&prelude);

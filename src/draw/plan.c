@@ -48,12 +48,13 @@ static void release_rule(rule *r)
     }
 }
 
-static unsigned channels_of(const rule *r)
+static unsigned channels_of(const rule *r, bool several_parts)
 {
     unsigned channels = 0;
     for (int k = 0; k < KIND_COUNT; k++)
         for (size_t i = 0; i < r->use_counts[k]; i++)
-            channels |= r->uses[k][i].technique->channels;
+            channels |= r->uses[k][i].technique->channels |
+                        (several_parts ? r->uses[k][i].technique->part_channels : 0);
     return channels;
 }
 
@@ -76,16 +77,13 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred;
-    f->channels = channels_of(r) | CHANNEL_SHADE;
+    f->channels = channels_of(r, f->complement || f->part_count > 1) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
     if (f->deferred)
         f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID | CHANNEL_ALBEDO;
     if (as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH;
-    /* A composition reads ids only to tell parts of other figures apart. */
-    if (!f->complement && !as_sprites && !f->deferred && !r->use_counts[KIND_LINES])
-        f->channels &= ~(unsigned)CHANNEL_ID;
 }
 
 static int figure_rank(const figure *f)

@@ -33,16 +33,11 @@ float wrapped_light(surface_point p)
     return total > 0.0 ? sum / total : 0.0;
 }
 
-/* Phong's highlight of the brightest light: reflected light direction against the viewer's. */
+/* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one
+ * shape read as two materials. */
 float highlight(surface_point p, float shininess)
 {
-    vec3 viewer = towards_viewer(p.eye);
-    float best = 0.0;
-    for (int i = 0; i < 8 && i < u_light_count; i++) {
-        vec3 light = towards_light(i, p.eye);
-        float facing = step(0.0, dot(p.normal, light));
-        float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
-        best = max(best, strength * facing * pow(max(dot(reflect(-light, p.normal), viewer), 0.0), shininess));
-    }
-    return best;
+    vec3 light = towards_light(0, p.eye);
+    float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
+    return strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
 }

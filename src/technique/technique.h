@@ -51,6 +51,7 @@ typedef struct technique {
     const param *params;
     size_t       param_count, params_size;
     unsigned     channels;    /* of channel, that its passes read */
+    unsigned     part_channels; /* the same, needed only when the figure has several parts */
     const char  *surface;     /* surface techniques: GLSL file with `vec4 surface_colour(surface_point p)` */
     const char  *detect;      /* line techniques of one pass: GLSL file with `void detect_edges()` */
     const pass  *passes;

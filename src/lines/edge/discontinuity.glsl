@@ -39,7 +39,7 @@ vec3 pair(vec2 side, float before, float next, float behind_next, vec3 normal, f
     excess -= inner * 0.5 * max(abs(slope_before), abs(slope_behind));
     float profile = smoothstep(0.5, 1.0, excess / tolerance) * nearness;
     float between = 0.0;
-#if PARTS
+#if PARTS && defined(HAS_ID)
     uint other_id = textureLod(t_id, (gl_FragCoord.xy + side) / u_size, 0.0).r;
     between = other_id != id ? nearness : 0.0;
 #endif
@@ -64,7 +64,7 @@ void detect_edges()
         float z = normal_depth.w;
         float tolerance = u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
         uint id = 0u;
-#if PARTS
+#if PARTS && defined(HAS_ID)
         id = textureLod(t_id, gl_FragCoord.xy / u_size, 0.0).r;
 #endif
         float second = clamp(u_line_width - 1.0, 0.0, 1.0);
