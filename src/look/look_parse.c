@@ -75,6 +75,14 @@ static lmn_status fail(reader *r, const char *key, const char *format, ...)
     return status;
 }
 
+static lmn_status fail_limit(reader *r, const char *what, size_t count, int limit)
+{
+    fail(r, NULL, "has %zu %s; the limit is %d", count, what, limit);
+    if (r->error)
+        r->error->status = LMN_LIMIT;
+    return LMN_LIMIT;
+}
+
 /* Turns an error about an argument into one about the file. */
 static lmn_status fail_with(reader *r, const char *key, const lmn_error *inner)
 {
@@ -184,7 +192,7 @@ static lmn_status read_uses(reader *r, const kind *k, json_t *json, technique_us
     if (count == 0 && !kind_may_be_none(k))
         return fail(r, NULL, "cannot be none");
     if (count > LIMIT_LOOK_TECHNIQUES)
-        return fail(r, NULL, "has %zu techniques; the limit is %d", count, LIMIT_LOOK_TECHNIQUES);
+        return fail_limit(r, "techniques", count, LIMIT_LOOK_TECHNIQUES);
     *uses = mem_calloc(count, sizeof **uses);
     if (!*uses)
         return error_memory(r->error);
@@ -282,12 +290,8 @@ static lmn_status read_rules(reader *r, json_t *json, lmn_look *look)
     size_t count = json_array_size(json);
     if (!json_is_array(json))
         return fail(r, NULL, "must be an array of rules");
-    if (count > LIMIT_LOOK_RULES) {
-        lmn_status status = fail(r, NULL, "has %zu rules; the limit is %d", count, LIMIT_LOOK_RULES);
-        if (r->error)
-            r->error->status = LMN_LIMIT;
-        return status == LMN_FORMAT ? LMN_LIMIT : status;
-    }
+    if (count > LIMIT_LOOK_RULES)
+        return fail_limit(r, "rules", count, LIMIT_LOOK_RULES);
     look->rules = mem_calloc(count, sizeof *look->rules);
     if (!look->rules)
         return error_memory(r->error);
@@ -393,22 +397,50 @@ static lmn_status fail_syntax(reader *r, const json_error_t *wrong)
     return status;
 }
 
+/* The deepest nesting, strings left out. */
+static int depth_of(const char *at, const char *end)
+{
+    int depth = 0, deepest = 0;
+    for (bool inside = false; at < end; at++) {
+        if (inside && *at == '\\')
+            at++;
+        else if (*at == '"')
+            inside = !inside;
+        else if (!inside && (*at == '{' || *at == '['))
+            deepest = ++depth > deepest ? depth : deepest;
+        else if (!inside && (*at == '}' || *at == ']'))
+            depth--;
+    }
+    return deepest;
+}
+
+static lmn_status check_limits(const reader *r)
+{
+    if (r->size > LIMIT_LOOK_BYTES)
+        return error_in_file(r->error, LMN_LIMIT, r->file, 0, "the look has %zu bytes; the limit is %zu", r->size, LIMIT_LOOK_BYTES);
+    int depth = depth_of(r->text, r->text + r->size);
+    if (depth > LIMIT_JSON_DEPTH)
+        return error_in_file(r->error, LMN_LIMIT, r->file, 0, "the look is nested %d deep; the limit is %d", depth, LIMIT_JSON_DEPTH);
+    return LMN_OK;
+}
+
 lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_error *error)
 {
     reader r = {.text = json, .file = name, .size = size, .error = error};
     json_error_t wrong;
     *out = NULL;
-    if (size > LIMIT_LOOK_BYTES)
-        return error_in_file(error, LMN_LIMIT, name, 0, "the look has %zu bytes; the limit is %zu", size, LIMIT_LOOK_BYTES);
     if (size >= 3 && memcmp(json, "\xEF\xBB\xBF", 3) == 0) { /* some editors put a byte order mark */
         r.text += 3;
         r.size -= 3;
     }
+    lmn_status status = check_limits(&r);
+    if (status != LMN_OK)
+        return status;
     json_t *root = json_loadb(r.text, r.size, JSON_REJECT_DUPLICATES | JSON_DECODE_ANY, &wrong);
     if (!root)
         return fail_syntax(&r, &wrong);
     lmn_look *look = mem_calloc(1, sizeof *look);
-    lmn_status status = look ? read_root(&r, root, look) : error_memory(error);
+    status = look ? read_root(&r, root, look) : error_memory(error);
     if (status == LMN_OK && !look->name && !(look->name = stem_of(name)))
         status = error_memory(error);
     json_decref(root);

@@ -9,7 +9,9 @@
 #include <cmocka.h>
 #include <jansson.h>
 
+#include "base/limits.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "limner/look.h"
 #include "look/look.h"
 #include "look/value.h"
@@ -113,6 +115,31 @@ static void test_wrong_files(void **state)
             (cases[i].line >= 0 && error.line != cases[i].line) || (cases[i].column >= 0 && error.column != cases[i].column))
             fail_msg("case %zu: %d:%d: %s (%s)", i, error.line, error.column, error.message, error.hint);
     }
+}
+
+/* "[x,x,…]" in a look that is otherwise right. */
+static void check_limit(const char *before, const char *item, size_t count, const char *after)
+{
+    text json = {0};
+    lmn_look *look = NULL;
+    lmn_error error = {0};
+    text_append(&json, "{\"version\": 1, %s", before);
+    for (size_t i = 0; i < count; i++)
+        text_append(&json, "%s%s", i && *item != '[' ? "," : "", item);
+    text_append(&json, "%s}", after);
+    assert_int_equal(lmn_look_parse(&look, json.data, "test.json", &error), LMN_LIMIT);
+    assert_int_equal(error.status, LMN_LIMIT);
+    assert_non_null(strstr(error.message, "the limit is"));
+    text_release(&json);
+}
+
+static void test_limits(void **state)
+{
+    (void)state;
+    check_limit("\"rules\": [", "{}", LIMIT_LOOK_RULES + 1, "]");
+    check_limit("\"rules\": [{\"lines\": [", "\"id\"", LIMIT_LOOK_TECHNIQUES + 1, "]}]");
+    check_limit("\"x-deep\": ", "[", LIMIT_JSON_DEPTH, "");
+    check_limit("\"x-long\": [", "\"0123456789\"", LIMIT_LOOK_BYTES / 13 + 1, "]");
 }
 
 static void test_load(void **state)
@@ -398,6 +425,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parse),       cmocka_unit_test(test_wrong_files), cmocka_unit_test(test_load),
+        cmocka_unit_test(test_limits),
         cmocka_unit_test(test_round_trip),  cmocka_unit_test(test_every_parameter_round_trips),
         cmocka_unit_test(test_set),         cmocka_unit_test(test_exchange),    cmocka_unit_test(test_set_refused),
         cmocka_unit_test(test_reference),   cmocka_unit_test(test_tables),      cmocka_unit_test(test_memory),
