@@ -94,16 +94,16 @@ static lmn_status use_header(const import_job *job, lmn_error *error)
     size_t skip = named ? 6 : 0;
     if (length == 0)
         return LMN_OK;
-    char *text = scene_clean_name(header + skip, length - skip);
-    if (!text)
+    char *words = scene_clean_name(header + skip, length - skip);
+    if (!words)
         return error_memory(error);
     node *n = &job->scene->nodes[job->scene->node_count - 1];
     if (named) {
-        n->name = text;
+        n->name = words;
         return LMN_OK;
     }
-    bool good = build_attribute(n, "header", text);
-    mem_free(text);
+    bool good = build_attribute(n, "header", words);
+    mem_free(words);
     return good ? LMN_OK : error_memory(error);
 }
 
@@ -343,12 +343,12 @@ static lmn_status read_stl(const import_job *job, lmn_error *error)
 {
     if (has_binary_size(job->file))
         return read_binary(job, error);
-    const char *text = (const char *)job->file->data;
+    const char *bytes = (const char *)job->file->data;
     if (is_text(job->file))
         return read_text(job, error);
     if (job->file->size >= HEADER_BYTES)
         return read_binary(job, error);
-    bool cut = job->file->size >= 5 && is_word(text, text + job->file->size, "solid");
+    bool cut = job->file->size >= 5 && is_word(bytes, bytes + job->file->size, "solid");
     error_in_file(error, LMN_FORMAT, job->path, 0,
                   cut ? "the file is cut off: text STL without a facet" : "the file has only %zu bytes, no STL is that short",
                   job->file->size);

@@ -55,17 +55,17 @@ static const char *own_name(const lmn_scene *s, int32_t index)
     return mesh_name && mesh_name[0] ? mesh_name : NULL;
 }
 
-static void append_cut(text *t, const char *part)
+static void append_cut(text *t, const char *step)
 {
-    size_t length = strlen(part);
+    size_t length = strlen(step);
     size_t room = t->size < PATH_BYTES_MAX ? PATH_BYTES_MAX - t->size : 0;
     if (length > room) {
         length = room;
         /* Never cut inside a UTF-8 character. */
-        while (length > 0 && ((unsigned char)part[length] & 0xC0) == 0x80)
+        while (length > 0 && ((unsigned char)step[length] & 0xC0) == 0x80)
             length--;
     }
-    text_append_bytes(t, part, length);
+    text_append_bytes(t, step, length);
 }
 
 /* Names from the root joined by '/'; nodes without a name in between are left out. */
