@@ -84,6 +84,11 @@ static void set_palette(gpu *g, const char *name, const palette *p)
     gpu_set_vec4_array(g, name, values[0], PALETTE_MAX);
 }
 
+static float float_of(const param *p, float value)
+{
+    return p->as_cosine ? cosf(value * (3.14159265f / 180)) : value;
+}
+
 void uniforms_set(gpu *g, param_set set)
 {
     for (size_t i = 0; i < set.count; i++) {
@@ -98,7 +103,7 @@ void uniforms_set(gpu *g, param_set set)
         case PARAM_INT:
         case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;
         case PARAM_BOOL: gpu_set_int(g, name, *(const bool *)field); break;
-        case PARAM_FLOAT: gpu_set_float(g, name, *(const float *)field); break;
+        case PARAM_FLOAT: gpu_set_float(g, name, float_of(p, *(const float *)field)); break;
         case PARAM_COLOUR:
             uniforms_linear(colour_of(set, p), linear);
             gpu_set_vec4(g, name, linear);

@@ -48,6 +48,7 @@ typedef struct param {
     bool               def_auto;
     const char        *auto_from;   /* colours: "auto" takes the value of this key */
     bool               logarithmic; /* slider curve */
+    bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               cpu_only;    /* no uniform */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */

@@ -6,7 +6,7 @@
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, crease, smooth;
+    float        step, crease, faint;
     bool         parts;
 } discontinuity;
 
@@ -14,10 +14,10 @@ static const param params[] = {
     PARAM_FLOAT_ROW(discontinuity, step, .def = 0.0006, .min = 0.00001, .max = 1, .soft_min = 0.0001, .soft_max = 0.1,
                     .unit = UNIT_SHARE, .logarithmic = true,
                     .doc = "Smallest depth step that is a profile line, as a share of the figure's depth range."),
-    PARAM_FLOAT_ROW(discontinuity, crease, .def = 38, .min = 1, .max = 179, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
-                    .doc = "Smallest angle between neighbouring normals that is an inner line."),
-    PARAM_FLOAT_ROW(discontinuity, smooth, .def = 6, .min = 0.1, .max = 60, .soft_max = 20, .unit = UNIT_DEGREES,
-                    .doc = "Range of angles below the crease angle in which inner lines fade in."),
+    PARAM_FLOAT_ROW(discontinuity, crease, .def = 38, .min = 0, .max = 180, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
+                    .as_cosine = true, .doc = "Angle between neighbouring normals from which on an inner line is fully drawn."),
+    PARAM_FLOAT_ROW(discontinuity, faint, .def = 32, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90, .unit = UNIT_DEGREES,
+                    .as_cosine = true, .doc = "Angle below which there is no inner line; between this and crease it fades in."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
 

@@ -32,8 +32,7 @@ vec3 pair(vec2 side, float before, float next, float behind_next, vec3 normal, f
     float excess = unexplained(slope_before, across, slope_behind);
     float nearness = across > 0.0 ? 1.0 : far_weight;
     vec3 other = towards_eye(neighbour(t_normal_depth, side).xyz, gl_FragCoord.xy + side);
-    float faint = cos(radians(max(u_line_crease - u_line_smooth, 0.0)));
-    float inner = (1.0 - smoothstep(cos(radians(u_line_crease)), faint, dot(normal, other))) * crease_weight;
+    float inner = clamp((u_line_faint - dot(normal, other)) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) * crease_weight;
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
     excess -= inner * 0.5 * max(abs(slope_before), abs(slope_behind));
