@@ -17,6 +17,21 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
   endif()
 endforeach()
 
+# The one C++ file, with its own warning flags.
+if(LIMNER_DRACO)
+  target_compile_definitions(limner_import PRIVATE LIMNER_HAVE_DRACO)
+  add_library(limner_draco OBJECT ${CMAKE_SOURCE_DIR}/src/import/draco.cpp)
+  set_target_properties(limner_draco PROPERTIES CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden COMPILE_OPTIONS "-Wall;-Wextra")
+  target_include_directories(limner_draco PRIVATE ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
+  target_include_directories(limner_draco SYSTEM PRIVATE ${DRACO_INCLUDE})
+  if(LIMNER_SANITIZE)
+    target_compile_options(limner_draco PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  endif()
+  target_link_libraries(limner PRIVATE limner_draco)
+  list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_draco>)
+  set(LIMNER_DRACO_LIBRARIES ${DRACO_LIBRARY} stdc++)
+endif()
+
 # Shaders and looks travel inside the library.
 file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/src/*.frag
      ${CMAKE_SOURCE_DIR}/src/*.vert ${CMAKE_SOURCE_DIR}/src/*.glsl ${CMAKE_SOURCE_DIR}/src/*.comp)
@@ -29,7 +44,7 @@ target_link_libraries(limner PRIVATE limner_embedded)
 list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 
 set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
-    PkgConfig::ASSIMP ${MESHOPTIMIZER_LIBRARY} Threads::Threads m ${CMAKE_DL_LIBS})
+    PkgConfig::ASSIMP ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)
 set_target_properties(limner PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)

@@ -11,6 +11,8 @@
 #define LIMIT_NODE_DEPTH      1024                /* of the node tree */
 #define LIMIT_IMAGE_SIDE      16384               /* pixels, a texture's width or height */
 #define LIMIT_IMAGE_PIXELS    ((size_t)1 << 28)
+#define LIMIT_SCENE_PIXELS    ((size_t)1 << 30)   /* of all textures of a scene */
+#define LIMIT_ELEMENTS        ((size_t)400000000) /* values read from glTF accessors, repeated use counted again */
 #define LIMIT_JSON_DEPTH      256
 #define LIMIT_POLYGON_CORNERS 65536               /* of one face in PLY or OBJ */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
