@@ -218,7 +218,7 @@ static void wrong_ply_is_explained(void **state)
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n", "x, y, z"},
         {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "out of range"},
         {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n", "expected a number"},
-        {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n", "cut off"},
+        {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n", "longer than the rest"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n" POINTS "end_header\n"
          "3 0 1 2\n", "before element"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\nend_header\n", "unknown type"},

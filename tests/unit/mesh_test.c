@@ -166,6 +166,8 @@ static void sphere_normals_are_radial(void **state)
         double d = (double)n.x * c.x + (double)n.y * c.y + (double)n.z * c.z;
         worst = d < worst ? d : worst;
     }
+    if (worst <= 0.9995)
+        print_error("worst: %g\n", worst);
     assert_true(worst > 0.9995);
     render_vertices_release(&r);
     primitive_release(&p);
