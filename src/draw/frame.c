@@ -138,7 +138,7 @@ static void set_common(frame *f, const figure_state *s)
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
     gpu_set_float(g, "u_near", (float)s->near);
     gpu_set_float(g, "u_far", (float)s->far);
-    if (gpu_has_uniform(g, "u_light_position")) /* not u_light_count: gooch asks for the key light alone */
+    if (gpu_has_uniform(g, "u_light_position"))
         set_lights(f);
 }
 

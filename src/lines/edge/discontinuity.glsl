@@ -10,7 +10,7 @@ float unexplained(float before, float across, float behind)
 {
     float low = min(before, behind), high = max(before, behind);
     float excess = max(low - across, across - high);
-    return excess - 0.5 * min(abs(before), abs(behind));
+    return excess - 0.5 * max(abs(before), abs(behind));
 }
 
 vec3 towards_eye(vec3 normal, vec2 pixel)
