@@ -100,34 +100,47 @@ static void add_file_lights(const frame *f, float positions[][4], float colours[
     }
 }
 
+typedef struct light_list {
+    float positions[LIGHTS_MAX][4], colours[LIGHTS_MAX][4];
+    int   count; /* at least 1 */
+} light_list;
+
+static light_list list_lights(const frame *f)
+{
+    light_list l = {.count = 0};
+    const scene_values *v = scene_of(f);
+    if (v->lights == LIGHTS_FILE)
+        add_file_lights(f, l.positions, l.colours, &l.count, v->light_scale);
+    if (l.count > 0)
+        return l;
+    static const float white[3] = {1, 1, 1};
+    double key[3] = {v->light_direction.x, v->light_direction.y, v->light_direction.z};
+    if (key[0] == 0 && key[1] == 0 && key[2] == 0)
+        key[2] = 1;
+    /* The light goes with the viewer, but what a mirror shows is lit as the scene itself is. */
+    double along = 0;
+    for (int k = 0; k < 3 && f->mirror_depth; k++)
+        along += key[k] * (double)f->clip_plane[k];
+    for (int k = 0; k < 3 && f->mirror_depth; k++)
+        key[k] -= 2 * along * (double)f->clip_plane[k];
+    double fill[3] = {-key[0], -0.3 * key[1], fabs(key[2]) + 0.2};
+    add_light(l.positions, l.colours, &l.count, key, 0, white, v->light_scale);
+    if (v->fill > 0)
+        add_light(l.positions, l.colours, &l.count, fill, 0, white, v->light_scale * v->fill);
+    return l;
+}
+
+static void declare_lights(text *prelude, const frame *f)
+{
+    light_list l = list_lights(f);
+    text_append(prelude, "#define LIGHT_COUNT %d\n", l.count);
+}
+
 static void set_lights(frame *f)
 {
-    float positions[LIGHTS_MAX][4], colours[LIGHTS_MAX][4];
-    memset(positions, 0, sizeof positions);
-    memset(colours, 0, sizeof colours);
-    const scene_values *v = scene_of(f);
-    int count = 0;
-    if (v->lights == LIGHTS_FILE)
-        add_file_lights(f, positions, colours, &count, v->light_scale);
-    if (count == 0) {
-        static const float white[3] = {1, 1, 1};
-        double key[3] = {v->light_direction.x, v->light_direction.y, v->light_direction.z};
-        if (key[0] == 0 && key[1] == 0 && key[2] == 0)
-            key[2] = 1;
-        /* The light goes with the viewer, but what a mirror shows is lit as the scene itself is. */
-        double along = 0;
-        for (int k = 0; k < 3 && f->mirror_depth; k++)
-            along += key[k] * (double)f->clip_plane[k];
-        for (int k = 0; k < 3 && f->mirror_depth; k++)
-            key[k] -= 2 * along * (double)f->clip_plane[k];
-        double fill[3] = {-key[0], -0.3 * key[1], fabs(key[2]) + 0.2};
-        add_light(positions, colours, &count, key, 0, white, v->light_scale);
-        if (v->fill > 0)
-            add_light(positions, colours, &count, fill, 0, white, v->light_scale * v->fill);
-    }
-    gpu_set_int(f->g, "u_light_count", count);
-    gpu_set_vec4_array(f->g, "u_light_position", positions[0], LIGHTS_MAX);
-    gpu_set_vec4_array(f->g, "u_light_colour", colours[0], LIGHTS_MAX);
+    light_list l = list_lights(f);
+    gpu_set_vec4_array(f->g, "u_light_position", l.positions[0], l.count);
+    gpu_set_vec4_array(f->g, "u_light_colour", l.colours[0], l.count);
 }
 
 static void set_common(frame *f, const figure_state *s)
@@ -310,6 +323,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
         text_append(&prelude, "#define CLIPPED\n");
     char path[320] = "layer/raster.frag";
     if (o.shade >= 0) {
+        declare_lights(&prelude, f);
         uniforms_declare(&prelude, own_set(KIND_SURFACE, surface));
         snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface);
     }
@@ -421,6 +435,7 @@ static void shade_deferred(frame *f, figure_state *s)
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     stopwatch w = watch_start(f);
     text prelude = {0};
+    declare_lights(&prelude, f);
     uniforms_declare(&prelude, own_set(KIND_SURFACE, surface));
     char path[160], *finished = text_take(&prelude);
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
