@@ -421,6 +421,33 @@ static void test_memory(void **state)
     json_set_alloc_funcs(malloc, free);
 }
 
+/* Damaged looks and keys give an error or a look, never a crash; what was parsed prints and parses again. */
+static void test_damage(void **state)
+{
+    (void)state;
+    static const char spice[] = "{}[]\",:-.0123456789eE\\ \ntfnulx\xff";
+    uint32_t random = 1;
+    for (int round = 0; round < 20000; round++) {
+        char json[sizeof two_rules], key[] = "wheels:lines[1].width";
+        lmn_look *look = NULL, *again = NULL;
+        memcpy(json, two_rules, sizeof json);
+        for (int i = 0; i < 1 + round % 3; i++) {
+            random = random * 1664525u + 1013904223u;
+            json[(random >> 8) % (sizeof json - 1)] = spice[(random >> 3) % (sizeof spice - 1)];
+            key[(random >> 9) % (sizeof key - 1)] = spice[(random >> 5) % (sizeof spice - 1)];
+        }
+        if (look_parse(&look, json, sizeof json - 1, "test.json", NULL) == LMN_OK) {
+            look_set(look, key, "3", NULL);
+            char *printed = lmn_look_json(look);
+            assert_non_null(printed);
+            assert_int_equal(lmn_look_parse(&again, printed, "again", NULL), LMN_OK);
+            mem_free(printed);
+        }
+        lmn_look_destroy(&look);
+        lmn_look_destroy(&again);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -429,6 +456,7 @@ int main(void)
         cmocka_unit_test(test_round_trip),  cmocka_unit_test(test_every_parameter_round_trips),
         cmocka_unit_test(test_set),         cmocka_unit_test(test_exchange),    cmocka_unit_test(test_set_refused),
         cmocka_unit_test(test_reference),   cmocka_unit_test(test_tables),      cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_damage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
