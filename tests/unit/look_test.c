@@ -99,6 +99,7 @@ static void test_wrong_files(void **state)
         {"{\"version\": 1, \"rules\": [{\"lines\": {\"operator\": 1}}]}", "text in quotes", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"select\": \"a,\"}]}", "selector 'a,'", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"select\": 1}]}", "select must be text", "", 1, -1},
+        {"{\"version\": 1, \"rules\": [{\"select\": \"a\"},\n {\"select\": \"b\"},\n {\"surfce\": 1}]}", "rules[2]: unknown key", "", 3, 3},
         {"{\"version\": 1, \"rules\": {}}", "array of rules", "", 1, -1},
         {"{\"version\": 1, \"rules\": [1]}", "rules[0]: must be an object", "", 1, 26},
         {"{\"version\": 1, \"scene\": {\"light_direction\": [0, 0, 0]}, \"rules\": [{}]}", "scene: light_direction is", "", 1, -1},
@@ -178,6 +179,7 @@ static void test_round_trip(void **state)
     assert_non_null(strstr(first, "\"crease_angle\": 45"));
     assert_null(strstr(first, "x-"));
     assert_null(strstr(first, "threshold"));
+    assert_null(strstr(first, "null"));
     lmn_look_destroy(&look);
     mem_free(first);
     mem_free(second);
@@ -255,6 +257,7 @@ static void test_exchange(void **state)
     assert_string_equal(look->rules[0].uses[KIND_LINES][0].technique->name, "sobel");
     assert_int_equal(lmn_look_set(look, "lines.operator", "saito", NULL), LMN_OK);
     assert_int_equal(look->rules[0].use_counts[KIND_LINES], 1);
+    assert_int_equal(look->rules[1].use_counts[KIND_LINES], 0);
     assert_int_equal(lmn_look_set(look, "1:lines.operator", "saito", NULL), LMN_OK);
     assert_int_equal(look->rules[1].use_counts[KIND_LINES], 1);
     assert_int_equal(lmn_look_set(look, "lines.operator", "none", NULL), LMN_OK);
@@ -265,6 +268,9 @@ static void test_exchange(void **state)
     assert_int_equal(look->rules[1].use_counts[KIND_LINES], 1);
     assert_int_equal(lmn_look_set(look, "surface.technique", "gooch", NULL), LMN_OK);
     assert_string_equal(look->rules[1].uses[KIND_SURFACE]->technique->name, "gooch");
+    /* a value that nobody set is the new technique's default, not the old one's */
+    const param *specular = kind_find_param(kinds[KIND_SURFACE], look->rules[1].uses[KIND_SURFACE]->technique, "specular");
+    assert_true(param_is_default(specular, look->rules[1].uses[KIND_SURFACE]->values));
     lmn_look_destroy(&look);
 }
 
