@@ -230,7 +230,8 @@ group_cancel() {
     row="draw with Ctrl-C"
     rows=1
     "$limner" draw "$gear" --frames 0:9999:24 -o 'f-{frame}.png' 2> .stderr &
-    sleep 2
+    local waited=0
+    until [ -e f-0000.png ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
     kill -INT $!
     wait $! || got=$?
     [ $got = 5 ] || complain "exit status $got, expected 5"
