@@ -33,7 +33,10 @@ void                 frame_set_common(frame *f, const figure_state *s);
 param_set            use_own_set(kind_id id, const technique_use *use);
 param_set            use_common_set(kind_id id, const technique_use *use);
 const technique_use *rule_inked_lines(const rule *r); /* the line technique that a composition inks, or NULL */
-bool                 rule_merges_lines(const rule *r); /* the composition detects the edges itself */
+const pass          *rule_merged_detection(const rule *r); /* the pass that the composition does itself, or NULL */
+/* Declares, or sets, the pictures that these passes read and that are there; either pass may be NULL. */
+void                 reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
+void                 reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
 void                 passes_run_kind(frame *f, figure_state *s, kind_id id);
 
 /* --- raster.c: the geometry pass --- */

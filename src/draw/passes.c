@@ -1,6 +1,7 @@
 /* Declared passes: programs from tables, pictures from the pool, in the order in which a technique lists them. */
 #include "draw/frame_private.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -54,9 +55,85 @@ static gpu_texture *target_of(const frame *f, const figure_state *s, target t)
     return t == TARGET_PAGE ? f->page : s->targets[t];
 }
 
+static bool pass_applies(kind_id id, const pass *p, const technique_use *use)
+{
+    const technique *t = use->technique;
+    const kind *k = kinds[id];
+    if (!p->when)
+        return true;
+    char key[32];
+    size_t length = strcspn(p->when, "=<>");
+    if (length >= sizeof key)
+        return false;
+    memcpy(key, p->when, length);
+    key[length] = '\0';
+    for (size_t i = 0; i < k->common_count; i++)
+        if (strcmp(k->common[i].key, key) == 0)
+            return params_condition(p->when, k->common, k->common_count, use->values);
+    return params_condition(p->when, t->params, t->param_count, use->values);
+}
+
+const pass *rule_merged_detection(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
+    if (!compose || !compose->technique->merges_when || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
+        !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
+        return NULL;
+    const pass *only = NULL;
+    for (size_t i = 0; i < lines->technique->pass_count; i++) {
+        const pass *p = &lines->technique->passes[i];
+        if (!pass_applies(KIND_LINES, p, lines))
+            continue;
+        if (only)
+            return NULL;
+        only = p;
+    }
+    return only;
+}
+
+/* The pictures of both passes, each once. Returns how many. */
+static int union_of_reads(const pass *a, const pass *b, target out[2 * PASS_READS_MAX])
+{
+    int count = 0;
+    for (int which = 0; which < 2; which++) {
+        const pass *p = which ? b : a;
+        for (int i = 0; p && i < PASS_READS_MAX && p->reads[i]; i++) {
+            bool known = false;
+            for (int k = 0; k < count; k++)
+                known = known || out[k] == p->reads[i];
+            if (!known)
+                out[count++] = p->reads[i];
+        }
+    }
+    return count;
+}
+
+void reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b)
+{
+    target reads[2 * PASS_READS_MAX];
+    int count = union_of_reads(a, b, reads);
+    for (int i = 0; i < count; i++)
+        if (target_of(f, s, reads[i]))
+            target_declare(prelude, reads[i]);
+    if (s->targets[TARGET_ID])
+        text_append(prelude, "#define HAS_ID\n");
+}
+
+void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
+{
+    target reads[2 * PASS_READS_MAX];
+    int count = union_of_reads(a, b, reads);
+    for (int i = 0; i < count; i++) {
+        /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
+        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE;
+        gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
+    }
+}
+
 typedef struct pass_params {
-    param_set sets[3];
-    size_t    count;
+    param_set   sets[4];
+    const pass *merged; /* line detection that this pass does too, or NULL */
+    size_t      count;
 } pass_params;
 
 static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
@@ -64,17 +141,19 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     text prelude = {0};
     for (size_t i = 0; i < params->count; i++)
         uniforms_declare(&prelude, params->sets[i]);
-    for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
-        if (target_of(f, s, p->reads[i]))
-            target_declare(&prelude, p->reads[i]);
-    if (s->targets[TARGET_EDGE])
+    reads_declare(&prelude, f, s, p, params->merged);
+    if (s->targets[TARGET_EDGE] || params->merged)
         text_append(&prelude, "#define HAS_LINES\n");
-    if (s->targets[TARGET_ID])
-        text_append(&prelude, "#define HAS_ID\n");
+    char path[160];
+    snprintf(path, sizeof path, "%s", p->shader);
+    if (params->merged) {
+        text_append(&prelude, "#define MERGED\n");
+        snprintf(path, sizeof path, "%s+%s", rule_inked_lines(s->figure->rule)->technique->detect, p->shader);
+    }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     char *finished = text_take(&prelude);
-    gpu_program *program = finished ? gpu_program_of(f->g, "gpu/screen.vert", p->shader, finished) : NULL;
+    gpu_program *program = finished ? gpu_program_of(f->g, "gpu/screen.vert", path, finished) : NULL;
     if (!finished)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(finished);
@@ -114,11 +193,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         gpu_set_int(f->g, "u_iteration", iteration);
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
-        for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++) {
-            /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
-            bool linear = p->reads[i] == TARGET_SHADE || p->reads[i] == TARGET_EDGE;
-            gpu_set_texture(f->g, target_name(p->reads[i]), target_of(f, s, p->reads[i]), linear);
-        }
+        reads_set(f, s, p, params->merged);
         gpu_draw_screen(f->g);
     }
     if (!page) {
@@ -129,32 +204,18 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     watch_stop(f, w, group, p->name);
 }
 
-static bool pass_applies(kind_id id, const pass *p, const technique_use *use)
-{
-    const technique *t = use->technique;
-    const kind *k = kinds[id];
-    if (!p->when)
-        return true;
-    char key[32];
-    size_t length = strcspn(p->when, "=<>");
-    if (length >= sizeof key)
-        return false;
-    memcpy(key, p->when, length);
-    key[length] = '\0';
-    for (size_t i = 0; i < k->common_count; i++)
-        if (strcmp(k->common[i].key, key) == 0)
-            return params_condition(p->when, k->common, k->common_count, use->values);
-    return params_condition(p->when, t->params, t->param_count, use->values);
-}
-
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use)
 {
     const technique *t = use->technique;
     pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
     const technique_use *lines = rule_inked_lines(s->figure->rule);
-    if (id == KIND_COMPOSE && lines)
+    if (id == KIND_COMPOSE && lines) {
         params.sets[params.count++] = use_common_set(KIND_LINES, lines);
+        params.merged = rule_merged_detection(s->figure->rule);
+        if (params.merged)
+            params.sets[params.count++] = use_own_set(KIND_LINES, lines);
+    }
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
         if (!pass_applies(id, p, use))
@@ -171,9 +232,8 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
     const kind *k = kinds[id];
-    const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
-    if (id == KIND_LINES && lines && compose && compose->technique->merges && lines->technique->detect && !f->maps)
-        return; /* the composition detects the edges itself */
+    if (id == KIND_LINES && !f->maps && rule_merged_detection(r))
+        return;
     for (size_t i = 0; i < r->use_counts[id]; i++) {
         const technique_use *use = &r->uses[id][i];
         run_use(f, s, id, use);

@@ -125,16 +125,13 @@ static void declare_outputs(text *prelude, outputs o)
 /* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */
 static void declare_ink(text *prelude, char *path, size_t size, const frame *f, const figure_state *s, const pass *inking)
 {
-    const technique_use *lines = rule_inked_lines(s->figure->rule), *compose = rule_use(s->figure->rule, KIND_COMPOSE);
-    bool merged = compose->technique->merges && lines->technique->detect;
+    const technique_use *lines = rule_inked_lines(s->figure->rule);
+    const pass *merged = rule_merged_detection(s->figure->rule);
     uniforms_declare(prelude, use_common_set(KIND_LINES, lines));
-    text_append(prelude, "#define INKED\n%s%s", merged ? "#define MERGED\n" : "", s->targets[TARGET_ID] ? "#define HAS_ID\n" : "");
+    text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
     if (merged)
         uniforms_declare(prelude, use_own_set(KIND_LINES, lines));
-    for (int i = 0; i < PASS_READS_MAX && inking->reads[i]; i++)
-        if (s->targets[inking->reads[i]])
-            target_declare(prelude, inking->reads[i]);
-    (void)f;
+    reads_declare(prelude, f, s, inking, merged);
     char joined[320];
     snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->detect : "", merged ? "+" : "", inking->shader, path);
     snprintf(path, size, "%s", joined);
@@ -170,8 +167,7 @@ static void set_ink(frame *f, const figure_state *s, const pass *inking)
     const technique_use *lines = rule_inked_lines(s->figure->rule);
     uniforms_set(f->g, use_common_set(KIND_LINES, lines));
     uniforms_set(f->g, use_own_set(KIND_LINES, lines));
-    for (int i = 0; i < PASS_READS_MAX && inking->reads[i]; i++)
-        gpu_set_texture(f->g, target_name(inking->reads[i]), s->targets[inking->reads[i]], false);
+    reads_set(f, s, inking, rule_merged_detection(s->figure->rule));
 }
 
 /* Draws the figure's parts (and its complement) into the current pass; with `inking`, lines on top and no complement. */
