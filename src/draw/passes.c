@@ -10,6 +10,7 @@ void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
     gpu_set_vec2(g, "u_size", (float)f->width, (float)f->height);
+    gpu_set_vec2(g, "u_texel", 1 / (float)f->width, 1 / (float)f->height);
     gpu_set_float(g, "u_perspective", f->camera.orthographic ? 0 : 1);
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
     gpu_set_float(g, "u_near", (float)s->near);
