@@ -186,6 +186,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
                            .clear = !page, .keep_depth = true};
         memcpy(target.clear_values[0], neutral(p->writes), 4 * sizeof(float));
         memcpy(target.scissor, s->pixels, sizeof target.scissor);
+        memcpy(target.clear_box, s->around, sizeof target.clear_box);
         gpu_pass_begin(f->g, &target);
         gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth,
                                            .blend = p->blend == BLEND_OVER ? GPU_BLEND_OVER
