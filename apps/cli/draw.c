@@ -341,10 +341,10 @@ static int worse_of(int a, int b)
     return a > b ? a : b;
 }
 
-/* Would the next picture fail for the same reason? */
+/* Would the next input fail for the same reason? A selection or a camera may be missing in this one alone. */
 static bool is_final(int status)
 {
-    return status != EXIT_DONE && status != EXIT_INPUT && status != EXIT_OUTPUT;
+    return status == EXIT_GL || status == EXIT_CANCELLED || status == EXIT_INTERNAL;
 }
 
 static int draw_scene(session *s, const char *const *paths, size_t count)
@@ -366,8 +366,8 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
     }
     place_eye(s, scene);
     s->progress.label = paths[0];
-    for (long i = s->frames.first; i <= s->frames.last && !is_final(status); i++)
-        status = worse_of(status, draw_picture(s, scene, paths[0], i, load_ms));
+    for (long i = s->frames.first; i <= s->frames.last && status == EXIT_DONE; i++)
+        status = draw_picture(s, scene, paths[0], i, load_ms);
     lmn_scene_destroy(&scene);
     return status;
 }

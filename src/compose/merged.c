@@ -4,11 +4,11 @@
 
 static const pass passes[] = {
     {.name = "merged", .shader = "lines/ink.glsl",
-     .reads = {TARGET_NORMAL_DEPTH, TARGET_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_EDGE}, .writes = TARGET_PAGE, .geometry = true},
+     .reads = {TARGET_DEPTH, TARGET_EDGE}, .writes = TARGET_PAGE, .geometry = true},
 };
 
 const technique compose_merged = {
     .name = "merged", .doc = "Detects edges while shading, on visible fragments only.",
     .example = "{\"compose\": \"merged\", \"lines\": \"four-tap\"}",
-    .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes), .merges = true,
+    .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes), .merges_when = "contrast=none",
 };

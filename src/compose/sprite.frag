@@ -35,6 +35,9 @@ void main()
         depth = 1.0;
 #endif
 #ifdef HAS_LINES
+#ifdef MERGED
+    detect_edges();
+#endif
     vec4 ink = ink_at(pixel);
     colour = over(ink, colour);
     int search = depth >= 1.0 && colour.a > 0.0 ? 1 : 0;

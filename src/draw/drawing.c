@@ -219,6 +219,7 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
     frame_draw(&s->frame, s->out);
     gpu_finish(s->renderer->g);
     d->frame_ms = now_ms() - start;
+    d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
     if (status == LMN_OK)
         status = read_pixels(d, s, error);

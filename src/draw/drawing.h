@@ -31,6 +31,7 @@ struct lmn_drawing {
     pass_time   times[PASS_TIMES_MAX];
     size_t      time_count;
     int         layers;
+    size_t      programs; /* compiled by the renderer so far */
 };
 
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);

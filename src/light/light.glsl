@@ -1,9 +1,9 @@
 /* The lights of the scene, as sums over all of them. */
 #include "light/point.glsl"
 
-uniform int  u_light_count;
-uniform vec4 u_light_position[8]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
-uniform vec4 u_light_colour[8];   /* linear */
+/* The number of lights is a constant, so that loops over them are unrolled: on a software driver they cost twice as much. */
+uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
+uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 
 vec3 towards_light(int i, vec3 eye)
 {
@@ -15,7 +15,7 @@ vec3 towards_light(int i, vec3 eye)
 vec3 diffuse_light(surface_point p)
 {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < 8 && i < u_light_count; i++)
+    for (int i = 0; i < LIGHT_COUNT; i++)
         sum += u_light_colour[i].rgb * max(dot(p.normal, towards_light(i, p.eye)), 0.0);
     return sum;
 }
@@ -25,7 +25,7 @@ float wrapped_light(surface_point p)
 {
     float sum = 0.0;
     float total = 0.0;
-    for (int i = 0; i < 8 && i < u_light_count; i++) {
+    for (int i = 0; i < LIGHT_COUNT; i++) {
         float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
         sum += strength * (0.5 * dot(p.normal, towards_light(i, p.eye)) + 0.5);
         total += strength;

@@ -116,28 +116,6 @@ lmn_status kind_missing_param(const kind *k, const technique *t, const char *key
     return status;
 }
 
-bool kind_condition(const char *condition, const kind *k, const technique_use *use)
-{
-    const technique *t = use->technique;
-    if (!condition)
-        return true;
-    /* A term names a parameter of one of the two tables; "!unknown" is false in the other, so either may answer. */
-    for (const char *at = condition;; at++) {
-        char term[96];
-        size_t length = strcspn(at, "&");
-        if (length >= sizeof term)
-            return false;
-        memcpy(term, at, length);
-        term[length] = '\0';
-        if (!params_condition(term, t->params, t->param_count, use->values) &&
-            !params_condition(term, k->common, k->common_count, use->values))
-            return false;
-        at += length;
-        if (!*at)
-            return true;
-    }
-}
-
 bool use_create(technique_use *out, const kind *k, const technique *t)
 {
     /* The rows decide too, so that a technique whose struct was declared too small cannot write behind it. */

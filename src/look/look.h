@@ -44,9 +44,6 @@ lmn_status kind_missing_param(const kind *k, const technique *t, const char *key
 /* Hints at the names of the kind's techniques. */
 void kind_hint_techniques(const kind *k, lmn_error *error);
 
-/* A condition of the technique (params_condition) over its own and the common parameters. */
-bool kind_condition(const char *condition, const kind *k, const technique_use *use);
-
 /* Makes a use with default values; false when memory is gone. */
 bool use_create(technique_use *out, const kind *k, const technique *t);
 void use_release(technique_use *use);

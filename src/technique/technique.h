@@ -56,7 +56,8 @@ typedef struct technique {
     const char  *detect;      /* line techniques of one pass: GLSL file with `void detect_edges()` */
     const pass  *passes;
     size_t       pass_count;
-    bool         merges;      /* compose: runs the line technique's `detect` itself instead of reading its map */
+    const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
+                               * technique's `detect` itself instead of reading its map; NULL: never */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
 } technique;

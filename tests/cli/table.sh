@@ -124,6 +124,7 @@ group_draw() {
     row 0 'drawn in [0-9]+ ms' 'x.png' draw "$gear" $small -o x.png --verbose
     row 1 'selector .a,. is wrong at character' '' draw "$gear" $small --select 'a,'
     row 1 'colour|background' '' draw "$gear" $small --background nosuch
+    row 1 "selection 'nosuch' matches none" '' draw "$gear" $small --select nosuch
     row 1 "camera" '' draw "$gear" $small --camera nosuch
     row 4 '^limner: nosuch/x.png: ' '' draw "$gear" $small -o nosuch/x.png
     row 4 '^limner: nosuch/r.json: ' 'x.png' draw "$gear" $small -o x.png --report nosuch/r.json
@@ -145,6 +146,7 @@ group_many() {
     row 2 '^limner: in-bad.stl:2: ' 'p-in-one.png p-in-two.png' draw in-one.stl in-bad.stl in-two.stl $small -o 'p-{name}.png'
     row 2 '^limner: in-none.stl: ' 'p-in-two.png' draw in-none.stl in-two.stl $small -o 'p-{name}.png'
     row 2 '^limner: in-bad.stl:2: ' '' draw in-one.stl in-bad.stl $small
+    row 1 'matches none' 'p-in-two.png' draw in-one.stl in-two.stl $small -o 'p-{name}.png' --select 'in-two*'
     row 0 '' 'x.png' draw in-one.stl in-two.stl $small -o x.png
     row 0 '' 'gearbox-0003.png gearbox-0004.png' draw "$gear" $small --frames 3:4:24
     row 0 '' '0000-gearbox.png' draw "$gear" $small --frames 0:0:24 -o '{frame}-{name}.png'
@@ -228,7 +230,8 @@ group_cancel() {
     row="draw with Ctrl-C"
     rows=1
     "$limner" draw "$gear" --frames 0:9999:24 -o 'f-{frame}.png' 2> .stderr &
-    sleep 2
+    local waited=0
+    until [ -e f-0000.png ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
     kill -INT $!
     wait $! || got=$?
     [ $got = 5 ] || complain "exit status $got, expected 5"

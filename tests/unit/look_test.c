@@ -99,6 +99,7 @@ static void test_wrong_files(void **state)
         {"{\"version\": 1, \"rules\": [{\"lines\": {\"operator\": 1}}]}", "text in quotes", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"select\": \"a,\"}]}", "selector 'a,'", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"select\": 1}]}", "select must be text", "", 1, -1},
+        {"{\"version\": 1, \"rules\": [{\"select\": \"a\"},\n {\"select\": \"b\"},\n {\"surfce\": 1}]}", "rules[2]: unknown key", "", 3, 3},
         {"{\"version\": 1, \"rules\": {}}", "array of rules", "", 1, -1},
         {"{\"version\": 1, \"rules\": [1]}", "rules[0]: must be an object", "", 1, 26},
         {"{\"version\": 1, \"scene\": {\"light_direction\": [0, 0, 0]}, \"rules\": [{}]}", "scene: light_direction is", "", 1, -1},
@@ -178,6 +179,7 @@ static void test_round_trip(void **state)
     assert_non_null(strstr(first, "\"crease_angle\": 45"));
     assert_null(strstr(first, "x-"));
     assert_null(strstr(first, "threshold"));
+    assert_null(strstr(first, "null"));
     lmn_look_destroy(&look);
     mem_free(first);
     mem_free(second);
@@ -255,6 +257,7 @@ static void test_exchange(void **state)
     assert_string_equal(look->rules[0].uses[KIND_LINES][0].technique->name, "sobel");
     assert_int_equal(lmn_look_set(look, "lines.operator", "saito", NULL), LMN_OK);
     assert_int_equal(look->rules[0].use_counts[KIND_LINES], 1);
+    assert_int_equal(look->rules[1].use_counts[KIND_LINES], 0);
     assert_int_equal(lmn_look_set(look, "1:lines.operator", "saito", NULL), LMN_OK);
     assert_int_equal(look->rules[1].use_counts[KIND_LINES], 1);
     assert_int_equal(lmn_look_set(look, "lines.operator", "none", NULL), LMN_OK);
@@ -265,6 +268,9 @@ static void test_exchange(void **state)
     assert_int_equal(look->rules[1].use_counts[KIND_LINES], 1);
     assert_int_equal(lmn_look_set(look, "surface.technique", "gooch", NULL), LMN_OK);
     assert_string_equal(look->rules[1].uses[KIND_SURFACE]->technique->name, "gooch");
+    /* a value that nobody set is the new technique's default, not the old one's */
+    const param *specular = kind_find_param(kinds[KIND_SURFACE], look->rules[1].uses[KIND_SURFACE]->technique, "specular");
+    assert_true(param_is_default(specular, look->rules[1].uses[KIND_SURFACE]->values));
     lmn_look_destroy(&look);
 }
 
@@ -421,6 +427,33 @@ static void test_memory(void **state)
     json_set_alloc_funcs(malloc, free);
 }
 
+/* Damaged looks and keys give an error or a look, never a crash; what was parsed prints and parses again. */
+static void test_damage(void **state)
+{
+    (void)state;
+    static const char spice[] = "{}[]\",:-.0123456789eE\\ \ntfnulx\xff";
+    uint32_t random = 1;
+    for (int round = 0; round < 20000; round++) {
+        char json[sizeof two_rules], key[] = "wheels:lines[1].width";
+        lmn_look *look = NULL, *again = NULL;
+        memcpy(json, two_rules, sizeof json);
+        for (int i = 0; i < 1 + round % 3; i++) {
+            random = random * 1664525u + 1013904223u;
+            json[(random >> 8) % (sizeof json - 1)] = spice[(random >> 3) % (sizeof spice - 1)];
+            key[(random >> 9) % (sizeof key - 1)] = spice[(random >> 5) % (sizeof spice - 1)];
+        }
+        if (look_parse(&look, json, sizeof json - 1, "test.json", NULL) == LMN_OK) {
+            look_set(look, key, "3", NULL);
+            char *printed = lmn_look_json(look);
+            assert_non_null(printed);
+            assert_int_equal(lmn_look_parse(&again, printed, "again", NULL), LMN_OK);
+            mem_free(printed);
+        }
+        lmn_look_destroy(&look);
+        lmn_look_destroy(&again);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -429,6 +462,7 @@ int main(void)
         cmocka_unit_test(test_round_trip),  cmocka_unit_test(test_every_parameter_round_trips),
         cmocka_unit_test(test_set),         cmocka_unit_test(test_exchange),    cmocka_unit_test(test_set_refused),
         cmocka_unit_test(test_reference),   cmocka_unit_test(test_tables),      cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_damage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,9 +14,9 @@ static const param params[] = {
     PARAM_FLOAT_ROW(discontinuity, step, .def = 0.0006, .min = 0.00001, .max = 1, .soft_min = 0.0001, .soft_max = 0.1,
                     .unit = UNIT_SHARE, .logarithmic = true,
                     .doc = "Smallest depth step that is a profile line, as a share of the figure's depth range."),
-    PARAM_FLOAT_ROW(discontinuity, crease, .def = 38, .min = 0, .max = 180, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
+    PARAM_FLOAT_ROW(discontinuity, crease, .def = 44, .min = 0, .max = 180, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
                     .as_cosine = true, .doc = "Angle between neighbouring normals from which on an inner line is fully drawn."),
-    PARAM_FLOAT_ROW(discontinuity, faint, .def = 32, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90, .unit = UNIT_DEGREES,
+    PARAM_FLOAT_ROW(discontinuity, faint, .def = 38, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90, .unit = UNIT_DEGREES,
                     .as_cosine = true, .doc = "Angle below which there is no inner line; between this and crease it fades in."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
