@@ -1,6 +1,7 @@
 /* A scene's memory: making, appending, freeing. */
 #include "scene/scene.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -10,6 +11,12 @@
 lmn_scene *scene_new(void)
 {
     return mem_calloc(1, sizeof(lmn_scene));
+}
+
+uint64_t scene_next_revision(void)
+{
+    static atomic_uint_fast64_t last;
+    return atomic_fetch_add(&last, 1) + 1;
 }
 
 /* Makes room for one more zeroed element and counts it. */

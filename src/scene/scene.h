@@ -181,7 +181,7 @@ struct lmn_scene {
     size_t     part_count;
     char     **files; /* paths as they were given, one per merged file */
     size_t     file_count, file_capacity;
-    uint64_t   revision; /* changes whenever the content does; never repeats within a process's scene */
+    uint64_t   revision; /* changes whenever the content does; no two contents of a process have the same */
     char       up;       /* 'y', 'z', or 0 while empty */
     bool       may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
     warnings   warnings;
@@ -214,6 +214,9 @@ void mesh_release(mesh *m);
 void primitive_release(primitive *p);
 /* Puts the primitives into the mesh's array; the mesh then owns what they hold. False when memory is gone. */
 bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
+
+/* A number that no other content of this process has had. Any thread. */
+uint64_t scene_next_revision(void);
 
 /* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
  * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
