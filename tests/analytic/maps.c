@@ -7,22 +7,8 @@
 #include "model.h"
 #include "trace.h"
 
-#define FLAT_LOOK(LINES)                                                                                               \
-    "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":"      \
-    "{\"technique\":\"flat\"}" LINES "}]}"
-
-static const char plain_flat[] = FLAT_LOOK("");
-static const char four_tap[] = FLAT_LOOK(",\"lines\":{\"operator\":\"four-tap\",\"gain\":1,\"width\":2}");
-static const char denormal[] = FLAT_LOOK(",\"lines\":{\"operator\":\"denormal\",\"gain\":1,\"width\":2}");
-
-/* Draws the shape written in a format; false (with a failed check) when that fails. */
-static bool take(shot *out, const shape *s, const char *file, const char *look, const char *const *changes, const shot_view *view)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s", check_path("%s", file));
-    bool saved = strstr(file, ".glb") ? model_write_glb(path, s) : strstr(file, ".stl") ? model_write_stl(path, s) : model_write_ply(path, s);
-    return check_that("files", saved, "%s is written", path) && saved && shot_take(out, path, look, changes, view);
-}
+static const char four_tap_lines[] = "{\"operator\":\"four-tap\",\"gain\":1,\"width\":2}";
+static const char denormal_lines[] = "{\"operator\":\"denormal\",\"gain\":1,\"width\":2}";
 
 /* Judges all three maps. Borders are known to a fraction of a pixel only: a pixel counts as inside when nothing changes around
  * it in either map. */
@@ -77,11 +63,11 @@ static void smooth_shapes(void)
         shape_torus(&torus, "torus", 1, 0.4, 96, 48);
         shape_terrain(&hills, "terrain", 2, 0.5, 64, 3);
         snprintf(title, sizeof title, "torus %zu", i);
-        if (take(&s, &torus, i == 1 ? "torus.glb" : "torus.ply", plain_flat, NULL, &views[i]))
+        if (shot_of_shape(&s, &torus, i == 1 ? "torus.glb" : "torus.ply", shot_line_look(NULL), NULL, &views[i]))
             compare(title, &s, &torus, 0.02, true);
         shot_release(&s);
         snprintf(title, sizeof title, "terrain %zu", i);
-        if (take(&s, &hills, "terrain.ply", four_tap, NULL, &views[i]))
+        if (shot_of_shape(&s, &hills, "terrain.ply", shot_line_look(four_tap_lines), NULL, &views[i]))
             compare(title, &s, &hills, 0.02, true);
         shot_release(&s);
         shape_release(&torus);
@@ -101,12 +87,12 @@ static void parts_and_placements(void)
         shape_box(&s3, "rod", dvec_of(-0.1, -1.4, -0.1), dvec_of(0.1, 1.4, 0.1));
         shape_place(&s3, dvec_of(0, 0, 1), 20, dvec_of(-0.4, 0, 0.2));
         snprintf(title, sizeof title, "three parts %zu", i);
-        if (take(&s, &s3, "parts.glb", plain_flat, NULL, &views[i]))
+        if (shot_of_shape(&s, &s3, "parts.glb", shot_line_look(NULL), NULL, &views[i]))
             compare(title, &s, &s3, 0.02, true);
         shot_release(&s);
         shape_box(&one, "base", dvec_of(-1, -0.6, -0.7), dvec_of(0.7, 0.5, 0.6));
         snprintf(title, sizeof title, "STL %zu", i);
-        if (take(&s, &one, "box.stl", plain_flat, NULL, &views[i]))
+        if (shot_of_shape(&s, &one, "box.stl", shot_line_look(NULL), NULL, &views[i]))
             compare(title, &s, &one, 0.02, true);
         shot_release(&s);
         shape_release(&s3);
@@ -129,7 +115,7 @@ static void made_normals(void)
         shape_box(&s, "box", dvec_of(-0.2, -1.3, -0.2), dvec_of(0.2, 1.3, 0.2));
         const char *changes[] = {"scene.crease_angle", angles[i].angle, NULL};
         snprintf(title, sizeof title, "crease angle %s", angles[i].angle);
-        if (take(&drawing, &s, "made.glb", plain_flat, changes, &views[0])) {
+        if (shot_of_shape(&drawing, &s, "made.glb", shot_line_look(NULL), changes, &views[0])) {
             shape_make_normals(&s, angles[i].degrees);
             compare(title, &drawing, &s, 0.02, true);
         }
@@ -153,7 +139,7 @@ static void depth_is_linear(void)
         shape_quad(&s, "far", 1.5, -1);
         shape_quad(&s, "middle", 0.8, 0);
         shape_quad(&s, "near", 0.3, 1);
-        if (take(&drawing, &s, "planes.glb", plain_flat, NULL, &view)) {
+        if (shot_of_shape(&drawing, &s, "planes.glb", shot_line_look(NULL), NULL, &view)) {
             check_near("P1", normalised(&drawing, 85, 70), 0.5, 1e-4, "a plane at half of the range");
             for (int i = 0; i < 200 * 200; i++) {
                 nearest = fmin(nearest, (double)drawing.depth[i]);
@@ -176,7 +162,7 @@ static void sphere_normals(void)
     shot  drawing;
     double worst = 0;
     shape_sphere(&s, "sphere", dvec_of(0, 0, 0), 1, 128, 256, true);
-    if (take(&drawing, &s, "sphere.ply", plain_flat, NULL, &views[0]))
+    if (shot_of_shape(&drawing, &s, "sphere.ply", shot_line_look(NULL), NULL, &views[0]))
         for (int i = 0; i < drawing.width * drawing.height; i++) {
             dvec origin, direction;
             shot_ray(&drawing, i % drawing.width + 0.5, i / drawing.width + 0.5, &origin, &direction);
@@ -199,7 +185,7 @@ static void background_and_coarse(void)
     shot  drawing;
     int   open = 0, border = 0, black = 0, inside = 0;
     shape_sphere(&s, "200", dvec_of(0, 0, 0), 1, 11, 10, true);
-    if (take(&drawing, &s, "coarse.ply", four_tap, NULL, &views[0]))
+    if (shot_of_shape(&drawing, &s, "coarse.ply", shot_line_look(four_tap_lines), NULL, &views[0]))
         for (int y = 1; y + 1 < drawing.height; y++)
             for (int x = 1; x + 1 < drawing.width; x++) {
                 int  i = y * drawing.width + x;
@@ -212,7 +198,7 @@ static void background_and_coarse(void)
     check_at_least("P2", border, 100, "pixels along the outline");
     check_at_most("P2", open, 0, "of them without a line (four-tap, combined)");
     shot_release(&drawing);
-    if (take(&drawing, &s, "coarse.ply", denormal, NULL, &views[0]))
+    if (shot_of_shape(&drawing, &s, "coarse.ply", shot_line_look(denormal_lines), NULL, &views[0]))
         for (int y = 3; y + 3 < drawing.height; y++)
             for (int x = 3; x + 3 < drawing.width; x++) {
                 bool deep = true;
@@ -238,10 +224,10 @@ static void capture_and_report(void)
     shape_place(&s, dvec_of(1, 0.4, 0), 70, dvec_of(0.1, 0.2, 0.1));
     for (size_t i = 0; i < 4; i++) {
         shot_view view = views[0];
-        if (!take(&with, &s, "capture.glb", looks[i], NULL, &view))
+        if (!shot_of_shape(&with, &s, "capture.glb", looks[i], NULL, &view))
             continue;
         view.without_maps = true;
-        if (take(&without, &s, "capture.glb", looks[i], NULL, &view)) {
+        if (shot_of_shape(&without, &s, "capture.glb", looks[i], NULL, &view)) {
             size_t differ = 0;
             for (int k = 0; k < with.width * with.height * 4; k++)
                 differ += with.picture[k] != without.picture[k];

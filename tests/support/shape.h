@@ -22,6 +22,7 @@ typedef struct shape_part {
     int       texture_size;         /* both are squares of this side */
 } shape_part;
 
+/* The tag is for headers that only pass shapes on. */
 typedef struct shape {
     shape_part *parts;
     size_t      count;

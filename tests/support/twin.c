@@ -48,8 +48,10 @@ void twin_sharpen(twin_map *m, double amount)
             depth[i] -= amount * m->depth[other];
         }
     }
-    twin_map_release(m);
-    *m = (twin_map){.width = m->width, .height = m->height, .normal = normal, .depth = depth};
+    free(m->normal);
+    free(m->depth);
+    m->normal = normal;
+    m->depth = depth;
 }
 
 void twin_bilinear(const twin_map *m, double x, double y, dvec *normal, double *depth)
