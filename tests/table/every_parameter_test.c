@@ -29,6 +29,7 @@ static const struct {
 } exceptions[] = {
     {"layers", "shading", "both ways give the same picture"},
     {"scene", "lights", "the scene has no lights of its own"},
+    {"lines", "taps", "both forms are the same sums"},
 };
 
 static bool is_exception(const kind *k, const param *p)
