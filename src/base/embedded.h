@@ -1,4 +1,5 @@
-/* Files that travel inside the library: shaders (paths below src/) and looks. Tables end in a row of zeros. */
+/* Files that travel inside the library: shaders (paths below src/) and looks (their names, without
+ * ending). Tables end in a row of zeros. */
 #ifndef LIMNER_BASE_EMBEDDED_H
 #define LIMNER_BASE_EMBEDDED_H
 

@@ -19,6 +19,7 @@
 #define LIMIT_POLYGON_CORNERS 65536               /* of one face in PLY or OBJ */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
 #define LIMIT_LOOK_RULES      256
+#define LIMIT_LOOK_TECHNIQUES 64                  /* of one kind in a rule */
 #define LIMIT_PICTURE_SIDE    16384               /* pixels, supersampling counted */
 #define LIMIT_IMPORT_SECONDS  120                 /* the child process that reads foreign formats */
 #define LIMIT_IMPORT_MEMORY   ((size_t)8 << 30)   /* its address space */

@@ -6,4 +6,6 @@
 
 extern const kind kind_compose;
 
+extern const technique compose_opaque, compose_superimpose, compose_merged;
+
 #endif

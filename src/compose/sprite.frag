@@ -9,7 +9,7 @@ layout(location = 0) out vec4 out_0;
 float neighbour_depth(ivec2 pixel)
 {
     ivec2 last = ivec2(u_size) - 1;
-    int reach = max(int(ceil(0.5 * u_width + float(CONTRAST))), 1);
+    int reach = max(int(ceil(0.5 * u_line_width + float(CONTRAST))), 1);
     float least = 1.0;
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
@@ -35,6 +35,9 @@ void main()
         depth = 1.0;
 #endif
 #ifdef HAS_LINES
+#ifdef MERGED
+    detect_edges();
+#endif
     vec4 ink = ink_at(pixel);
     colour = over(ink, colour);
     int search = depth >= 1.0 && colour.a > 0.0 ? 1 : 0;

@@ -1,6 +1,7 @@
 /* The context: EGL without a surface, so that no display is needed. */
 #include "gpu/gpu_private.h"
 
+#include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,9 +56,20 @@ uint64_t gpu_draw_count(const gpu *g)
 static lmn_status no_gl(gpu **g, lmn_error *error, const char *what)
 {
     lmn_status status = error_set(error, LMN_GL, "no usable OpenGL: %s", what);
-    error_hint(error, "install Mesa's software driver: apt-get install libegl1 libgl1-mesa-dri; `limner doctor` tells more");
+    error_hint(error, "install Mesa's software driver: apt-get install libegl1 libopengl0 libgl1-mesa-dri; `limner doctor` tells more");
     gpu_destroy(g);
     return status;
+}
+
+/* libepoxy ends the process when a library is missing, so that is found out first. */
+static bool library_is_there(const char *const *names)
+{
+    for (; *names; names++) {
+        void *handle = dlopen(*names, RTLD_LAZY | RTLD_LOCAL);
+        if (handle)
+            return true; /* stays open: it is needed anyway */
+    }
+    return false;
 }
 
 static EGLDisplay open_display(void)
@@ -130,8 +142,13 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
     gpu *g = mem_calloc(1, sizeof *g);
     if (!g)
         return error_memory(error);
-    g->display = open_display();
     g->context = EGL_NO_CONTEXT;
+    if (!library_is_there((const char *const[]){"libEGL.so.1", NULL}))
+        return no_gl(&g, error, "libEGL.so.1 is not installed");
+    if (!library_is_there(es ? (const char *const[]){"libGLESv2.so.2", NULL}
+                             : (const char *const[]){"libOpenGL.so.0", "libGL.so.1", NULL}))
+        return no_gl(&g, error, es ? "libGLESv2.so.2 is not installed" : "libOpenGL.so.0 is not installed");
+    g->display = open_display();
     EGLint major = 0, minor = 0;
     if (g->display == EGL_NO_DISPLAY || !eglInitialize(g->display, &major, &minor)) {
         g->display = EGL_NO_DISPLAY;

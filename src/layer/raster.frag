@@ -27,6 +27,11 @@ void main()
     if (dot(u_clip_plane.xyz, v_eye) + u_clip_plane.w < 0.0)
         discard;
 #endif
+#ifdef MERGED
+    /* Early z reject by hand: only what the first pass left visible goes through edge detection. */
+    if (gl_FragCoord.z > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r)
+        discard;
+#endif
     vec4 albedo = model_colour();
 #ifdef CUT_OUT
     if (albedo.a < u_alpha_cutoff)
@@ -49,5 +54,11 @@ void main()
     facing *= sign(-dot(facing, u_perspective > 0.5 ? v_eye : vec3(0.0, 0.0, -1.0)));
     vec3 seen = dot(facing, normal) < 0.0 ? -normal : normal;
     out_shade = surface_colour(surface_point(v_eye, seen, albedo, u_unlit != 0));
+#ifdef MERGED
+    detect_edges();
+#endif
+#ifdef INKED
+    out_shade = over(ink_at(ivec2(gl_FragCoord.xy)), out_shade);
+#endif
 #endif
 }

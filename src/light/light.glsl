@@ -1,9 +1,9 @@
 /* The lights of the scene, as sums over all of them. */
 #include "light/point.glsl"
 
-uniform int  u_light_count;
-uniform vec4 u_light_position[8]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
-uniform vec4 u_light_colour[8];   /* linear */
+/* The number of lights is a constant, so that loops over them are unrolled: on a software driver they cost twice as much. */
+uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
+uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 
 vec3 towards_light(int i, vec3 eye)
 {
@@ -15,7 +15,7 @@ vec3 towards_light(int i, vec3 eye)
 vec3 diffuse_light(surface_point p)
 {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < 8 && i < u_light_count; i++)
+    for (int i = 0; i < LIGHT_COUNT; i++)
         sum += u_light_colour[i].rgb * max(dot(p.normal, towards_light(i, p.eye)), 0.0);
     return sum;
 }
@@ -25,7 +25,7 @@ float wrapped_light(surface_point p)
 {
     float sum = 0.0;
     float total = 0.0;
-    for (int i = 0; i < 8 && i < u_light_count; i++) {
+    for (int i = 0; i < LIGHT_COUNT; i++) {
         float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
         sum += strength * (0.5 * dot(p.normal, towards_light(i, p.eye)) + 0.5);
         total += strength;
@@ -33,16 +33,11 @@ float wrapped_light(surface_point p)
     return total > 0.0 ? sum / total : 0.0;
 }
 
-/* Phong's highlight of the brightest light: reflected light direction against the viewer's. */
+/* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one
+ * shape read as two materials. */
 float highlight(surface_point p, float shininess)
 {
-    vec3 viewer = towards_viewer(p.eye);
-    float best = 0.0;
-    for (int i = 0; i < 8 && i < u_light_count; i++) {
-        vec3 light = towards_light(i, p.eye);
-        float facing = step(0.0, dot(p.normal, light));
-        float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
-        best = max(best, strength * facing * pow(max(dot(reflect(-light, p.normal), viewer), 0.0), shininess));
-    }
-    return best;
+    vec3 light = towards_light(0, p.eye);
+    float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
+    return strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
 }

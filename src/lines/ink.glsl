@@ -1,10 +1,17 @@
 /* Ink of the edge map at a pixel, premultiplied. Seed 000, section 4.4: intensities blend between line and surface colour, each
  * class with a colour of its own. */
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
 uniform vec2 u_size;
+#endif
 
 vec4 edge_at(ivec2 pixel)
 {
+#ifdef MERGED
+    return out_edge;
+#else
     return texelFetch(t_edge, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0);
+#endif
 }
 
 vec4 over(vec4 front, vec4 back)
@@ -14,9 +21,9 @@ vec4 over(vec4 front, vec4 back)
 
 vec4 ink_of(vec4 edge, vec4 colour, vec4 inner_colour, vec4 id_colour)
 {
-    float profile = clamp((1.0 - edge.r) * u_profile_weight, 0.0, 1.0) * colour.a;
-    float inner = clamp((1.0 - edge.g) * u_inner_weight, 0.0, 1.0) * inner_colour.a;
-    float id = clamp((1.0 - edge.a) * u_id_weight, 0.0, 1.0) * id_colour.a;
+    float profile = clamp((1.0 - edge.r) * u_line_profile_weight, 0.0, 1.0) * colour.a;
+    float inner = clamp((1.0 - edge.g) * u_line_inner_weight, 0.0, 1.0) * inner_colour.a;
+    float id = clamp((1.0 - edge.a) * u_line_id_weight, 0.0, 1.0) * id_colour.a;
     vec4 ink = vec4(inner_colour.rgb, 1.0) * inner;
     ink = over(vec4(id_colour.rgb, 1.0) * id, ink);
     return over(vec4(colour.rgb, 1.0) * profile, ink);
@@ -33,26 +40,26 @@ float lightness(vec3 colour)
 vec4 ink_at(ivec2 pixel)
 {
     vec4 edge = edge_at(pixel);
-    vec4 ink = ink_of(edge, u_colour, u_inner_colour, u_id_colour);
+    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour);
 #if CONTRAST == 1
     /* Seed 001, section 8.6.1: the same contour once more in the second colour, moved; the first lies on top. */
-    ivec2 moved = ivec2(floor(vec2(u_offset_x, -u_offset_y) + 0.5));
-    ink = over(ink, ink_of(edge_at(pixel - moved), u_light_colour, u_light_colour, u_light_colour));
+    ivec2 moved = ivec2(floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5));
+    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour));
 #elif CONTRAST == 2
     /* Section 8.6.2: dark on light ground and light on dark, by the blurred picture; where the picture shows the edge by itself the
      * line may be left out. */
     float ground = lightness(texelFetch(t_ground, pixel, 0).rgb);
-    float light_distance = abs(lightness(u_light_colour.rgb) - ground);
-    float dark_distance = abs(lightness(u_colour.rgb) - ground);
+    float light_distance = abs(lightness(u_line_light_colour.rgb) - ground);
+    float dark_distance = abs(lightness(u_line_colour.rgb) - ground);
     if (light_distance > dark_distance)
-        ink = ink_of(edge, u_light_colour, u_light_colour, u_light_colour);
-    if (u_suppress > 0.0) {
+        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour);
+    if (u_line_suppress > 0.0) {
         ivec2 reach = ivec2(2, 0);
         float across = lightness(texelFetch(t_shade, clamp(pixel + reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
                        lightness(texelFetch(t_shade, clamp(pixel - reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb);
         float up = lightness(texelFetch(t_shade, clamp(pixel + reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
                    lightness(texelFetch(t_shade, clamp(pixel - reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb);
-        ink *= 1.0 - smoothstep(u_suppress, u_suppress + 0.1, max(abs(across), abs(up)));
+        ink *= 1.0 - smoothstep(u_line_suppress, u_line_suppress + 0.1, max(abs(across), abs(up)));
     }
 #elif CONTRAST == 3
     /* Section 8.6.1's open wish: the second line on the outer side, which the gradient of depth points to. */
@@ -63,8 +70,8 @@ vec4 ink_at(ivec2 pixel)
                             texelFetch(t_depth, clamp(pixel - ivec2(0, 2), ivec2(0), last), 0).r);
     float size = length(outward);
     vec2 unit = size > 1e-7 ? outward / size : vec2(0.0);
-    ivec2 moved = ivec2(floor(unit * max(u_width, 1.0) + 0.5));
-    ink = over(ink, ink_of(edge_at(pixel - moved), u_light_colour, u_light_colour, u_light_colour));
+    ivec2 moved = ivec2(floor(unit * max(u_line_width, 1.0) + 0.5));
+    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour));
 #endif
     return ink;
 }

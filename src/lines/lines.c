@@ -45,8 +45,11 @@ static const technique *const techniques[] = {
     &lines_id,            &lines_colour,
 };
 
+static const pass ink = {.name = "ink", .shader = "lines/ink.frag", .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_GROUND, TARGET_DEPTH},
+                         .writes = TARGET_SHADE};
+
 const kind kind_lines = {
     .id = KIND_LINES, .name = "lines", .doc = "Where lines are, and how they are inked.",
     .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = NULL,
-    .selector_key = "operator", .array = true, .common = common, .common_count = PARAM_COUNT(common),
+    .selector_key = "operator", .array = true, .common = common, .common_count = PARAM_COUNT(common), .fold = &ink,
 };

@@ -24,8 +24,39 @@ struct lmn_look {
 /* All kinds in drawing order, KIND_COUNT of them, index = kind_id. */
 extern const kind *const kinds[KIND_COUNT];
 
-/* The parameter with this key of a technique of a kind (its own or a common one); NULL when there is none. */
-const param *kind_find_param(const kind *k, const technique *t, const char *key);
+/* The parameter with this key (or the key it had before) of a technique of a kind, its own or a common one; NULL when there
+ * is none. */
+const param     *kind_find_param(const kind *k, const technique *t, const char *key);
 const technique *kind_find_technique(const kind *k, const char *name);
+const kind      *kind_find(const char *name);
+
+/* Are this kind's uses optional, so that "none" may be said? */
+bool kind_may_be_none(const kind *k);
+
+/* All parameters of a technique, common ones first; index < kind_param_count. */
+size_t       kind_param_count(const kind *k, const technique *t);
+const param *kind_param_at(const kind *k, const technique *t, size_t index);
+
+/* Errors with a helpful text, all LMN_USAGE: a technique or a parameter that does not exist. The latter names the techniques
+ * of the kind that have it. */
+lmn_status kind_unknown_technique(const kind *k, const char *name, lmn_error *error);
+lmn_status kind_missing_param(const kind *k, const technique *t, const char *key, lmn_error *error);
+/* Hints at the names of the kind's techniques. */
+void kind_hint_techniques(const kind *k, lmn_error *error);
+
+/* Makes a use with default values; false when memory is gone. */
+bool use_create(technique_use *out, const kind *k, const technique *t);
+void use_release(technique_use *use);
+
+enum { LOOK_VERSION = 1 };
+
+/* See limner/look.h; these are what the public functions forward to. */
+lmn_status  look_load(lmn_look **out, const char *name_or_path, lmn_error *error);
+lmn_status  look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_error *error);
+void        look_destroy(lmn_look **look);
+lmn_status  look_set(lmn_look *look, const char *key, const char *value, lmn_error *error);
+char       *look_json(const lmn_look *look);
+const char *look_name_at(size_t index);
+lmn_status  look_reference_json(char **out, const char *name_or_path, lmn_error *error);
 
 #endif

@@ -3,6 +3,8 @@
  *   Truck/\*\/Axle glob on the path (it contains '/')
  *   [key]        has the attribute      [key=glob]    and its value matches; [material=glob] and [id=N] are built in
  *   a, b         either                 a [key=x]     both          !a   not
+ * Quotes keep blanks and commas: "Front Axle", [material="a, b"]. '*' and '?' work inside quotes too, and '*' also runs
+ * over '/'. An attribute of a node holds for what is below it.
  */
 #ifndef LIMNER_LOOK_SELECTOR_H
 #define LIMNER_LOOK_SELECTOR_H

@@ -1,7 +1,10 @@
 #include "light/light.glsl"
 
 uniform sampler2D t_reflection;
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
 uniform vec2 u_size;
+#endif
 
 /* The mirrored scene was drawn with the same projection, so it is looked up at the same pixel. */
 vec4 surface_colour(surface_point p)

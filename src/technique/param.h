@@ -48,6 +48,7 @@ typedef struct param {
     bool               def_auto;
     const char        *auto_from;   /* colours: "auto" takes the value of this key */
     bool               logarithmic; /* slider curve */
+    bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               cpu_only;    /* no uniform */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
@@ -69,10 +70,16 @@ typedef struct param {
 const char *param_type_text(param_type type); /* "int", "float", … */
 const char *param_unit_text(param_unit unit); /* "", "px", "deg", "count", "share" */
 
+/* The size of a field of this type. */
+size_t param_size(param_type type);
+
+/* The allowed range of a number in words, "0 to 64 px"; 128 characters suffice. */
+void param_print_range(const param *p, char *out, size_t size);
+
 /* Fills the fields of `values` with the defaults. */
 void params_set_defaults(const param *params, size_t count, void *values);
 
-/* Sets one field from text. Errors: LMN_USAGE, the message names key, value and range. */
+/* Sets one field from text. Errors (the field is unchanged): LMN_USAGE, the message names key, value and range. */
 lmn_status param_set_text(const param *p, void *values, const char *text, lmn_error *error);
 
 /* The field as text that param_set_text takes. `out` holds `size` characters (128 suffice). */
@@ -80,11 +87,15 @@ void param_print(const param *p, const void *values, char *out, size_t size);
 
 bool param_is_default(const param *p, const void *values);
 
+/* Holds the field "auto"? Inside that is NaN in the first component; only numbers, colours and directions can. */
+bool param_is_auto(const param *p, const void *values);
+
 /* Reads as numbers whatever the type: the field's address. */
 const void *param_field(const param *p, const void *values);
 
-/* Does the condition hold for these values? NULL always holds. "key" (not zero), "key=name", "key>number", "key<number";
- * several joined by '&' must all hold. */
+/* Does the condition hold for these values? NULL always holds, an unknown key never does. "key" (not 0, not transparent, not
+ * auto), "!key", "key=text" (prints as this text), "key>number", "key<number" (of an enum its index); several joined by '&'
+ * must all hold. */
 bool params_condition(const char *condition, const param *params, size_t count, const void *values);
 
 #endif

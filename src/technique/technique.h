@@ -40,6 +40,7 @@ typedef struct pass {
     target      writes;
     pass_blend  blend;
     bool        depth;  /* test and write gl_FragDepth against the page (a depth sprite) */
+    bool        geometry; /* draws the figure's parts again, shaded and inked by the shader file's ink_at, instead of a full screen */
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
 } pass;
@@ -50,9 +51,13 @@ typedef struct technique {
     const param *params;
     size_t       param_count, params_size;
     unsigned     channels;    /* of channel, that its passes read */
+    unsigned     part_channels; /* the same, needed only when the figure has several parts */
     const char  *surface;     /* surface techniques: GLSL file with `vec4 surface_colour(surface_point p)` */
+    const char  *detect;      /* line techniques of one pass: GLSL file with `void detect_edges()` */
     const pass  *passes;
     size_t       pass_count;
+    const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
+                               * technique's `detect` itself instead of reading its map; NULL: never */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
 } technique;
@@ -60,8 +65,8 @@ typedef struct technique {
 typedef enum kind_id {
     KIND_SCENE,   /* look-wide: light and geometry preparation */
     KIND_LAYERS,
-    KIND_LINES,
     KIND_SURFACE,
+    KIND_LINES,
     KIND_COMPOSE,
     KIND_FINISH,  /* look-wide: the sheet */
     KIND_COUNT
@@ -80,6 +85,7 @@ typedef struct kind {
     bool                    array;        /* a rule may hold several, drawn in order */
     const param            *common;
     size_t                  common_count;
+    const pass             *fold; /* array kinds: drawn after each use but the last, to take its result into the picture */
 } kind;
 
 /* A technique with values for its parameters. */

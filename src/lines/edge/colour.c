@@ -12,7 +12,7 @@ static const param params[] = {
 };
 
 static const pass passes[] = {
-    {.name = "edges", .shader = "lines/edge/colour.frag", .reads = {TARGET_ALBEDO}, .writes = TARGET_EDGE},
+    {.name = "edges", .shader = "lines/edge/colour.glsl+lines/edge/detect.frag", .reads = {TARGET_ALBEDO}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
@@ -20,5 +20,5 @@ const technique lines_colour = {
     .name = "colour", .doc = "Sobel gradient of the unlit colour.",
     .example = "{\"lines\": {\"operator\": \"colour\"}, \"surface\": \"textured\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(colour_edges),
-    .channels = CHANNEL_ALBEDO, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_ALBEDO, .detect = "lines/edge/colour.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
 };

@@ -5,7 +5,7 @@
 void main()
 {
     vec4 mean = texture(t_edge, (gl_FragCoord.xy + 0.5) / u_size);
-    float smooth_length = dot(mean.xyz, mean.xyz) + u_tolerance;
+    float smooth_length = dot(mean.xyz, mean.xyz) + u_line_tolerance;
     float inner = 1.0 - 4.0 * (1.0 - smooth_length);
     float profile = 1.0;
 #if DEPTH
@@ -15,7 +15,7 @@ void main()
         float d = texel(t_edge, ivec2(gl_FragCoord.xy) + ivec2(i & 1, i >> 1)).w * 3.14159265;
         sum += 0.25 * vec2(cos(d), sin(d));
     }
-    profile = 1.0 - 4.0 * (1.0 - (dot(sum, sum) + u_tolerance));
+    profile = 1.0 - 4.0 * (1.0 - (dot(sum, sum) + u_line_tolerance));
 #endif
     write_edges(profile, inner, 1.0);
 }

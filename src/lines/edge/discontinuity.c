@@ -6,7 +6,7 @@
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, crease, smooth;
+    float        step, crease, faint;
     bool         parts;
 } discontinuity;
 
@@ -14,16 +14,16 @@ static const param params[] = {
     PARAM_FLOAT_ROW(discontinuity, step, .def = 0.0006, .min = 0.00001, .max = 1, .soft_min = 0.0001, .soft_max = 0.1,
                     .unit = UNIT_SHARE, .logarithmic = true,
                     .doc = "Smallest depth step that is a profile line, as a share of the figure's depth range."),
-    PARAM_FLOAT_ROW(discontinuity, crease, .def = 38, .min = 1, .max = 179, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
-                    .doc = "Smallest angle between neighbouring normals that is an inner line."),
-    PARAM_FLOAT_ROW(discontinuity, smooth, .def = 6, .min = 0.1, .max = 60, .soft_max = 20, .unit = UNIT_DEGREES,
-                    .doc = "Range of angles below the crease angle in which inner lines fade in."),
+    PARAM_FLOAT_ROW(discontinuity, crease, .def = 44, .min = 0, .max = 180, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
+                    .as_cosine = true, .doc = "Angle between neighbouring normals from which on an inner line is fully drawn."),
+    PARAM_FLOAT_ROW(discontinuity, faint, .def = 38, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90, .unit = UNIT_DEGREES,
+                    .as_cosine = true, .doc = "Angle below which there is no inner line; between this and crease it fades in."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "edges", .shader = "lines/edge/discontinuity.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
+    {.name = "edges", .shader = "lines/edge/discontinuity.glsl+lines/edge/detect.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
@@ -32,5 +32,5 @@ const technique lines_discontinuity = {
     .name = "discontinuity", .doc = "Steps of depth that no slope explains, creases by angle, and part borders.",
     .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(discontinuity),
-    .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID, .detect = "lines/edge/discontinuity.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
 };

@@ -1,9 +1,16 @@
 /* What edge operators share. Edge map: R profile, G inner, B both, A id; 1 = no edge. */
+#ifdef MERGED
+vec4 out_edge;
+#else
 layout(location = 0) out vec4 out_edge;
+#endif
 
 uniform float u_near; /* of the figure, eye depth */
 uniform float u_far;
-uniform vec2  u_size;
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
 
 /* Normalised linear depth, 0 at the figure's near plane, 1 at its far plane and where nothing is. */
 float normalised(float depth)
@@ -14,7 +21,7 @@ float normalised(float depth)
 /* An intensity after threshold and gain; at threshold 0 and gain 1 only clamped. */
 float emphasised(float intensity)
 {
-    return 1.0 - clamp((1.0 - intensity - u_threshold) * u_gain, 0.0, 1.0);
+    return 1.0 - clamp((1.0 - intensity - u_line_threshold) * u_line_gain, 0.0, 1.0);
 }
 
 void write_edges(float profile, float inner, float id)
@@ -22,6 +29,12 @@ void write_edges(float profile, float inner, float id)
     profile = emphasised(profile);
     inner = emphasised(inner);
     out_edge = vec4(profile, inner, profile * inner, emphasised(id));
+}
+
+/* The texel `off` pixels from this one, clamped at the border by the sampler, which costs less than fetching by index. */
+vec4 neighbour(sampler2D map, vec2 off)
+{
+    return textureLod(map, (gl_FragCoord.xy + off) / u_size, 0.0);
 }
 
 vec4 texel(sampler2D map, ivec2 at)

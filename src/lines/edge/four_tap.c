@@ -13,7 +13,7 @@ static const param params[] = {
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "edges", .shader = "lines/edge/four_tap.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
+    {.name = "edges", .shader = "lines/edge/four_tap.glsl+lines/edge/detect.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
@@ -21,5 +21,5 @@ const technique lines_four_tap = {
     .name = "four-tap", .doc = "Depth and normal differences of two diagonal sample pairs.",
     .example = "{\"lines\": {\"operator\": \"four-tap\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(four_tap),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/four_tap.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
 };

@@ -13,5 +13,5 @@ void main()
             if (x != 0 || y != 0)
                 sum += texelFetch(t_normal_depth, clamp(pixel + ivec2(x, y), ivec2(0), last), 0);
     vec4 centre = texelFetch(t_normal_depth, pixel, 0);
-    out_0 = centre * (1.0 + 8.0 * u_sharpen) - u_sharpen * sum;
+    out_0 = centre * (1.0 + 8.0 * u_line_sharpen) - u_line_sharpen * sum;
 }

@@ -16,7 +16,7 @@ static const param params[] = {
 
 static const pass plain_passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "edges", .shader = "lines/edge/saito.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
+    {.name = "edges", .shader = "lines/edge/saito.glsl+lines/edge/detect.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
@@ -24,7 +24,7 @@ const technique lines_saito = {
     .name = "saito", .doc = "First-order profiles and second-order inner lines of the depth buffer.",
     .example = "{\"lines\": {\"operator\": \"saito\", \"gain\": 8}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(saito),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = plain_passes, .pass_count = PARAM_COUNT(plain_passes),
+    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/saito.glsl", .passes = plain_passes, .pass_count = PARAM_COUNT(plain_passes),
 };
 
 typedef struct saito_normalised {

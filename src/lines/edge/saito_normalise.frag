@@ -15,7 +15,7 @@ void main()
         }
     vec2 own = texel(t_edge, pixel).rg;
     float rise = greatest - least;
-    float profile = greatest > u_floor ? (rise / greatest) * min(greatest / u_jump, 1.0) : 0.0;
-    float inner = greatest >= u_jump ? 0.0 : clamp(abs(own.y) / max(u_jump, 1e-6), 0.0, 1.0);
+    float profile = greatest > u_line_floor ? (rise / greatest) * min(greatest / u_line_jump, 1.0) : 0.0;
+    float inner = greatest >= u_line_jump ? 0.0 : clamp(abs(own.y) / max(u_line_jump, 1e-6), 0.0, 1.0);
     write_edges(1.0 - profile, 1.0 - inner, 1.0);
 }

@@ -11,7 +11,7 @@ vec4 at(vec2 off)
     return value;
 }
 
-void main()
+void detect_edges()
 {
     vec4 across, up;
 #if TAPS == 0

@@ -4,16 +4,19 @@
 
 vec4 tap(vec2 off)
 {
-#ifdef WHOLE_OFFSET
-    return texel(t_normal_depth, ivec2(gl_FragCoord.xy + off));
-#else
-    return bilinear(t_normal_depth, gl_FragCoord.xy + off);
-#endif
+    vec4 value = vec4(0.0);
+    /* Loops instead of branches: software drivers skip these, and the bilinear sample costs four texels. */
+    int whole = fract(off.x) == 0.0 ? 1 : 0;
+    for (int once = 0; once < whole; once++)
+        value = texel(t_normal_depth, ivec2(gl_FragCoord.xy + off));
+    for (int once = whole; once < 1; once++)
+        value = bilinear(t_normal_depth, gl_FragCoord.xy + off);
+    return value;
 }
 
-void main()
+void detect_edges()
 {
-    float off = 0.5 * min(u_width, 2.0);
+    float off = 0.5 * min(u_line_width, 2.0);
     vec4 a = tap(vec2(-off, off)), c = tap(vec2(off, off)), f = tap(vec2(-off, -off)), h = tap(vec2(off, -off));
     float ah = 1.0 - 0.5 * abs(normalised(a.w) - normalised(h.w));
     float cf = 1.0 - 0.5 * abs(normalised(c.w) - normalised(f.w));

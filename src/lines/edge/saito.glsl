@@ -7,7 +7,7 @@ float depth_at(int x, int y)
     return normalised(texel(t_normal_depth, ivec2(gl_FragCoord.xy) + ivec2(x, y)).w);
 }
 
-void main()
+void detect_edges()
 {
     float a = depth_at(-1, 1), b = depth_at(0, 1), c = depth_at(1, 1);
     float d = depth_at(-1, 0), x = depth_at(0, 0), e = depth_at(1, 0);

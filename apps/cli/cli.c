@@ -1,0 +1,165 @@
+/* limner: the command. A table of subcommands; everything else follows from their declarations. */
+#include "cli.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const command *const commands[] = {&command_draw, &command_info, &command_looks, &command_bench, &command_doctor};
+
+const char *const up_axis_choices[] = {"y", "z", NULL};
+
+lmn_up_axis up_axis_of(int choice)
+{
+    return choice < 0 ? LMN_UP_AUTO : choice == 0 ? LMN_UP_Y : LMN_UP_Z;
+}
+
+int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p)
+{
+    lmn_error error = {0};
+    lmn_load_desc desc = LMN_LOAD_DESC_INIT;
+    desc.up_axis = up;
+    desc.progress = progress_report;
+    desc.progress_user = p;
+    lmn_status status = lmn_scene_create(out, &error);
+    for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        p->label = paths[i];
+        status = lmn_scene_add_file(*out, paths[i], &desc, &error);
+    }
+    progress_erase(p);
+    if (status == LMN_OK)
+        return EXIT_DONE;
+    lmn_scene_destroy(out);
+    error.status = status;
+    return message_error(&error);
+}
+
+static bool write_all(FILE *file, const char *text)
+{
+    bool done = fputs(text, file) >= 0;
+    return fflush(file) == 0 && done;
+}
+
+int store_text(const char *path, const char *text)
+{
+    if (strcmp(path, "-") == 0)
+        return write_all(stdout, text) ? EXIT_DONE : message_output("standard output", strerror(errno));
+    size_t size = strlen(path) + 32;
+    char *beside = malloc(size);
+    if (!beside)
+        return message_out_of_memory();
+    snprintf(beside, size, "%s.%ld.part", path, (long)getpid());
+    FILE *file = fopen(beside, "w");
+    bool done = file && write_all(file, text);
+    if (file)
+        done = fclose(file) == 0 && done;
+    done = done && rename(beside, path) == 0;
+    int status = done ? EXIT_DONE : message_output(path, strerror(errno));
+    if (!done && file)
+        remove(beside);
+    free(beside);
+    return status;
+}
+
+int print_and_free(char *text)
+{
+    if (!text)
+        return message_out_of_memory();
+    int status = store_text("-", text);
+    size_t length = strlen(text);
+    if (status == EXIT_DONE && (length == 0 || text[length - 1] != '\n'))
+        status = store_text("-", "\n");
+    lmn_text_free(text);
+    return status;
+}
+
+json_t *parse_and_free(char *text)
+{
+    json_t *json = text ? json_loads(text, 0, NULL) : NULL;
+    lmn_text_free(text);
+    if (!json)
+        message_out_of_memory();
+    return json;
+}
+
+double number_at(const json_t *object, const char *key, double fallback)
+{
+    const json_t *value = json_object_get(object, key);
+    return json_is_number(value) ? json_number_value(value) : fallback;
+}
+
+const char *text_at(const json_t *object, const char *key, const char *fallback)
+{
+    const json_t *value = json_object_get(object, key);
+    return json_is_string(value) ? json_string_value(value) : fallback;
+}
+
+static const char *command_name_at(size_t index, const void *user)
+{
+    (void)user;
+    return index < OPTION_COUNT(commands) ? commands[index]->name : NULL;
+}
+
+static void print_usage(void)
+{
+    printf("usage: limner COMMAND …\n\nDraws 3D models the way people draw.\n\ncommands:\n");
+    for (size_t i = 0; i < OPTION_COUNT(commands); i++)
+        printf("  %-8s %s\n", commands[i]->name, commands[i]->summary);
+    printf("\n`limner COMMAND --help` tells more about one; `limner --version` prints the version.\n"
+           "A first picture: limner draw MODEL.glb --look toon\n");
+}
+
+static int run_command(const command *c, int count, char **arguments)
+{
+    word_list inputs = {0};
+    bool help = false;
+    void *values = calloc(1, c->values_size ? c->values_size : 1);
+    if (!values)
+        return message_out_of_memory();
+    int status = options_parse(c, count, arguments, values, &inputs, &help);
+    if (status == EXIT_DONE && help)
+        options_print_usage(c);
+    else if (status == EXIT_DONE)
+        status = c->run(&inputs, values);
+    options_release(c, values, &inputs);
+    free(values);
+    return status;
+}
+
+static int unknown_command(const char *name)
+{
+    char hint[128] = "`limner --help` lists the commands";
+    const char *near = options_nearest(name, command_name_at, NULL);
+    if (near)
+        snprintf(hint, sizeof hint, "did you mean 'limner %s'?", near);
+    else if (strchr(name, '.'))
+        snprintf(hint, sizeof hint, "to draw it: limner draw %.80s", name);
+    return message_usage(hint, "there is no command '%.80s'", name);
+}
+
+int main(int count, char **arguments)
+{
+    const char *name = count > 1 ? arguments[1] : "";
+    if (strcmp(name, "--version") == 0) {
+        printf("limner %s\n", lmn_version());
+        return EXIT_DONE;
+    }
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || (strcmp(name, "help") == 0 && count == 2)) {
+        print_usage();
+        return EXIT_DONE;
+    }
+    if (!*name)
+        return message_usage("`limner --help` lists the commands", "no command is given");
+    bool help = strcmp(name, "help") == 0;
+    for (size_t i = 0; i < OPTION_COUNT(commands); i++) {
+        if (help && strcmp(arguments[2], commands[i]->name) == 0) {
+            options_print_usage(commands[i]);
+            return EXIT_DONE;
+        }
+        if (strcmp(name, commands[i]->name) == 0)
+            return run_command(commands[i], count - 2, arguments + 2);
+    }
+    return unknown_command(help ? arguments[2] : name);
+}

@@ -1,0 +1,33 @@
+/* The subcommands, and what several of them need. */
+#ifndef LIMNER_CLI_CLI_H
+#define LIMNER_CLI_CLI_H
+
+#include <jansson.h>
+
+#include "limner/limner.h"
+#include "message.h"
+#include "options.h"
+
+extern const command command_draw, command_info, command_looks, command_bench, command_doctor;
+
+/* "y" and "z" for --up-axis; index −1 … 1 gives the axis of the same place. */
+extern const char *const up_axis_choices[];
+lmn_up_axis up_axis_of(int choice);
+
+/* Loads files into a new scene. Errors are printed; returns the exit status. */
+int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p);
+
+/* Writes text beside the path and renames it there; "-" is standard output. Prints what goes wrong; exit status. */
+int store_text(const char *path, const char *text);
+
+/* Prints text from the library and frees it; NULL is "out of memory". Returns the exit status. */
+int print_and_free(char *text);
+
+/* Parses JSON that the library wrote and frees the text; NULL is printed as an internal error. */
+json_t *parse_and_free(char *text);
+
+/* The number or text of a member, or the fallback; for tables that people read. */
+double      number_at(const json_t *object, const char *key, double fallback);
+const char *text_at(const json_t *object, const char *key, const char *fallback);
+
+#endif

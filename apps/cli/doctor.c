@@ -1,0 +1,158 @@
+/* limner doctor: does Limner work here, with what, and what is missing? */
+#include "cli.h"
+
+#include <dlfcn.h>
+#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct doctor_values {
+    bool json;
+} doctor_values;
+
+static const option options[] = {
+    {"json", 0, OPTION_FLAG, offsetof(doctor_values, json), NULL, "Write JSON (docs/reference/doctor.md)."},
+};
+
+/* What drawing needs at run time and the Debian package that brings it: a library, or files. */
+typedef struct need {
+    const char *what, *library, *files, *package;
+} need;
+
+static const need needs[] = {
+    {"EGL loader", "libEGL.so.1", NULL, "libegl1"},
+    {"OpenGL loader", "libOpenGL.so.0", NULL, "libopengl0"},
+    {"EGL vendor", NULL, "/usr/share/glvnd/egl_vendor.d/*.json", "libegl-mesa0"},
+    {"OpenGL drivers", NULL, "/usr/lib/*/dri/*_dri.so", "libgl1-mesa-dri"},
+};
+
+static bool is_there(const need *n)
+{
+    if (n->library) {
+        void *handle = dlopen(n->library, RTLD_LAZY | RTLD_LOCAL);
+        if (handle)
+            dlclose(handle);
+        return handle != NULL;
+    }
+    glob_t found = {0};
+    bool any = glob(n->files, 0, NULL, &found) == 0;
+    globfree(&found);
+    return any;
+}
+
+/* What is not there; asked only when no context could be made, since a host may bring other drivers. */
+static json_t *find_missing(void)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < OPTION_COUNT(needs); i++)
+        if (!is_there(&needs[i]))
+            json_array_append_new(list, json_pack("{s:s, s:s}", "what", needs[i].what, "package", needs[i].package));
+    return list;
+}
+
+/* "sudo apt-get install a b": what is missing, or all that drawing without a GPU needs. */
+static void put_remedy(json_t *root, const json_t *missing)
+{
+    char line[256] = "sudo apt-get install";
+    size_t i;
+    json_t *item;
+    json_array_foreach ((json_t *)missing, i, item) {
+        size_t length = strlen(line);
+        snprintf(line + length, sizeof line - length, " %s", text_at(item, "package", ""));
+    }
+    if (json_array_size(missing) == 0)
+        snprintf(line, sizeof line, "sudo apt-get install --reinstall libegl1 libegl-mesa0 libgl1-mesa-dri");
+    json_object_set_new(root, "remedy", json_string(line));
+}
+
+/* Objects as indented lines, one value each. */
+static void print_values(const json_t *value, int indent)
+{
+    const char *key;
+    json_t *item;
+    size_t i;
+    json_object_foreach ((json_t *)value, key, item) {
+        printf("%*s%-*s", indent, "", indent ? 28 : 30, key);
+        if (json_is_object(item)) {
+            printf("\n");
+            print_values(item, indent + 2);
+            continue;
+        }
+        if (json_is_string(item))
+            printf(" %s", json_string_value(item));
+        else if (json_is_number(item))
+            printf(" %.10g", json_number_value(item));
+        else if (json_is_array(item))
+            printf(" ");
+        else
+            printf(" %s", json_is_true(item) ? "yes" : json_is_false(item) ? "no" : "none");
+        json_t *element;
+        json_array_foreach (item, i, element) {
+            if (json_is_string(element))
+                printf("%s%s", i ? ", " : "", json_string_value(element));
+            else if (json_is_number(element))
+                printf("%s%.10g", i ? ", " : "", json_number_value(element));
+        }
+        printf("\n");
+    }
+}
+
+static int print_report(json_t *root, bool as_json, bool usable)
+{
+    if (as_json) {
+        char *text = json_dumps(root, JSON_INDENT(2));
+        int status = text ? store_text("-", text) : message_out_of_memory();
+        free(text);
+        return status == EXIT_DONE ? store_text("-", "\n") : status;
+    }
+    printf("limner %s\n", text_at(root, "limner", ""));
+    if (usable) {
+        print_values(json_object_get(root, "gl"), 0);
+        printf("\nLimner can draw here.\n");
+        return EXIT_DONE;
+    }
+    size_t i;
+    json_t *item;
+    printf("Limner cannot draw here: %s\n", text_at(root, "error", ""));
+    json_array_foreach (json_object_get(root, "missing"), i, item)
+        printf("missing: %s (%s)\n", text_at(item, "what", ""), text_at(item, "package", ""));
+    printf("to get it: %s\n", text_at(root, "remedy", ""));
+    return EXIT_DONE;
+}
+
+static int run(const word_list *inputs, const void *values)
+{
+    const doctor_values *v = values;
+    (void)inputs;
+    lmn_error error = {0};
+    lmn_renderer *renderer = NULL;
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    json_t *root = json_pack("{s:s}", "limner", lmn_version()), *missing = NULL;
+    if (!root)
+        return message_out_of_memory();
+    bool usable = lmn_renderer_create(&renderer, &desc, &error) == LMN_OK;
+    json_object_set_new(root, "usable", json_boolean(usable));
+    if (usable) {
+        json_t *gl = parse_and_free(lmn_renderer_json(renderer));
+        json_object_del(gl, "limner"); /* stands above already */
+        json_object_set_new(root, "gl", gl);
+        missing = json_array();
+    } else {
+        json_object_set_new(root, "gl", json_null());
+        json_object_set_new(root, "error", json_string(error.message));
+        missing = find_missing();
+        put_remedy(root, missing);
+    }
+    json_object_set_new(root, "missing", missing);
+    lmn_renderer_destroy(&renderer);
+    int status = print_report(root, v->json, usable);
+    json_decref(root);
+    return status != EXIT_DONE ? status : usable ? EXIT_DONE : EXIT_GL;
+}
+
+const command command_doctor = {
+    .name = "doctor", .summary = "Tell whether Limner works here, with which driver, and what is missing.",
+    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(doctor_values),
+    .inputs_min = 0, .inputs_max = 0, .run = run,
+};

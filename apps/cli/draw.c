@@ -1,0 +1,413 @@
+/* limner draw: models into pictures. */
+#include "cli.h"
+#include "names.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+typedef struct draw_values {
+    const char   *output, *format, *look, *select, *camera, *frames, *background, *maps, *report;
+    word_list     sets;
+    option_size   size;
+    option_vector eye, target, up;
+    option_number fov, fit, time, seed, samples;
+    int           view, up_axis;
+    bool          orthographic, quiet, verbose;
+} draw_values;
+
+static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
+
+/* The endings that lmn_drawing_write knows; asked before the work, not after it. */
+static const char *const formats[] = {".png"};
+
+#define AT(field) offsetof(draw_values, field)
+
+static const option options[] = {
+    {"output", 'o', OPTION_TEXT, AT(output), "OUT",
+     "Picture to write; its ending is the format. {name} gives one picture for each INPUT, {frame} is the frame's number, - is "
+     "standard output. Default: the first INPUT's stem and .png."},
+    {"format", 0, OPTION_TEXT, AT(format), "FORMAT", "Format whatever the ending: png."},
+    {"look", 'l', OPTION_TEXT, AT(look), "NAME|FILE", "Look: one of `limner looks`, or a file. Default: edges."},
+    {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
+     "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
+    {"select", 0, OPTION_TEXT, AT(select), "SEL", "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
+    {"size", 0, OPTION_SIZE, AT(size), "WxH", "Picture size in pixels. Default: 1024x1024.", 1, 16384},
+    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.", .choices = views},
+    {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
+    {"target", 0, OPTION_VECTOR, AT(target), "X,Y,Z", "What the viewer looks at. Default: the scene's middle."},
+    {"up", 0, OPTION_VECTOR, AT(up), "X,Y,Z", "Which way is up in the picture. Default: the scene's up axis."},
+    {"camera", 0, OPTION_TEXT, AT(camera), "NAME", "A camera of the file."},
+    {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
+    {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
+    {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Share of the frame that the model fills. Default: 0.9.", 0.01, 10},
+    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "Time on the scene's animation. Default: 0.", -1e9, 1e9},
+    {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS", "One picture a frame; frame i is at i/FPS seconds."},
+    {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
+    {"samples", 0, OPTION_WHOLE, AT(samples), "N", "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1.", 1, 64},
+    {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
+    {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
+     .choices = up_axis_choices},
+    {"aov", 0, OPTION_TEXT, AT(maps), "DIR", "Write depth, normal, id, edge and shade maps into this folder."},
+    {"report", 0, OPTION_TEXT, AT(report), "FILE|-", "Write what was drawn as JSON."},
+    {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No warnings and no progress."},
+    {"verbose", 'v', OPTION_FLAG, AT(verbose), NULL, "Say what is done and how long it takes."},
+};
+
+typedef struct frame_range {
+    bool   given;
+    long   first, last;
+    double rate;
+} frame_range;
+
+/* One run of the command. */
+typedef struct session {
+    const draw_values *values;
+    const char        *pattern; /* of the output's name */
+    frame_range        frames;
+    lmn_look          *look;
+    lmn_renderer      *renderer;
+    lmn_draw_desc      desc;
+    progress           progress;
+} session;
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec / 1e6;
+}
+
+/* --- arguments ------------------------------------------------------------------------------------------------- */
+
+static int parse_frames(const char *text, frame_range *out)
+{
+    int used = 0;
+    bool plain = isdigit((unsigned char)*text) != 0;
+    *out = (frame_range){.given = true};
+    if (!plain || sscanf(text, "%6ld:%6ld:%lf%n", &out->first, &out->last, &out->rate, &used) != 3 || text[used] ||
+        out->last < out->first || !(out->rate > 0 && out->rate <= 1e6))
+        return message_usage("for example --frames 0:47:24", "--frames is '%s'; allowed is FIRST:LAST:FPS with FIRST up to LAST",
+                             text);
+    return EXIT_DONE;
+}
+
+static bool knows_format(const char *ending)
+{
+    for (size_t i = 0; i < OPTION_COUNT(formats); i++)
+        if (strcmp(formats[i], ending) == 0)
+            return true;
+    return false;
+}
+
+static int check_format(const draw_values *v)
+{
+    char ending[16] = "";
+    const char *dot = v->output ? strrchr(v->output, '.') : NULL, *given = v->format;
+    if (given)
+        snprintf(ending, sizeof ending, "%s%s", *given == '.' ? "" : ".", given);
+    else if (!v->output || strcmp(v->output, "-") == 0)
+        return EXIT_DONE;
+    else if (dot && !strchr(dot, '/'))
+        snprintf(ending, sizeof ending, "%s", dot);
+    for (char *c = ending; *c; c++)
+        *c = (char)tolower((unsigned char)*c);
+    if (knows_format(ending))
+        return EXIT_DONE;
+    if (given)
+        return message_usage("the format is png", "--format is '%s'; there is no such format", given);
+    return message_usage("the ending says the format: .png; --format says it whatever the ending",
+                         "%s: cannot tell the format from '%s'", v->output, *ending ? ending : v->output);
+}
+
+static int check_samples(const option_number *samples)
+{
+    for (int side = 1; side <= 8; side++)
+        if (!samples->given || (int)samples->value == side * side)
+            return EXIT_DONE;
+    return message_usage(NULL, "--samples is '%d'; allowed is a square number: 1, 4, 9, 16, 25, 36, 49 or 64", (int)samples->value);
+}
+
+/* Several pictures must not overwrite each other's side files. */
+static int check_side_name(const session *s, const char *option_name, const char *pattern)
+{
+    if (!pattern || strcmp(pattern, "-") == 0)
+        return EXIT_DONE;
+    if (name_has_frame(pattern) && !s->frames.given)
+        return message_usage(NULL, "--%s has {frame}, but there is no --frames", option_name);
+    if (s->frames.given && !name_has_frame(pattern))
+        return message_usage("put {frame} into the name", "--%s names one file for all frames", option_name);
+    if (name_has_name(s->values->output) && !name_has_name(pattern))
+        return message_usage("put {name} into the name", "--%s names one file for all inputs", option_name);
+    return EXIT_DONE;
+}
+
+static int check_output(const session *s, const word_list *inputs)
+{
+    const draw_values *v = s->values;
+    bool to_standard = v->output && strcmp(v->output, "-") == 0;
+    if (to_standard && v->report && strcmp(v->report, "-") == 0)
+        return message_usage("write one of them into a file", "picture and report cannot both go to standard output");
+    if (to_standard && s->frames.given)
+        return message_usage("use -o NAME-{frame}.png", "frames cannot go to standard output");
+    if (v->output && s->frames.given && !name_has_frame(v->output))
+        return message_usage("put {frame} into the name", "-o names one file for all frames");
+    if (name_has_frame(v->output) && !s->frames.given)
+        return message_usage("for example --frames 0:47:24", "-o has {frame}, but there is no --frames");
+    unsigned long same = name_has_name(v->output) ? name_find_same_stem(inputs->items, inputs->count) : 0;
+    if (same)
+        return message_usage("draw them in two runs, or rename one", "%s: another input has the same {name}", inputs->items[same]);
+    int status = check_format(v);
+    if (status == EXIT_DONE)
+        status = check_side_name(s, "report", v->report);
+    return status == EXIT_DONE ? check_side_name(s, "aov", v->maps) : status;
+}
+
+static int check_camera(const draw_values *v)
+{
+    if (v->orthographic && v->fov.given)
+        return message_usage(NULL, "--ortho and --fov exclude each other");
+    if (v->camera && (v->eye.given || v->view >= 0))
+        return message_usage(NULL, "--camera excludes --eye and --view");
+    if (v->eye.given && v->view >= 0)
+        return message_usage(NULL, "--eye and --view exclude each other");
+    if (!v->eye.given && (v->target.given || v->up.given))
+        return message_usage("add --eye X,Y,Z", "--%s needs --eye", v->target.given ? "target" : "up");
+    if (v->time.given && v->frames)
+        return message_usage(NULL, "--time and --frames exclude each other");
+    if (v->quiet && v->verbose)
+        return message_usage(NULL, "--quiet and --verbose exclude each other");
+    return check_samples(&v->samples);
+}
+
+static int set_one(lmn_look *look, const char *assignment)
+{
+    lmn_error error = {0};
+    const char *equals = strchr(assignment, '=');
+    char key[256];
+    if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof key)
+        return message_usage("for example --set lines.width=3", "--set is '%.120s'; allowed is KIND.PARAM=VALUE", assignment);
+    snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
+    if (lmn_look_set(look, key, equals + 1, &error) == LMN_OK)
+        return EXIT_DONE;
+    return message_error(&error);
+}
+
+static int load_look(session *s)
+{
+    lmn_error error = {0};
+    if (lmn_look_load(&s->look, s->values->look ? s->values->look : "edges", &error) != LMN_OK)
+        return message_error(&error);
+    for (size_t i = 0; i < s->values->sets.count; i++) {
+        int status = set_one(s->look, s->values->sets.items[i]);
+        if (status != EXIT_DONE)
+            return status;
+    }
+    return EXIT_DONE;
+}
+
+static void fill_desc(session *s)
+{
+    const draw_values *v = s->values;
+    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
+    if (v->size.given) {
+        d.width = v->size.width;
+        d.height = v->size.height;
+    }
+    if (v->view >= 0)
+        d.view = (lmn_view)v->view;
+    d.camera = v->camera;
+    d.orthographic = v->orthographic;
+    d.fov_deg = v->fov.given ? v->fov.value : d.fov_deg;
+    d.fit = v->fit.given ? v->fit.value : d.fit;
+    d.time_s = v->time.given ? v->time.value : d.time_s;
+    d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
+    d.samples = v->samples.given ? (int)v->samples.value : d.samples;
+    d.background = v->background;
+    d.select = v->select;
+    d.maps = v->maps != NULL;
+    d.profile = v->report != NULL;
+    d.progress = progress_report;
+    d.progress_user = &s->progress;
+    s->desc = d;
+}
+
+/* Target and up that were not given come from the scene. */
+static void place_eye(session *s, const lmn_scene *scene)
+{
+    const draw_values *v = s->values;
+    lmn_scene_info info = lmn_scene_info_of(scene);
+    s->desc.eye_given = v->eye.given;
+    for (int i = 0; i < 3; i++) {
+        s->desc.eye[i] = v->eye.value[i];
+        s->desc.target[i] = v->target.given ? v->target.value[i] : (info.bounds_min[i] + info.bounds_max[i]) / 2;
+        s->desc.up[i] = v->up.given ? v->up.value[i] : i == (info.up == 'z' ? 2 : 1) ? 1 : 0;
+    }
+}
+
+/* --- one picture ----------------------------------------------------------------------------------------------- */
+
+/* The library's report knows neither where the picture went nor how long the files took to read. */
+static int store_report(const lmn_drawing *drawing, const char *report, const char *picture, uint64_t bytes, double load_ms)
+{
+    json_t *json = parse_and_free(lmn_drawing_report_json(drawing));
+    if (!json)
+        return EXIT_INTERNAL;
+    json_object_set_new(json, "output", json_pack("{s:s, s:I}", "path", picture, "bytes", (json_int_t)bytes));
+    if (!json_object_get(json, "load_ms"))
+        json_object_set_new(json, "load_ms", json_real(load_ms));
+    char *text = json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
+    json_decref(json);
+    if (!text)
+        return message_out_of_memory();
+    int status = store_text(report, text);
+    if (status == EXIT_DONE && strcmp(report, "-") == 0)
+        status = store_text("-", "\n");
+    free(text);
+    return status;
+}
+
+static int store_maps(const lmn_drawing *drawing, const char *folder)
+{
+    lmn_error error = {0};
+    return lmn_drawing_write_maps(drawing, folder, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
+}
+
+static void print_warnings(const lmn_drawing *drawing)
+{
+    for (size_t i = 0; i < lmn_drawing_warning_count(drawing); i++) {
+        size_t times = 1;
+        const char *code = NULL, *text = lmn_drawing_warning_at(drawing, i, &code, &times);
+        if (text)
+            message_warning(text, times);
+    }
+}
+
+static int store_picture(const session *s, const lmn_drawing *drawing, const char *input, long frame, double load_ms)
+{
+    const draw_values *v = s->values;
+    lmn_error error = {0};
+    uint64_t bytes = 0;
+    char format[16] = "";
+    int status = EXIT_DONE;
+    char *path = name_expand(s->pattern, input, frame), *maps = v->maps ? name_expand(v->maps, input, frame) : NULL;
+    char *report = v->report ? name_expand(v->report, input, frame) : NULL;
+    if (!path || (v->maps && !maps) || (v->report && !report))
+        status = message_out_of_memory();
+    if (v->format)
+        snprintf(format, sizeof format, "%s%s", *v->format == '.' ? "" : ".", v->format);
+    else if (strcmp(s->pattern, "-") == 0)
+        snprintf(format, sizeof format, ".png");
+    if (status == EXIT_DONE && lmn_drawing_write(drawing, path, *format ? format : NULL, &bytes, &error) != LMN_OK)
+        status = message_error(&error);
+    if (status == EXIT_DONE && maps)
+        status = store_maps(drawing, maps);
+    if (status == EXIT_DONE && report)
+        status = store_report(drawing, report, path, bytes, load_ms);
+    if (status == EXIT_DONE && v->verbose)
+        message_note("wrote %s (%llu bytes)", path, (unsigned long long)bytes);
+    free(path);
+    free(maps);
+    free(report);
+    return status;
+}
+
+static int draw_picture(session *s, const lmn_scene *scene, const char *input, long frame, double load_ms)
+{
+    lmn_error error = {0};
+    lmn_drawing *drawing = NULL;
+    double start = now_ms();
+    if (s->frames.given)
+        s->desc.time_s = (double)frame / s->frames.rate;
+    lmn_status drawn = lmn_draw(&drawing, s->renderer, scene, s->look, &s->desc, &error);
+    progress_erase(&s->progress);
+    if (drawn != LMN_OK)
+        return message_error(&error);
+    if (s->values->verbose)
+        message_note("%s: drawn in %.0f ms", input, now_ms() - start);
+    if (!s->values->quiet)
+        print_warnings(drawing);
+    int status = store_picture(s, drawing, input, frame, load_ms);
+    lmn_drawing_destroy(&drawing);
+    return status;
+}
+
+/* --- all pictures ---------------------------------------------------------------------------------------------- */
+
+static int worse_of(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* Would the next input fail for the same reason? A selection or a camera may be missing in this one alone. */
+static bool is_final(int status)
+{
+    return status == EXIT_GL || status == EXIT_CANCELLED || status == EXIT_INTERNAL;
+}
+
+static int draw_scene(session *s, const char *const *paths, size_t count)
+{
+    lmn_scene *scene = NULL;
+    double start = now_ms();
+    int status = scene_of_files(&scene, paths, count, up_axis_of(s->values->up_axis), &s->progress);
+    if (status != EXIT_DONE)
+        return status;
+    double load_ms = now_ms() - start;
+    if (s->values->verbose)
+        message_note("%s: read in %.0f ms", paths[0], load_ms);
+    /* Made when first needed, so that a missing input is told even where there is no OpenGL, and kept for the rest. */
+    if (!s->renderer) {
+        lmn_error error = {0};
+        lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+        if (lmn_renderer_create(&s->renderer, &desc, &error) != LMN_OK)
+            status = message_error(&error);
+    }
+    place_eye(s, scene);
+    s->progress.label = paths[0];
+    for (long i = s->frames.first; i <= s->frames.last && status == EXIT_DONE; i++)
+        status = draw_picture(s, scene, paths[0], i, load_ms);
+    lmn_scene_destroy(&scene);
+    return status;
+}
+
+static int draw_all(session *s, const word_list *inputs)
+{
+    int status = EXIT_DONE;
+    if (!name_has_name(s->values->output))
+        return draw_scene(s, inputs->items, inputs->count);
+    for (size_t i = 0; i < inputs->count && !is_final(status); i++)
+        status = worse_of(status, progress_cancelled() ? EXIT_CANCELLED : draw_scene(s, &inputs->items[i], 1));
+    return status;
+}
+
+static int run(const word_list *inputs, const void *values)
+{
+    session s = {.values = values};
+    const draw_values *v = values;
+    int status = check_camera(v);
+    if (status == EXIT_DONE && v->frames)
+        status = parse_frames(v->frames, &s.frames);
+    if (status == EXIT_DONE)
+        status = check_output(&s, inputs);
+    if (status == EXIT_DONE)
+        status = load_look(&s);
+    s.pattern = v->output ? v->output : s.frames.given ? NAME_PLACE "-" FRAME_PLACE ".png" : NAME_PLACE ".png";
+    progress_begin(&s.progress, v->quiet);
+    fill_desc(&s);
+    if (status == EXIT_DONE)
+        status = draw_all(&s, inputs);
+    lmn_renderer_destroy(&s.renderer);
+    lmn_look_destroy(&s.look);
+    return status;
+}
+
+const command command_draw = {
+    .name = "draw", .inputs = "INPUT…", .summary = "Draw models into a picture.",
+    .detail = "Several INPUTs make one scene, unless OUT contains {name}: then one picture each.\n"
+              "Exit status: 0 done, 1 wrong argument, 2 wrong input, 3 no OpenGL, 4 output not written, 5 cancelled,\n"
+              "6 out of memory or a defect.",
+    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(draw_values),
+    .inputs_min = 1, .inputs_max = (size_t)-1, .run = run,
+};

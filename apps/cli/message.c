@@ -1,0 +1,143 @@
+#include "message.h"
+
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The one thing that a signal handler may write. */
+static volatile sig_atomic_t interrupted;
+
+int message_exit_status(lmn_status status)
+{
+    switch (status) {
+    case LMN_OK: return EXIT_DONE;
+    case LMN_USAGE: return EXIT_USAGE;
+    case LMN_READ:
+    case LMN_FORMAT:
+    case LMN_LIMIT:
+    case LMN_UNSUPPORTED: return EXIT_INPUT;
+    case LMN_GL: return EXIT_GL;
+    case LMN_WRITE: return EXIT_OUTPUT;
+    case LMN_CANCELLED: return EXIT_CANCELLED;
+    case LMN_MEMORY:
+    case LMN_INTERNAL: break;
+    }
+    return EXIT_INTERNAL;
+}
+
+static void print_hint(const char *hint)
+{
+    if (hint && *hint)
+        fprintf(stderr, "hint: %s\n", hint);
+}
+
+int message_error(const lmn_error *error)
+{
+    fputs("limner: ", stderr);
+    if (error->file[0]) {
+        fputs(error->file, stderr);
+        if (error->line > 0)
+            fprintf(stderr, ":%d", error->line);
+        if (error->line > 0 && error->column > 0)
+            fprintf(stderr, ":%d", error->column);
+        fputs(": ", stderr);
+    }
+    fprintf(stderr, "%s\n", error->message[0] ? error->message : lmn_status_text(error->status));
+    print_hint(error->hint);
+    return message_exit_status(error->status);
+}
+
+int message_usage(const char *hint, const char *format, ...)
+{
+    va_list arguments;
+    fputs("limner: ", stderr);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+    print_hint(hint);
+    return EXIT_USAGE;
+}
+
+int message_output(const char *path, const char *what)
+{
+    fprintf(stderr, "limner: %s: %s\n", path, what);
+    return EXIT_OUTPUT;
+}
+
+int message_out_of_memory(void)
+{
+    fputs("limner: out of memory\n", stderr);
+    return EXIT_INTERNAL;
+}
+
+void message_warning(const char *text, size_t count)
+{
+    if (count > 1)
+        fprintf(stderr, "limner: warning: %s (%zu times)\n", text, count);
+    else
+        fprintf(stderr, "limner: warning: %s\n", text);
+}
+
+void message_note(const char *format, ...)
+{
+    va_list arguments;
+    fputs("limner: ", stderr);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+}
+
+static void on_interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+void progress_begin(progress *p, bool quiet)
+{
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    /* A second Ctrl-C ends the command at once, should the work not listen. */
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    *p = (progress){.shown = !quiet && isatty(STDERR_FILENO), .label = "", .last_permille = -1};
+}
+
+bool progress_report(double fraction, const char *stage, void *user)
+{
+    enum { WIDTH = 30 };
+    progress *p = user;
+    int permille = (int)(fraction * 1000.0 + 0.5);
+    permille = permille < 0 ? 0 : permille > 1000 ? 1000 : permille;
+    if (p->shown && permille != p->last_permille) {
+        char bar[WIDTH + 1];
+        int filled = permille * WIDTH / 1000;
+        memset(bar, '#', (size_t)filled);
+        memset(bar + filled, '.', (size_t)(WIDTH - filled));
+        bar[WIDTH] = '\0';
+        fprintf(stderr, "\r\033[K[%s] %3d%% %.40s %.24s", bar, permille / 10, p->label, stage ? stage : "");
+        fflush(stderr);
+        p->visible = true;
+        p->last_permille = permille;
+    }
+    return !interrupted;
+}
+
+void progress_erase(progress *p)
+{
+    if (p->visible) {
+        fputs("\r\033[K", stderr);
+        fflush(stderr);
+    }
+    p->visible = false;
+    p->last_permille = -1;
+}
+
+bool progress_cancelled(void)
+{
+    return interrupted != 0;
+}

@@ -1,0 +1,22 @@
+/* Names of outputs: {name} is the input's stem, {frame} the frame's number in four digits. */
+#ifndef LIMNER_CLI_NAMES_H
+#define LIMNER_CLI_NAMES_H
+
+#include <stdbool.h>
+
+#define NAME_PLACE  "{name}"
+#define FRAME_PLACE "{frame}"
+
+bool name_has_name(const char *pattern);
+bool name_has_frame(const char *pattern);
+
+/* The path's last part without its ending; free() it. NULL when memory is gone. */
+char *name_stem(const char *path);
+
+/* The pattern with its places filled, for one input and frame; free() it. NULL when memory is gone. */
+char *name_expand(const char *pattern, const char *input, long frame);
+
+/* Do two of the paths have the same stem? Gives the second's index, 0 when none. */
+unsigned long name_find_same_stem(const char *const *paths, unsigned long count);
+
+#endif

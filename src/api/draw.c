@@ -1,0 +1,189 @@
+/* The public drawing calls: arguments are checked here, the work is done in src/draw. */
+#include "limner/draw.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/limits.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "draw/maps.h"
+#include "export/export.h"
+#include "limner/version.h"
+
+const char *lmn_version(void)
+{
+    return LMN_VERSION;
+}
+
+lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error)
+{
+    static const lmn_renderer_desc standard = LMN_RENDERER_DESC_INIT;
+    *out = NULL;
+    if (!desc)
+        desc = &standard;
+    if (desc->struct_size != sizeof *desc)
+        return error_set(error, LMN_USAGE, "the renderer description was not initialised with LMN_RENDERER_DESC_INIT");
+    const char *wish = getenv("LIMNER_GL");
+    return renderer_create(out, desc->es || (wish && strcmp(wish, "es") == 0), desc->debug, error);
+}
+
+void lmn_renderer_destroy(lmn_renderer **renderer)
+{
+    renderer_destroy(renderer);
+}
+
+char *lmn_renderer_json(const lmn_renderer *renderer)
+{
+    return renderer ? renderer_json(renderer) : NULL;
+}
+
+static lmn_status check_range(lmn_error *error, const char *name, double value, double low, double high)
+{
+    if (value >= low && value <= high)
+        return LMN_OK;
+    return error_set(error, LMN_USAGE, "%s is %g, it must be between %g and %g", name, value, low, high);
+}
+
+static lmn_status check_desc(const lmn_draw_desc *d, lmn_error *error)
+{
+    if (!d || d->struct_size != sizeof *d)
+        return error_set(error, LMN_USAGE, "the drawing description was not initialised with LMN_DRAW_DESC_INIT");
+    lmn_status status = check_range(error, "the width", d->width, 1, LIMIT_PICTURE_SIDE);
+    if (status == LMN_OK)
+        status = check_range(error, "the height", d->height, 1, LIMIT_PICTURE_SIDE);
+    if (status == LMN_OK)
+        status = check_range(error, "the view", d->view, LMN_VIEW_ISO, LMN_VIEW_BOTTOM);
+    if (status == LMN_OK)
+        status = check_range(error, "the field of view", d->fov_deg, 1, 170);
+    if (status == LMN_OK)
+        status = check_range(error, "fit", d->fit, 0.01, 10);
+    if (status == LMN_OK)
+        status = check_range(error, "the number of samples", d->samples, 1, 64);
+    int side = (int)lround(sqrt((double)d->samples));
+    if (status == LMN_OK && side * side != d->samples)
+        status = error_set(error, LMN_USAGE, "the number of samples is %d, it must be a square number: 1, 4, 9, 16 … 64", d->samples);
+    for (int k = 0; k < 3 && status == LMN_OK; k++)
+        if (!isfinite(d->eye[k]) || !isfinite(d->target[k]) || !isfinite(d->up[k]))
+            status = error_set(error, LMN_USAGE, "the camera's numbers must be finite");
+    if (status == LMN_OK && !isfinite(d->time_s))
+        status = error_set(error, LMN_USAGE, "the time must be finite");
+    return status;
+}
+
+lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                    lmn_error *error)
+{
+    *out = NULL;
+    if (!renderer || !scene || !look)
+        return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
+    lmn_status status = check_desc(desc, error);
+    return status == LMN_OK ? renderer_draw(out, renderer, scene, look, desc, error) : status;
+}
+
+void lmn_drawing_destroy(lmn_drawing **drawing)
+{
+    drawing_destroy(drawing);
+}
+
+const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height)
+{
+    if (width)
+        *width = drawing->width;
+    if (height)
+        *height = drawing->height;
+    return drawing->pixels;
+}
+
+lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes, lmn_error *error)
+{
+    static const char *const known[] = {".png"};
+    char ending[16];
+    if (!format) {
+        file_ending(path, ending, sizeof ending);
+        format = strcmp(path, "-") == 0 ? ".png" : ending;
+    }
+    const char *name = format[0] == '.' ? format + 1 : format;
+    if (strcmp(name, "png") != 0) {
+        lmn_status status = error_in_file(error, LMN_USAGE, path, 0, "cannot write '%s' pictures", format);
+        const char *nearest = text_nearest(format, known, 1);
+        error_hint(error, nearest ? "did you mean '%s'?" : "give the output a name that ends in %s", nearest ? nearest : ".png");
+        return status;
+    }
+    export_bytes png;
+    lmn_status status = export_png(&png, drawing->pixels, drawing->width, drawing->height, error);
+    if (status != LMN_OK)
+        return status;
+    status = file_store(path, png.data, png.size, error);
+    if (bytes)
+        *bytes = png.size;
+    mem_free(png.data);
+    return status;
+}
+
+lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error)
+{
+    if (!drawing->maps.depth)
+        return error_set(error, LMN_USAGE, "the drawing was made without its maps; set `maps` in its description");
+    return maps_write(&drawing->maps, drawing->part_count, directory, error);
+}
+
+char *lmn_drawing_report_json(const lmn_drawing *drawing)
+{
+    return drawing ? drawing_report_json(drawing) : NULL;
+}
+
+size_t lmn_drawing_warning_count(const lmn_drawing *drawing)
+{
+    return drawing->warnings.count;
+}
+
+const char *lmn_drawing_warning_at(const lmn_drawing *drawing, size_t index, const char **code, size_t *count)
+{
+    if (index >= drawing->warnings.count)
+        return NULL;
+    const warning *w = &drawing->warnings.items[index];
+    if (code)
+        *code = warning_code_text(w->code);
+    if (count)
+        *count = w->count;
+    return w->text;
+}
+
+static lmn_status load_all(lmn_look **loaded, const char *const *names, size_t count, lmn_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        lmn_status status = lmn_look_load(&loaded[i], names[i], error);
+        if (status != LMN_OK)
+            return status;
+    }
+    return LMN_OK;
+}
+
+lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks, size_t look_count,
+                          const lmn_draw_desc *desc, int repeat, lmn_error *error)
+{
+    *out = NULL;
+    if (!renderer || !scene)
+        return error_set(error, LMN_USAGE, "a renderer and a scene are needed to measure");
+    lmn_status status = check_desc(desc, error);
+    if (status == LMN_OK)
+        status = check_range(error, "the number of repeats", repeat, 1, 10000);
+    if (status != LMN_OK)
+        return status;
+    lmn_look **loaded = mem_calloc(look_count + 1, sizeof *loaded);
+    if (!loaded)
+        return error_memory(error);
+    status = load_all(loaded, (const char *const[]){"plain"}, 1, error);
+    if (status == LMN_OK)
+        status = load_all(loaded + 1, looks, look_count, error);
+    if (status == LMN_OK)
+        status = bench_json(out, renderer, scene, (const lmn_look *const *)(loaded + 1), look_count, loaded[0], desc, repeat, error);
+    for (size_t i = 0; i <= look_count; i++)
+        lmn_look_destroy(&loaded[i]);
+    mem_free(loaded);
+    return status;
+}

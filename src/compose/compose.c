@@ -1,0 +1,10 @@
+/* The table of compositions. */
+#include "compose/compose.h"
+
+static const technique *const techniques[] = {&compose_opaque, &compose_superimpose, &compose_merged};
+
+const kind kind_compose = {
+    .id = KIND_COMPOSE, .name = "compose", .doc = "How a figure meets the page.",
+    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &compose_opaque,
+    .selector_key = "technique",
+};

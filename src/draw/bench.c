@@ -1,0 +1,122 @@
+/* Measures looks against `plain`: whole frames, drawn in turn, in one process. */
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "draw/drawing.h"
+
+enum { WARM_UPS = 2 };
+
+typedef struct series {
+    session session;
+    double *ms;
+    bool    open;
+} series;
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median_of(const double *values, int count)
+{
+    double *sorted = mem_copy(values, sizeof(double) * (size_t)count);
+    if (!sorted)
+        return 0;
+    qsort(sorted, (size_t)count, sizeof *sorted, compare);
+    double middle = count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2;
+    mem_free(sorted);
+    return middle;
+}
+
+static double time_frame(series *s)
+{
+    gpu_finish(s->session.renderer->g);
+    double start = now_ms();
+    frame_draw(&s->session.frame, s->session.out);
+    gpu_finish(s->session.renderer->g);
+    return now_ms() - start;
+}
+
+static json_t *passes_of(series *s, int repeat)
+{
+    frame *f = &s->session.frame;
+    f->profile = true;
+    for (int i = 0; i < repeat; i++)
+        frame_draw(f, s->session.out);
+    json_t *array = json_array();
+    for (size_t i = 0; i < f->time_count; i++)
+        json_array_append_new(array, json_pack("{s:s, s:f}", "name", f->times[i].name, "ms", f->times[i].ms / repeat));
+    return array;
+}
+
+static json_t *series_json(series *s, const series *plain, int repeat)
+{
+    double *ratios = mem_alloc(sizeof(double) * (size_t)repeat);
+    for (int i = 0; ratios && i < repeat; i++)
+        ratios[i] = s->ms[i] / plain->ms[i];
+    json_t *out = json_pack("{s:f, s:f, s:o}", "ms", median_of(s->ms, repeat), "ratio", ratios ? median_of(ratios, repeat) : 0.0,
+                            "passes", passes_of(s, repeat));
+    mem_free(ratios);
+    return out;
+}
+
+static lmn_status measure(char **out, series *all, size_t count, const lmn_look *const *looks, lmn_renderer *r,
+                          const lmn_draw_desc *desc, int repeat, lmn_error *error)
+{
+    for (int i = -WARM_UPS; i < repeat; i++)
+        for (size_t k = 0; k < count; k++) {
+            double ms = time_frame(&all[k]);
+            if (i >= 0)
+                all[k].ms[i] = ms;
+            if (desc->progress && !desc->progress((double)(i + WARM_UPS) / (repeat + WARM_UPS), "measuring", desc->progress_user))
+                return error_set(error, LMN_CANCELLED, "cancelled");
+        }
+    const gpu_facts *facts = gpu_facts_of(r->g);
+    json_t *root = json_object(), *table = json_object();
+    json_object_set_new(root, "plain_ms", json_real(median_of(all[0].ms, repeat)));
+    json_object_set_new(root, "size", json_pack("[i, i]", desc->width, desc->height));
+    json_object_set_new(root, "triangles", json_integer((json_int_t)r->up.triangles));
+    json_object_set_new(root, "gpu", json_pack("{s:s, s:s, s:s}", "vendor", facts->vendor, "renderer", facts->renderer, "version",
+                                               facts->version));
+    for (size_t k = 1; k < count; k++)
+        json_object_set_new(table, looks[k - 1]->name, series_json(&all[k], &all[0], repeat));
+    json_object_set_new(root, "looks", table);
+    *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    json_decref(root);
+    return *out ? gpu_check(r->g, error) : error_memory(error);
+}
+
+lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,
+                      const lmn_look *plain, const lmn_draw_desc *desc, int repeat, lmn_error *error)
+{
+    *out = NULL;
+    series *all = mem_calloc(count + 1, sizeof *all);
+    lmn_status status = all ? LMN_OK : error_memory(error);
+    warnings notes = {0};
+    for (size_t k = 0; k <= count && status == LMN_OK; k++) {
+        all[k].ms = mem_calloc((size_t)repeat, sizeof(double));
+        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain, desc, false, &notes, error)
+                           : error_memory(error);
+    }
+    if (status == LMN_OK)
+        status = measure(out, all, count + 1, looks, r, desc, repeat, error);
+    for (size_t k = 0; all && k <= count; k++) {
+        session_close(&all[k].session);
+        mem_free(all[k].ms);
+    }
+    mem_free(all);
+    warnings_release(&notes);
+    gpu_targets_trim(r->g);
+    return status;
+}

@@ -1,0 +1,287 @@
+#include "draw/drawing.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/limits.h"
+#include "base/memory.h"
+#include "finish/finish.h"
+#include "light/light.h"
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error)
+{
+    *out = NULL;
+    lmn_renderer *r = mem_calloc(1, sizeof *r);
+    if (!r)
+        return error_memory(error);
+    lmn_status status = gpu_create(&r->g, es, debug, error);
+    if (status != LMN_OK) {
+        mem_free(r);
+        return status;
+    }
+    *out = r;
+    return LMN_OK;
+}
+
+void renderer_destroy(lmn_renderer **renderer)
+{
+    if (!renderer || !*renderer)
+        return;
+    lmn_renderer *r = *renderer;
+    gpu_make_current(r->g);
+    upload_release(&r->up, r->g);
+    gpu_destroy(&r->g);
+    mem_free(r);
+    *renderer = NULL;
+}
+
+/* Puts the scene on the GPU unless it is there already. */
+static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
+{
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    double crease = (double)v->crease_angle * (3.14159265358979323846 / 180);
+    if (r->up_valid && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease)
+        return LMN_OK;
+    r->up_valid = false;
+    upload_release(&r->up, r->g);
+    lmn_status status = upload_create(&r->up, r->g, scene, crease, desc->progress, desc->progress_user, error);
+    r->scene = scene;
+    r->up_valid = status == LMN_OK;
+    return status;
+}
+
+static int square_root(int samples)
+{
+    int side = 1;
+    while (side * side < samples)
+        side++;
+    return side;
+}
+
+static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_draw_desc *desc, lmn_error *error)
+{
+    view_camera *c = &s->frame.camera;
+    lmn_status status = camera_place(c, desc, scene, s->renderer->up.worlds, s->plan.box, error);
+    if (status != LMN_OK)
+        return status;
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (size_t i = 0; i < scene->part_count; i++)
+        if (s->plan.selected[i] && !box3_is_empty(s->renderer->up.part_boxes[i]))
+            camera_depth_range(c, s->renderer->up.part_boxes[i], &nearest, &farthest);
+    if (!(farthest >= nearest))
+        nearest = farthest = 1;
+    camera_set_range(c, nearest, farthest);
+    return LMN_OK;
+}
+
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                        bool maps, warnings *notes, lmn_error *error)
+{
+    memset(s, 0, sizeof *s);
+    s->renderer = r;
+    gpu_make_current(r->g);
+    lmn_status status = bring_scene(r, scene, look, desc, error);
+    int side = maps ? 1 : square_root(desc->samples);
+    if (status == LMN_OK)
+        status = plan_create(&s->plan, scene, look, &r->up, desc->select, side, maps, notes, error);
+    if (status == LMN_OK)
+        status = place_camera(s, scene, desc, error);
+    if (status != LMN_OK)
+        return status;
+    const gpu_facts *facts = gpu_facts_of(r->g);
+    int limit = facts->max_texture < LIMIT_PICTURE_SIDE ? facts->max_texture : LIMIT_PICTURE_SIDE;
+    if (desc->width * side > limit || desc->height * side > limit) {
+        status = error_set(error, LMN_LIMIT, "a picture of %dx%d pixels with %d samples a pixel needs %d pixels a side, the limit is %d",
+                           desc->width, desc->height, desc->samples, (desc->width > desc->height ? desc->width : desc->height) * side, limit);
+        error_hint(error, "ask for a smaller --size or fewer --samples");
+        return status;
+    }
+    frame *f = &s->frame;
+    f->g = r->g;
+    f->up = &r->up;
+    f->plan = &s->plan;
+    f->samples = side;
+    f->width = desc->width * side;
+    f->height = desc->height * side;
+    f->ground = ((const sheet_values *)look->wide[KIND_FINISH].values)->ground;
+    if (desc->background && !colour_parse(desc->background, &f->ground)) {
+        status = error_set(error, LMN_USAGE, "'%s' is not a colour", desc->background);
+        error_hint(error, "give #rgb, #rrggbb, #rrggbbaa, a basic colour name, or none");
+        return status;
+    }
+    if (!maps)
+        s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);
+    return gpu_check(r->g, error);
+}
+
+void session_close(session *s)
+{
+    if (s->renderer)
+        gpu_target_release(s->renderer->g, s->out);
+    plan_release(&s->plan);
+    memset(s, 0, sizeof *s);
+}
+
+static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
+{
+    size_t stride = (size_t)d->width * 4;
+    d->pixels = mem_alloc(stride * (size_t)d->height);
+    uint8_t *row = mem_alloc(stride);
+    if (!d->pixels || !row) {
+        mem_free(row);
+        return error_memory(error);
+    }
+    gpu_read(s->renderer->g, s->out, d->pixels);
+    for (int y = 0; y < d->height / 2; y++) {
+        uint8_t *top = d->pixels + (size_t)y * stride, *bottom = d->pixels + (size_t)(d->height - 1 - y) * stride;
+        memcpy(row, top, stride);
+        memcpy(top, bottom, stride);
+        memcpy(bottom, row, stride);
+    }
+    mem_free(row);
+    return gpu_check(s->renderer->g, error);
+}
+
+static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                             const session *s, const lmn_draw_desc *desc, lmn_error *error)
+{
+    const gpu_facts *facts = gpu_facts_of(r->g);
+    d->look = mem_copy_text(look->name ? look->name : "");
+    d->vendor = mem_copy_text(facts->vendor);
+    d->renderer = mem_copy_text(facts->renderer);
+    d->version = mem_copy_text(facts->version);
+    d->seed = desc->seed;
+    d->camera = s->frame.camera;
+    d->triangles = r->up.triangles;
+    d->bounds = s->plan.box;
+    d->load_ms = scene->load_ms;
+    d->layers = 1;
+    d->part_names = mem_calloc(scene->part_count, sizeof *d->part_names);
+    if (!d->part_names || !d->look || !d->vendor || !d->renderer || !d->version)
+        return error_memory(error);
+    d->part_count = scene->part_count;
+    for (size_t i = 0; i < scene->part_count; i++)
+        if (!(d->part_names[i] = mem_copy_text(scene->parts[i].name)))
+            return error_memory(error);
+    warnings_append(&d->warnings, &scene->warnings);
+    for (size_t i = 0; i < r->up.item_count; i++) {
+        int32_t m = r->up.items[i].material;
+        if (m >= 0 && scene->materials[m].alpha == ALPHA_BLEND) {
+            warnings_add(&d->warnings, WARNING_TRANSPARENCY, "transparent materials are drawn as cut-outs");
+            break;
+        }
+    }
+    if (desc->time_s != 0 && scene->animation_count)
+        warnings_add(&d->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
+    return LMN_OK;
+}
+
+/* An extra frame with one sample and all buffers read back. */
+static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                            lmn_error *error)
+{
+    session s;
+    warnings ignored = {0};
+    lmn_status status = session_open(&s, r, scene, look, desc, true, &ignored, error);
+    if (status == LMN_OK)
+        status = frame_maps_create(&d->maps, desc->width, desc->height, error);
+    if (status == LMN_OK) {
+        s.frame.maps = &d->maps;
+        frame_draw(&s.frame, NULL);
+        status = gpu_check(r->g, error);
+    }
+    session_close(&s);
+    warnings_release(&ignored);
+    if (status != LMN_OK)
+        return status;
+    d->part_pixels = mem_calloc(scene->part_count, sizeof *d->part_pixels);
+    if (!d->part_pixels)
+        return error_memory(error);
+    for (size_t i = 0, count = (size_t)desc->width * (size_t)desc->height; i < count; i++)
+        if (d->maps.id[i])
+            d->part_pixels[d->maps.id[i] - 1]++;
+    if (!desc->maps)
+        frame_maps_release(&d->maps);
+    return LMN_OK;
+}
+
+static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *desc, lmn_error *error)
+{
+    double start = now_ms();
+    frame_draw(&s->frame, s->out);
+    gpu_finish(s->renderer->g);
+    d->frame_ms = now_ms() - start;
+    d->programs = gpu_program_count(s->renderer->g);
+    lmn_status status = gpu_check(s->renderer->g, error);
+    if (status == LMN_OK)
+        status = read_pixels(d, s, error);
+    if (status != LMN_OK || !desc->profile)
+        return status;
+    s->frame.profile = true;
+    frame_draw(&s->frame, s->out);
+    memcpy(d->times, s->frame.times, sizeof d->times);
+    d->time_count = s->frame.time_count;
+    return gpu_check(s->renderer->g, error);
+}
+
+static bool cancelled(const lmn_draw_desc *desc, double fraction, const char *stage)
+{
+    return desc->progress && !desc->progress(fraction, stage, desc->progress_user);
+}
+
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                         lmn_error *error)
+{
+    *out = NULL;
+    lmn_drawing *d = mem_calloc(1, sizeof *d);
+    if (!d)
+        return error_memory(error);
+    d->width = desc->width;
+    d->height = desc->height;
+    session s;
+    lmn_status status = session_open(&s, r, scene, look, desc, false, &d->warnings, error);
+    if (status == LMN_OK && cancelled(desc, 0.3, "drawing"))
+        status = error_set(error, LMN_CANCELLED, "cancelled");
+    if (status == LMN_OK)
+        status = keep_facts(d, r, scene, look, &s, desc, error);
+    if (status == LMN_OK)
+        status = draw_frames(d, &s, desc, error);
+    session_close(&s);
+    if (status == LMN_OK && cancelled(desc, 0.8, "drawing"))
+        status = error_set(error, LMN_CANCELLED, "cancelled");
+    if (status == LMN_OK && (desc->maps || desc->profile))
+        status = draw_maps(d, r, scene, look, desc, error);
+    gpu_targets_trim(r->g);
+    if (status != LMN_OK)
+        drawing_destroy(&d);
+    *out = d;
+    return status;
+}
+
+void drawing_destroy(lmn_drawing **drawing)
+{
+    if (!drawing || !*drawing)
+        return;
+    lmn_drawing *d = *drawing;
+    mem_free(d->pixels);
+    frame_maps_release(&d->maps);
+    warnings_release(&d->warnings);
+    mem_free(d->look);
+    mem_free(d->vendor);
+    mem_free(d->renderer);
+    mem_free(d->version);
+    for (size_t i = 0; i < d->part_count; i++)
+        mem_free(d->part_names[i]);
+    mem_free(d->part_names);
+    mem_free(d->part_pixels);
+    mem_free(d);
+    *drawing = NULL;
+}

@@ -1,0 +1,59 @@
+/* Drawings: the renderer that makes them, the finished picture with its report, and the bench. */
+#ifndef LIMNER_DRAW_DRAWING_H
+#define LIMNER_DRAW_DRAWING_H
+
+#include "draw/frame.h"
+#include "limner/draw.h"
+
+struct lmn_renderer {
+    gpu            *g;
+    upload          up;
+    const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
+    bool            up_valid;
+};
+
+struct lmn_drawing {
+    int         width, height;
+    uint8_t    *pixels; /* RGBA, row 0 on top */
+    frame_maps  maps;   /* all NULL unless asked for */
+    warnings    warnings;
+    /* for the report */
+    char       *look;
+    uint32_t    seed;
+    view_camera camera;
+    char       *vendor, *renderer, *version;
+    size_t      part_count;
+    char      **part_names;
+    uint64_t   *part_pixels; /* NULL unless profiled */
+    uint64_t    triangles;
+    box3        bounds;
+    double      load_ms, frame_ms;
+    pass_time   times[PASS_TIMES_MAX];
+    size_t      time_count;
+    int         layers;
+    size_t      programs; /* compiled by the renderer so far */
+};
+
+lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                         const lmn_draw_desc *desc, lmn_error *error);
+void       renderer_destroy(lmn_renderer **r);
+char      *renderer_json(const lmn_renderer *r);
+char      *drawing_report_json(const lmn_drawing *d);
+void       drawing_destroy(lmn_drawing **d);
+
+/* A drawing set up and ready to be repeated. */
+typedef struct session {
+    lmn_renderer *renderer;
+    plan          plan;
+    frame         frame;
+    gpu_texture  *out;
+} session;
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                        bool maps, warnings *notes, lmn_error *error);
+void       session_close(session *s);
+
+lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,
+                      const lmn_look *plain, const lmn_draw_desc *desc, int repeat, lmn_error *error);
+
+#endif

@@ -1,0 +1,104 @@
+/* A frame: figure after figure onto the page, then the page encoded. */
+#include "draw/frame_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static void release_targets(frame *f, figure_state *s)
+{
+    for (int i = 0; i < TARGET_COUNT; i++)
+        if (i != TARGET_REFLECTION)
+            gpu_target_release(f->g, s->targets[i]);
+}
+
+static int reach_of(const figure *fig)
+{
+    const rule *r = fig->rule;
+    float widest = 0;
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const kind *k = kinds[KIND_LINES];
+        for (size_t p = 0; p < k->common_count; p++)
+            if (k->common[p].unit == UNIT_PX && k->common[p].type == PARAM_FLOAT)
+                widest += fabsf(*(const float *)param_field(&k->common[p], r->uses[KIND_LINES][i].values));
+    }
+    return (int)ceilf(widest) + 2;
+}
+
+static void draw_figure(frame *f, const figure *fig)
+{
+    figure_state s = {.figure = fig, .near = f->camera.near, .far = f->camera.far};
+    double nearest = INFINITY, farthest = -INFINITY;
+    box3 box = fig->complement ? f->plan->box : fig->box;
+    camera_depth_range(&f->camera, box, &nearest, &farthest);
+    double margin = fmax((farthest - nearest) * 1e-3, farthest * 1e-6);
+    s.near = fmax(nearest - margin, f->camera.near);
+    s.far = fmin(farthest + margin, f->camera.far);
+    if (!(s.far > s.near))
+        s.far = s.near + 1;
+    camera_pixels(&f->camera, fig->box, f->width, f->height, reach_of(fig), s.pixels);
+    if (s.pixels[2] <= 0 || s.pixels[3] <= 0 || gpu_failed(f->g))
+        return;
+    if (fig->reflects && !f->mirror_depth)
+        mirror_draw_reflection(f, &s);
+    if (fig->direct && !f->maps) {
+        raster_direct(f, &s);
+    } else {
+        raster_figure(f, &s);
+        s.geometry = s.targets[TARGET_NORMAL_DEPTH];
+        if (fig->deferred)
+            raster_shade_deferred(f, &s);
+        for (int k = KIND_LAYERS; k < KIND_FINISH; k++)
+            if (k != KIND_COMPOSE || !f->maps)
+                passes_run_kind(f, &s, (kind_id)k);
+        if (f->maps)
+            collect_figure(f, &s);
+        mem_free(s.edges);
+    }
+    release_targets(f, &s);
+}
+
+void frame_clear_page(frame *f)
+{
+    gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};
+    uniforms_linear(f->ground, pass.clear_values[0]);
+    for (int k = 0; k < 3; k++)
+        pass.clear_values[0][k] *= f->ground.a;
+    gpu_pass_begin(f->g, &pass);
+}
+
+void frame_draw_figures(frame *f)
+{
+    for (size_t i = 0; i < f->plan->figure_count; i++)
+        if (&f->plan->figures[i] != f->mirror)
+            draw_figure(f, &f->plan->figures[i]);
+}
+
+static void encode(frame *f, gpu_texture *out)
+{
+    stopwatch w = watch_start(f);
+    gpu_program *p = gpu_program_of(f->g, "gpu/screen.vert", "finish/encode.frag", "");
+    if (p && !gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {out}, .colour_count = 1});
+        gpu_use(f->g, p, (gpu_state){0});
+        gpu_set_texture(f->g, "t_page", f->page, false);
+        gpu_set_int(f->g, "u_samples", f->samples);
+        gpu_draw_screen(f->g);
+    }
+    watch_stop(f, w, "", "encode");
+}
+
+void frame_draw(frame *f, gpu_texture *out)
+{
+    f->page = frame_acquire(f, TARGET_PAGE);
+    f->page_depth = frame_acquire(f, TARGET_DEPTH);
+    if (!gpu_failed(f->g)) {
+        frame_clear_page(f);
+        frame_draw_figures(f);
+        if (out)
+            encode(f, out);
+    }
+    gpu_target_release(f->g, f->page);
+    gpu_target_release(f->g, f->page_depth);
+}

@@ -1,0 +1,53 @@
+/* One frame: runs a plan on the GPU. */
+#ifndef LIMNER_DRAW_FRAME_H
+#define LIMNER_DRAW_FRAME_H
+
+#include "draw/camera.h"
+#include "draw/plan.h"
+
+enum { PASS_TIMES_MAX = 64 };
+
+/* Wall time of one pass, summed over figures of the same name. */
+typedef struct pass_time {
+    char     name[48];
+    double   ms;
+    uint64_t draws;
+} pass_time;
+
+typedef struct frame_maps frame_maps;
+
+typedef struct frame {
+    gpu             *g;
+    upload          *up;
+    const plan      *plan;
+    view_camera      camera;
+    int              width, height;   /* of the page, supersamples counted */
+    int              samples;         /* a side */
+    colour           ground;
+    bool             profile;         /* finish after each pass and keep its time */
+    frame_maps      *maps;            /* collects the figures' buffers when not NULL */
+    gpu_texture     *page, *page_depth;
+    gpu_texture     *reflection;      /* while a mirror is drawn */
+    int              mirror_depth;    /* 1 while the reflected scene is drawn */
+    float            clip_plane[4];   /* eye space, while mirror_depth > 0 */
+    const figure    *mirror;
+    pass_time        times[PASS_TIMES_MAX];
+    size_t           time_count;
+} frame;
+
+/* Draws the page and encodes it into `out` (RGBA8, width/samples wide). Errors stick to the GPU. */
+void frame_draw(frame *f, gpu_texture *out);
+
+/* What the figures were made of, merged by nearest depth; row 0 at the bottom. */
+struct frame_maps {
+    int       width, height;
+    float    *depth;   /* eye depth, INFINITY where empty */
+    float    *normal;  /* 3 */
+    uint32_t *id;
+    float    *edge;    /* 4 */
+    float    *shade;   /* 4, linear premultiplied */
+};
+lmn_status frame_maps_create(frame_maps *out, int width, int height, lmn_error *error);
+void       frame_maps_release(frame_maps *m);
+
+#endif

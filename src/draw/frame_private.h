@@ -1,0 +1,59 @@
+/* What the files that draw a frame share: profile.c, lighting.c, raster.c, passes.c, mirror.c, collect.c and frame.c. */
+#ifndef LIMNER_DRAW_FRAME_PRIVATE_H
+#define LIMNER_DRAW_FRAME_PRIVATE_H
+
+#include "draw/frame.h"
+#include "draw/uniforms.h"
+
+/* A figure while it is drawn: its pictures and its range of depth. */
+typedef struct figure_state {
+    const figure *figure;
+    gpu_texture  *targets[TARGET_COUNT];
+    gpu_texture  *geometry;  /* the normal-depth buffer as it was drawn; techniques may filter a copy of it */
+    float        *edges;     /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
+    int           pixels[4]; /* scissor */
+    double        near, far;
+} figure_state;
+
+/* --- profile.c: times of passes --- */
+typedef struct stopwatch {
+    double   start;
+    uint64_t draws;
+} stopwatch;
+stopwatch watch_start(frame *f);
+void      watch_stop(frame *f, stopwatch w, const char *group, const char *name);
+
+/* --- lighting.c: the scene's lights --- */
+void lights_declare(text *prelude, const frame *f);
+void lights_set(frame *f);
+
+/* --- passes.c: declared passes and what they share with the geometry pass --- */
+gpu_texture         *frame_acquire(frame *f, target t);
+void                 frame_set_common(frame *f, const figure_state *s);
+param_set            use_own_set(kind_id id, const technique_use *use);
+param_set            use_common_set(kind_id id, const technique_use *use);
+const technique_use *rule_inked_lines(const rule *r); /* the line technique that a composition inks, or NULL */
+const pass          *rule_merged_detection(const rule *r); /* the pass that the composition does itself, or NULL */
+/* Declares, or sets, the pictures that these passes read and that are there; either pass may be NULL. */
+void                 reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
+void                 reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
+void                 passes_run_kind(frame *f, figure_state *s, kind_id id);
+
+/* --- raster.c: the geometry pass --- */
+void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless deferred */
+void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
+void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
+void raster_shade_deferred(frame *f, figure_state *s);
+
+/* --- mirror.c --- */
+void mirror_draw_reflection(frame *f, figure_state *s);
+
+/* --- collect.c: maps --- */
+void collect_edges(frame *f, figure_state *s);
+void collect_figure(frame *f, figure_state *s);
+
+/* --- frame.c --- */
+void frame_clear_page(frame *f);
+void frame_draw_figures(frame *f);
+
+#endif

@@ -1,0 +1,233 @@
+#include "draw/plan.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "layer/layer.h"
+
+const technique_use *rule_use(const rule *r, kind_id id)
+{
+    return r->use_counts[id] ? &r->uses[id][0] : NULL;
+}
+
+static void scale_lengths(const param *params, size_t count, void *values, int pixel_scale)
+{
+    for (size_t i = 0; i < count; i++)
+        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
+            *(float *)((char *)values + params[i].offset) *= (float)pixel_scale;
+}
+
+/* Copies the uses of a rule; selectors and names stay the look's. */
+static bool copy_rule(rule *out, const rule *from, int pixel_scale)
+{
+    *out = *from;
+    memset(out->uses, 0, sizeof out->uses);
+    for (int k = 0; k < KIND_COUNT; k++) {
+        size_t count = from->use_counts[k];
+        out->uses[k] = mem_calloc(count, sizeof(technique_use));
+        if (!out->uses[k])
+            return false;
+        for (size_t i = 0; i < count; i++) {
+            const technique *t = from->uses[k][i].technique;
+            out->uses[k][i] = (technique_use){t, mem_copy(from->uses[k][i].values, t->params_size)};
+            if (!out->uses[k][i].values)
+                return false;
+            scale_lengths(t->params, t->param_count, out->uses[k][i].values, pixel_scale);
+            scale_lengths(kinds[k]->common, kinds[k]->common_count, out->uses[k][i].values, pixel_scale);
+        }
+    }
+    return true;
+}
+
+static void release_rule(rule *r)
+{
+    for (int k = 0; k < KIND_COUNT; k++) {
+        for (size_t i = 0; r->uses[k] && i < r->use_counts[k]; i++)
+            mem_free(r->uses[k][i].values);
+        mem_free(r->uses[k]);
+    }
+}
+
+static unsigned channels_of(const rule *r, bool several_parts)
+{
+    unsigned channels = 0;
+    for (int k = 0; k < KIND_COUNT; k++)
+        for (size_t i = 0; i < r->use_counts[k]; i++)
+            channels |= r->uses[k][i].technique->channels |
+                        (several_parts ? r->uses[k][i].technique->part_channels : 0);
+    return channels;
+}
+
+static bool has_active_pass(const technique_use *use)
+{
+    const technique *t = use->technique;
+    for (size_t i = 0; i < t->pass_count; i++)
+        if (params_condition(t->passes[i].when, t->params, t->param_count, use->values))
+            return true;
+    return false;
+}
+
+static void settle_figure(figure *f, const plan *p, bool as_sprites)
+{
+    const rule *r = f->rule;
+    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
+    const front_values *front = layers ? layers->values : NULL;
+    f->deferred = front && front->shading == SHADING_DEFERRED;
+    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->selected_count;
+    f->reflects = surface && surface->technique->reflects;
+    bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
+    f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred;
+    f->channels = channels_of(r, f->complement || f->part_count > 1) | CHANNEL_SHADE;
+    if (f->complement || as_sprites)
+        f->channels |= CHANNEL_ID;
+    if (f->deferred)
+        f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID | CHANNEL_ALBEDO;
+    if (as_sprites)
+        f->channels |= CHANNEL_NORMAL_DEPTH;
+}
+
+static int figure_rank(const figure *f)
+{
+    return f->direct ? 0 : f->reflects ? 2 : 1;
+}
+
+/* A stable insertion sort: opaque plain figures first, mirrors last. */
+static void order_figures(plan *p)
+{
+    for (size_t i = 1; i < p->figure_count; i++) {
+        figure moving = p->figures[i];
+        size_t k = i;
+        for (; k > 0 && figure_rank(&p->figures[k - 1]) > figure_rank(&moving); k--)
+            p->figures[k] = p->figures[k - 1];
+        p->figures[k] = moving;
+    }
+}
+
+static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
+{
+    selector *wanted = NULL;
+    lmn_status status = select ? selector_parse(&wanted, select, error) : LMN_OK;
+    for (size_t i = 0; status == LMN_OK && i < p->scene->part_count; i++) {
+        p->selected[i] = !wanted || selector_matches(wanted, p->scene, i);
+        p->selected_count += p->selected[i];
+    }
+    selector_destroy(&wanted);
+    if (status == LMN_OK && p->selected_count == 0) {
+        if (!select)
+            return error_set(error, LMN_FORMAT, "the scene has no parts to draw");
+        status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
+        error_hint(error, "`limner info` lists the parts with their names and paths");
+    }
+    return status;
+}
+
+/* Gives every selected part to the last rule that selects it. */
+static void share_parts(plan *p, const upload *up, warnings *notes)
+{
+    const lmn_look *look = p->look;
+    for (size_t i = 0; i < p->scene->part_count; i++) {
+        if (!p->selected[i])
+            continue;
+        p->box = box3_union(p->box, up->part_boxes[i]);
+        for (size_t r = look->rule_count; r-- > 0;) {
+            if (look->rules[r].selector && !selector_matches(look->rules[r].selector, p->scene, i))
+                continue;
+            figure *f = &p->figures[r];
+            f->designated[i] = true;
+            f->part_count++;
+            f->box = box3_union(f->box, up->part_boxes[i]);
+            break;
+        }
+    }
+    size_t kept = 0;
+    for (size_t r = 0; r < look->rule_count; r++) {
+        if (p->figures[r].part_count) {
+            p->figures[kept++] = p->figures[r];
+            continue;
+        }
+        if (look->rules[r].select && strcmp(look->rules[r].select, "*") != 0)
+            warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name,
+                         look->rules[r].select);
+        mem_free(p->figures[r].designated);
+    }
+    p->figure_count = kept;
+}
+
+/* Each mirror has a plane of its own, so each part of a mirror rule becomes a figure. */
+static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
+{
+    size_t before = p->figure_count, capacity = before + p->scene->part_count;
+    figure *grown = mem_realloc(p->figures, capacity * sizeof *grown);
+    if (!grown)
+        return error_memory(error);
+    p->figures = grown;
+    for (size_t i = 0; i < before; i++) {
+        const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
+        if (!surface || !surface->technique->reflects)
+            continue;
+        for (size_t part = 0; part < p->scene->part_count && p->figures[i].part_count > 1; part++) {
+            if (!p->figures[i].designated[part])
+                continue;
+            figure single = {.rule = p->figures[i].rule, .part_count = 1, .box = up->part_boxes[part]};
+            single.designated = mem_calloc(p->scene->part_count, sizeof *single.designated);
+            if (!single.designated)
+                return error_memory(error);
+            single.designated[part] = true;
+            p->figures[p->figure_count++] = single;
+            p->figures[i].designated[part] = false;
+            p->figures[i].part_count--;
+        }
+        p->figures[i].box = box3_empty();
+        for (size_t part = 0; part < p->scene->part_count; part++)
+            if (p->figures[i].designated[part])
+                p->figures[i].box = up->part_boxes[part];
+    }
+    return LMN_OK;
+}
+
+lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
+                       int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    out->scene = scene;
+    out->look = look;
+    out->box = box3_empty();
+    out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
+    out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
+    out->rules = mem_calloc(look->rule_count, sizeof *out->rules);
+    bool good = out->selected && out->figures && out->rules;
+    for (size_t r = 0; good && r < look->rule_count; r++) {
+        out->rule_count++;
+        if (!copy_rule(&out->rules[r], &look->rules[r], pixel_scale))
+            return error_memory(error);
+        figure *f = &out->figures[out->figure_count++];
+        *f = (figure){.rule = &out->rules[r], .box = box3_empty()};
+        f->designated = mem_calloc(scene->part_count, sizeof *f->designated);
+        good = f->designated != NULL;
+    }
+    if (!good)
+        return error_memory(error);
+    lmn_status status = select_parts(out, select, error);
+    if (status != LMN_OK)
+        return status;
+    share_parts(out, up, notes);
+    status = split_mirrors(out, up, error);
+    if (status != LMN_OK)
+        return status;
+    for (size_t i = 0; i < out->figure_count; i++)
+        settle_figure(&out->figures[i], out, as_sprites);
+    order_figures(out);
+    return LMN_OK;
+}
+
+void plan_release(plan *p)
+{
+    for (size_t i = 0; i < p->figure_count; i++)
+        mem_free(p->figures[i].designated);
+    for (size_t i = 0; i < p->rule_count; i++)
+        release_rule(&p->rules[i]);
+    mem_free(p->rules);
+    mem_free(p->figures);
+    mem_free(p->selected);
+    memset(p, 0, sizeof *p);
+}

@@ -1,0 +1,42 @@
+/* The plan of a drawing: rules to figures. */
+#ifndef LIMNER_DRAW_PLAN_H
+#define LIMNER_DRAW_PLAN_H
+
+#include "draw/upload.h"
+#include "look/look.h"
+
+/* The parts that one rule draws. */
+typedef struct figure {
+    const rule *rule;
+    bool       *designated; /* per part: drawn by this figure */
+    size_t      part_count; /* designated ones */
+    box3        box;        /* of the designated parts, world axes */
+    unsigned    channels;
+    bool        complement; /* other figures' parts take part in edge detection */
+    bool        deferred;
+    bool        direct;     /* drawn straight onto the page */
+    bool        reflects;
+} figure;
+
+typedef struct plan {
+    const lmn_scene *scene;
+    const lmn_look  *look;
+    rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted) */
+    size_t           rule_count;
+    bool            *selected; /* per part */
+    size_t           selected_count;
+    figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
+    size_t           figure_count;
+    box3             box; /* of everything drawn */
+} plan;
+
+/* Lengths in pixels are multiplied by `pixel_scale`. `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),
+ * LMN_FORMAT (nothing to draw), LMN_MEMORY. Warnings (rules that select nothing) go to `notes`. */
+lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
+                       int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error);
+void       plan_release(plan *p);
+
+/* The use of a kind that holds one technique; NULL when the rule has none. */
+const technique_use *rule_use(const rule *r, kind_id id);
+
+#endif

@@ -1,0 +1,115 @@
+#include "draw/uniforms.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const target_names[TARGET_COUNT] = {
+    [TARGET_NONE] = "",          [TARGET_NORMAL_DEPTH] = "t_normal_depth", [TARGET_ID] = "t_id",
+    [TARGET_ALBEDO] = "t_albedo", [TARGET_SHADE] = "t_shade",              [TARGET_DEPTH] = "t_depth",
+    [TARGET_EDGE] = "t_edge",    [TARGET_GROUND] = "t_ground",             [TARGET_REFLECTION] = "t_reflection",
+    [TARGET_PAGE] = "t_page",
+};
+
+const char *target_name(target t)
+{
+    return target_names[t];
+}
+
+void target_declare(text *prelude, target t)
+{
+    text_append(prelude, "uniform %s %s;\n", t == TARGET_ID ? "usampler2D" : "sampler2D", target_names[t]);
+}
+
+static void declare_variant(text *prelude, const param *p, const void *values)
+{
+    char name[64];
+    size_t i = 0;
+    for (; p->key[i] && i + 1 < sizeof name; i++)
+        name[i] = (char)toupper((unsigned char)p->key[i]);
+    name[i] = '\0';
+    const void *field = param_field(p, values);
+    int value = p->type == PARAM_BOOL ? *(const bool *)field : *(const int32_t *)field;
+    text_append(prelude, "#define %s %d\n", name, value);
+}
+
+void uniforms_declare(text *prelude, param_set set)
+{
+    static const char *const types[] = {
+        [PARAM_INT] = "int",   [PARAM_FLOAT] = "float", [PARAM_BOOL] = "bool",    [PARAM_ENUM] = "int",
+        [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4",
+    };
+    for (size_t i = 0; i < set.count; i++) {
+        const param *p = &set.params[i];
+        if (p->cpu_only)
+            continue;
+        if (p->variant)
+            declare_variant(prelude, p, set.values);
+        else if (p->type == PARAM_PALETTE)
+            text_append(prelude, "uniform vec4 %s%s[%d];\nuniform int %s%s_count;\n", set.prefix, p->key, PALETTE_MAX, set.prefix, p->key);
+        else
+            text_append(prelude, "uniform %s %s%s;\n", types[p->type], set.prefix, p->key);
+    }
+}
+
+void uniforms_linear(colour c, float out[4])
+{
+    out[0] = colour_to_linear(c.r);
+    out[1] = colour_to_linear(c.g);
+    out[2] = colour_to_linear(c.b);
+    out[3] = c.a;
+}
+
+static colour colour_of(param_set set, const param *p)
+{
+    colour c = *(const colour *)param_field(p, set.values);
+    if (!isnan(c.r) || !p->auto_from)
+        return c;
+    for (size_t i = 0; i < set.count; i++)
+        if (strcmp(set.params[i].key, p->auto_from) == 0)
+            return *(const colour *)param_field(&set.params[i], set.values);
+    return c;
+}
+
+static void set_palette(gpu *g, const char *name, const palette *p)
+{
+    float values[PALETTE_MAX][4];
+    memset(values, 0, sizeof values);
+    for (int i = 0; i < p->count; i++)
+        uniforms_linear(p->colours[i], values[i]);
+    char count_name[80];
+    snprintf(count_name, sizeof count_name, "%s_count", name);
+    gpu_set_int(g, count_name, p->count);
+    gpu_set_vec4_array(g, name, values[0], PALETTE_MAX);
+}
+
+static float float_of(const param *p, float value)
+{
+    return p->as_cosine ? cosf(value * (3.14159265f / 180)) : value;
+}
+
+void uniforms_set(gpu *g, param_set set)
+{
+    for (size_t i = 0; i < set.count; i++) {
+        const param *p = &set.params[i];
+        if (p->cpu_only || p->variant)
+            continue;
+        char name[72];
+        snprintf(name, sizeof name, "%s%s", set.prefix, p->key);
+        const void *field = param_field(p, set.values);
+        float linear[4];
+        switch (p->type) {
+        case PARAM_INT:
+        case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;
+        case PARAM_BOOL: gpu_set_int(g, name, *(const bool *)field); break;
+        case PARAM_FLOAT: gpu_set_float(g, name, float_of(p, *(const float *)field)); break;
+        case PARAM_COLOUR:
+            uniforms_linear(colour_of(set, p), linear);
+            gpu_set_vec4(g, name, linear);
+            break;
+        case PARAM_DIRECTION: gpu_set_vec3(g, name, (const float *)field); break;
+        case PARAM_PALETTE: set_palette(g, name, field); break;
+        }
+    }
+}

@@ -1,0 +1,41 @@
+/* The scene on the GPU: meshes ready to draw, textures, and a list of what is drawn where. */
+#ifndef LIMNER_DRAW_UPLOAD_H
+#define LIMNER_DRAW_UPLOAD_H
+
+#include "gpu/gpu.h"
+#include "scene/scene.h"
+
+/* One draw call: a primitive of a part at one place. */
+typedef struct draw_item {
+    gpu_mesh *mesh;
+    mat4      world;
+    uint32_t  part_id, surface_id;
+    size_t    part_index;
+    int32_t   material;
+    bool      has_uvs, has_colours;
+} draw_item;
+
+typedef struct upload {
+    uint64_t      revision;
+    double        crease_angle; /* radians */
+    mat4         *worlds;
+    box3         *part_boxes; /* world axes */
+    size_t        part_count;
+    draw_item    *items;
+    size_t        item_count, item_capacity;
+    gpu_mesh    **meshes;
+    size_t        mesh_count, mesh_capacity;
+    gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
+    size_t        texture_count;
+    uint64_t      triangles; /* drawn, instances counted */
+    size_t        bytes;
+} upload;
+
+/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. */
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, lmn_progress_fn progress, void *user,
+                         lmn_error *error);
+void       upload_release(upload *u, gpu *g);
+/* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
+gpu_texture *upload_texture(upload *u, gpu *g, const lmn_scene *scene, const texture_use *use, bool linear);
+
+#endif

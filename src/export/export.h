@@ -1,0 +1,22 @@
+/* Export: pictures to bytes. One file a format. */
+#ifndef LIMNER_EXPORT_EXPORT_H
+#define LIMNER_EXPORT_EXPORT_H
+
+#include "base/error.h"
+
+/* Bytes in memory, owned by the caller (mem_free). */
+typedef struct export_bytes {
+    unsigned char *data;
+    size_t         size;
+} export_bytes;
+
+/* PNG of 8-bit RGBA pixels, row 0 on top, straight alpha; written as RGB when everything is opaque. Errors: LMN_MEMORY. */
+lmn_status export_png(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error);
+/* PNG of one 16-bit grey channel (native byte order). */
+lmn_status export_png_grey16(export_bytes *out, const uint16_t *grey, int width, int height, lmn_error *error);
+/* PNG of 8-bit RGBA that keeps all four channels as they are. */
+lmn_status export_png_raw(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error);
+/* PFM of 1 or 3 floats a pixel, row 0 at the bottom. */
+lmn_status export_pfm(export_bytes *out, const float *values, int channels, int width, int height, lmn_error *error);
+
+#endif

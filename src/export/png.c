@@ -1,0 +1,133 @@
+/* PNG through libdeflate: one fixed filter and level 6 beat libpng's defaults in size and time on drawings. */
+#include "export/export.h"
+
+#include <libdeflate.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { COLOUR_GREY = 0, COLOUR_RGB = 2, COLOUR_RGBA = 6, FILTER_UP = 2 };
+
+typedef struct png_image {
+    int            width, height, colour_type, depth, pixel_bytes;
+    unsigned char *rows; /* filtered: one filter byte and the row, for each row */
+    size_t         rows_size;
+} png_image;
+
+static void put_be32(unsigned char *at, uint32_t value)
+{
+    at[0] = (unsigned char)(value >> 24);
+    at[1] = (unsigned char)(value >> 16);
+    at[2] = (unsigned char)(value >> 8);
+    at[3] = (unsigned char)value;
+}
+
+static size_t put_chunk(unsigned char *at, const char *type, const unsigned char *data, size_t size)
+{
+    put_be32(at, (uint32_t)size);
+    memcpy(at + 4, type, 4);
+    if (size && data)
+        memmove(at + 8, data, size);
+    put_be32(at + 8 + size, libdeflate_crc32(0, at + 4, size + 4));
+    return size + 12;
+}
+
+static bool allocate_rows(png_image *png, int width, int height, int colour_type, int depth, int pixel_bytes)
+{
+    *png = (png_image){width, height, colour_type, depth, pixel_bytes, NULL, 0};
+    png->rows_size = ((size_t)width * (size_t)pixel_bytes + 1) * (size_t)height;
+    png->rows = mem_alloc(png->rows_size);
+    return png->rows != NULL;
+}
+
+/* Turns plain rows, already laid out with room for the filter byte, into differences to the row above; bottom row first. */
+static void filter_up(png_image *png)
+{
+    size_t stride = (size_t)png->width * (size_t)png->pixel_bytes + 1;
+    for (int y = png->height - 1; y >= 0; y--) {
+        unsigned char *row = png->rows + (size_t)y * stride;
+        row[0] = y > 0 ? FILTER_UP : 0;
+        if (y > 0)
+            for (size_t x = 1; x < stride; x++)
+                row[x] = (unsigned char)(row[x] - row[x - stride]);
+    }
+}
+
+static lmn_status compress(export_bytes *out, png_image *png, lmn_error *error)
+{
+    static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
+    filter_up(png);
+    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(6);
+    size_t bound = compressor ? libdeflate_zlib_compress_bound(compressor, png->rows_size) : 0;
+    unsigned char *data = compressor ? mem_alloc(bound + 128) : NULL;
+    if (!data) {
+        libdeflate_free_compressor(compressor);
+        mem_free(png->rows);
+        return error_memory(error);
+    }
+    unsigned char header[13] = {0};
+    put_be32(header, (uint32_t)png->width);
+    put_be32(header + 4, (uint32_t)png->height);
+    header[8] = (unsigned char)png->depth;
+    header[9] = (unsigned char)png->colour_type;
+    memcpy(data, signature, 8);
+    size_t at = 8;
+    at += put_chunk(data + at, "IHDR", header, sizeof header);
+    at += put_chunk(data + at, "sRGB", (const unsigned char[]){0}, 1);
+    size_t size = libdeflate_zlib_compress(compressor, png->rows, png->rows_size, data + at + 8, bound);
+    at += put_chunk(data + at, "IDAT", NULL, size);
+    at += put_chunk(data + at, "IEND", NULL, 0);
+    libdeflate_free_compressor(compressor);
+    mem_free(png->rows);
+    out->data = data;
+    out->size = at;
+    return LMN_OK;
+}
+
+static lmn_status export_rgba(export_bytes *out, const uint8_t *rgba, int width, int height, bool keep_alpha, lmn_error *error)
+{
+    png_image png;
+    int bytes = keep_alpha ? 4 : 3;
+    if (!allocate_rows(&png, width, height, keep_alpha ? COLOUR_RGBA : COLOUR_RGB, 8, bytes))
+        return error_memory(error);
+    size_t stride = (size_t)width * (size_t)bytes + 1;
+    for (int y = 0; y < height; y++) {
+        unsigned char *row = png.rows + (size_t)y * stride + 1;
+        const uint8_t *from = rgba + (size_t)y * (size_t)width * 4;
+        if (keep_alpha)
+            memcpy(row, from, (size_t)width * 4);
+        else
+            for (int x = 0; x < width; x++)
+                memcpy(row + 3 * x, from + 4 * x, 3);
+    }
+    return compress(out, &png, error);
+}
+
+lmn_status export_png(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error)
+{
+    size_t count = (size_t)width * (size_t)height;
+    unsigned char all = 255;
+    for (size_t i = 0; i < count; i++)
+        all &= rgba[4 * i + 3];
+    return export_rgba(out, rgba, width, height, all != 255, error);
+}
+
+lmn_status export_png_raw(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error)
+{
+    return export_rgba(out, rgba, width, height, true, error);
+}
+
+lmn_status export_png_grey16(export_bytes *out, const uint16_t *grey, int width, int height, lmn_error *error)
+{
+    png_image png;
+    if (!allocate_rows(&png, width, height, COLOUR_GREY, 16, 2))
+        return error_memory(error);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            uint16_t value = grey[(size_t)y * (size_t)width + (size_t)x];
+            unsigned char *at = png.rows + (size_t)y * ((size_t)width * 2 + 1) + 1 + 2 * (size_t)x;
+            at[0] = (unsigned char)(value >> 8);
+            at[1] = (unsigned char)value;
+        }
+    return compress(out, &png, error);
+}

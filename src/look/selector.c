@@ -1,0 +1,217 @@
+#include "look/selector.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+typedef enum condition_type { CONDITION_NAME, CONDITION_PATH, CONDITION_ATTRIBUTE } condition_type;
+
+/* One condition. Those of one alternative follow each other; all of them must hold. */
+typedef struct condition {
+    condition_type type;
+    bool           negated;
+    bool           starts_alternative;
+    char          *key;     /* of an attribute */
+    char          *pattern; /* NULL: any value */
+} condition;
+
+struct selector {
+    condition *items;
+    size_t     count, capacity;
+};
+
+typedef struct reader {
+    const char *text, *at;
+    lmn_error  *error;
+} reader;
+
+static lmn_status wrong(const reader *r, const char *what)
+{
+    return error_set(r->error, LMN_USAGE, "selector '%.120s' is wrong at character %d: %s", r->text,
+                     (int)(r->at - r->text) + 1, what);
+}
+
+static void skip_blanks(reader *r)
+{
+    while (*r->at == ' ' || *r->at == '\t')
+        r->at++;
+}
+
+/* Reads a word up to one of `ends` (or the text's end). Quotes keep everything between them. */
+static lmn_status read_word(reader *r, const char *ends, char **out)
+{
+    text word = {0};
+    while (*r->at && !strchr(ends, *r->at)) {
+        if (*r->at == '"' || *r->at == '\'') {
+            const char *close = strchr(r->at + 1, *r->at);
+            if (!close) {
+                text_release(&word);
+                return wrong(r, "the quote is not closed");
+            }
+            text_append_bytes(&word, r->at + 1, (size_t)(close - r->at) - 1);
+            r->at = close + 1;
+        } else {
+            text_append_bytes(&word, r->at++, 1);
+        }
+    }
+    *out = text_take(&word);
+    return *out ? LMN_OK : error_memory(r->error);
+}
+
+static lmn_status read_attribute(reader *r, condition *c)
+{
+    c->type = CONDITION_ATTRIBUTE;
+    r->at++;
+    lmn_status status = read_word(r, "=]", &c->key);
+    if (status != LMN_OK)
+        return status;
+    if (c->key[0] == '\0')
+        return wrong(r, "the attribute's name is missing");
+    if (*r->at == '=') {
+        r->at++;
+        status = read_word(r, "]", &c->pattern);
+        if (status != LMN_OK)
+            return status;
+    }
+    if (*r->at != ']')
+        return wrong(r, "']' is missing");
+    r->at++;
+    return LMN_OK;
+}
+
+static lmn_status read_condition(reader *r, condition *c)
+{
+    while (*r->at == '!') {
+        c->negated = !c->negated;
+        r->at++;
+        skip_blanks(r);
+    }
+    if (*r->at == '[')
+        return read_attribute(r, c);
+    if (*r->at == ']')
+        return wrong(r, "']' without '['");
+    const char *start = r->at;
+    lmn_status status = read_word(r, " \t,[", &c->pattern);
+    if (status == LMN_OK && r->at == start)
+        return wrong(r, "a name, a path or [attribute] is missing");
+    if (status == LMN_OK)
+        c->type = strchr(c->pattern, '/') ? CONDITION_PATH : CONDITION_NAME;
+    return status;
+}
+
+static lmn_status read_all(reader *r, selector *s)
+{
+    bool starts = true;
+    for (skip_blanks(r); *r->at || starts; skip_blanks(r)) {
+        if (*r->at == ',') {
+            if (starts)
+                return wrong(r, "nothing stands before ','");
+            r->at++;
+            starts = true;
+            continue;
+        }
+        if (!mem_grow((void **)&s->items, &s->capacity, s->count + 1, sizeof *s->items))
+            return error_memory(r->error);
+        condition *c = &s->items[s->count++];
+        *c = (condition){.starts_alternative = starts};
+        lmn_status status = read_condition(r, c);
+        if (status != LMN_OK)
+            return status;
+        starts = false;
+    }
+    return LMN_OK;
+}
+
+lmn_status selector_parse(selector **out, const char *written, lmn_error *error)
+{
+    reader r = {written, written, error};
+    *out = NULL;
+    selector *s = mem_calloc(1, sizeof *s);
+    if (!s)
+        return error_memory(error);
+    lmn_status status = read_all(&r, s);
+    if (status != LMN_OK) {
+        selector_destroy(&s);
+        if (error && status == LMN_USAGE)
+            error_hint(error, "for example: *   Wheel*   \"Front Axle\"   Truck/*   [material=Glass]   !Ground");
+    }
+    *out = s;
+    return status;
+}
+
+void selector_destroy(selector **s)
+{
+    if (!s || !*s)
+        return;
+    for (size_t i = 0; i < (*s)->count; i++) {
+        mem_free((*s)->items[i].key);
+        mem_free((*s)->items[i].pattern);
+    }
+    mem_free((*s)->items);
+    mem_free(*s);
+    *s = NULL;
+}
+
+static bool material_matches(const char *pattern, const lmn_scene *scene, const node *n)
+{
+    if (n->mesh < 0 || (size_t)n->mesh >= scene->mesh_count)
+        return false;
+    const mesh *m = &scene->meshes[n->mesh];
+    for (size_t i = 0; i < m->primitive_count; i++) {
+        int32_t index = m->primitives[i].material;
+        if (index < 0 || (size_t)index >= scene->material_count)
+            continue;
+        const char *name = scene->materials[index].name;
+        if (!pattern || text_glob(pattern, name ? name : ""))
+            return true;
+    }
+    return false;
+}
+
+/* The nearest node on the way to the root that states the key decides: what a file says about an assembly holds for its
+ * parts. */
+static bool attribute_matches(const condition *c, const lmn_scene *scene, int32_t at)
+{
+    for (; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
+        const node *n = &scene->nodes[at];
+        for (size_t i = 0; i < n->attribute_count; i++)
+            if (strcmp(n->attributes[i].key, c->key) == 0)
+                return !c->pattern || text_glob(c->pattern, n->attributes[i].value ? n->attributes[i].value : "");
+    }
+    return false;
+}
+
+static bool condition_holds(const condition *c, const lmn_scene *scene, size_t part_index)
+{
+    const part *p = &scene->parts[part_index];
+    char id[24];
+    switch (c->type) {
+    case CONDITION_NAME: return text_glob(c->pattern, p->name ? p->name : "");
+    case CONDITION_PATH: return text_glob(c->pattern, p->path ? p->path : "");
+    case CONDITION_ATTRIBUTE: break;
+    }
+    if (strcmp(c->key, "id") == 0) {
+        snprintf(id, sizeof id, "%zu", part_index + 1);
+        return !c->pattern || text_glob(c->pattern, id);
+    }
+    if (strcmp(c->key, "material") == 0)
+        return material_matches(c->pattern, scene, &scene->nodes[p->node]);
+    return attribute_matches(c, scene, p->node);
+}
+
+bool selector_matches(const selector *s, const lmn_scene *scene, size_t part_index)
+{
+    if (part_index >= scene->part_count)
+        return false;
+    for (size_t i = 0; i < s->count;) {
+        bool all = true;
+        do
+            all = all && condition_holds(&s->items[i], scene, part_index) != s->items[i].negated;
+        while (++i < s->count && !s->items[i].starts_alternative);
+        if (all)
+            return true;
+    }
+    return false;
+}

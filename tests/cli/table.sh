@@ -1,0 +1,243 @@
+#!/usr/bin/env bash
+# The command's contract as a table. Usage: table.sh LIMNER SOURCE GROUP CMAKE
+set -u
+limner=$1 source=$2 group=$3 cmake=$4
+examples=$source/examples
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+unset DISPLAY WAYLAND_DISPLAY
+rows=0 wrong=0
+small="--size 64x64"
+
+complain() {
+    printf 'limner %s\n  %s\n' "$row" "$1"
+    sed 's/^/  stderr: /' "$folder/.stderr"
+    wrong=$((wrong + 1))
+}
+
+# row STATUS STDERR FILES ARGUMENT…: runs the command; STDERR is an extended regular expression, empty for silence; FILES are
+# those that it must make (and then they are removed), no others.
+row() {
+    local status=$1 pattern=$2 files=$3 got=0 made
+    shift 3
+    row="$*"
+    rows=$((rows + 1))
+    find . -mindepth 1 ! -name '.*' ! -name 'in-*' -delete
+    "$limner" "$@" > .stdout 2> .stderr < /dev/null || got=$?
+    [ "$got" = "$status" ] || complain "exit status $got, expected $status"
+    if [ -z "$pattern" ]; then
+        [ ! -s .stderr ] || complain "standard error is not empty"
+    else
+        grep -Eq -- "$pattern" .stderr || complain "standard error lacks: $pattern"
+    fi
+    made=$(find . -type f ! -path '*/.*' ! -name 'in-*' -printf '%P\n' | sort | tr '\n' ' ')
+    [ "${made% }" = "$files" ] || complain "made '${made% }', expected '$files'"
+}
+
+# out PATTERN: the last row's standard output has it.
+out() {
+    grep -Eq -- "$1" .stdout || complain "standard output lacks: $1"
+}
+
+# documented FILE PAGE: well-formed JSON whose keys the page names.
+documented() {
+    "$cmake" -DFILE="$1" -DPAGE="$source/docs/reference/$2" -P "$source/tests/cli/check_keys.cmake" > .keys 2>&1 ||
+        complain "$(cat .keys)"
+}
+
+is_png() {
+    [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || complain "$1 is no PNG"
+}
+
+gear=$examples/gearbox.stl
+box=$examples/box.glb
+
+group_usage() {
+    row 1 'no command is given' ''
+    row 1 "did you mean 'limner draw'" '' drow
+    row 1 'limner draw model.glb' '' model.glb
+    row 0 '' '' --help; out '^  doctor'
+    row 0 '' '' --version; out '^limner [0-9]+\.[0-9]+\.[0-9]+$'
+    local command
+    for command in draw info looks bench doctor; do
+        row 0 '' '' $command --help; out "^usage: limner $command"
+        row 0 '' '' help $command; out "^usage: limner $command"
+        row 1 "unknown option '--nosuch'" '' $command --nosuch
+    done
+    row 1 'no INPUT is given' '' draw
+    row 1 'no INPUT is given' '' info
+    row 1 'one argument too many' '' bench a.glb b.glb
+    row 1 'one argument too many' '' doctor x
+    row 1 "did you mean '--look'" '' draw "$gear" --loook edges
+    row 1 '--look needs a value' '' draw "$gear" --look
+    row 1 '--eye needs a value' '' draw "$gear" --eye --target 1,2,3
+    row 1 '--ortho takes no value' '' draw "$gear" --ortho=yes
+    row 1 "--size is '10'; allowed is WxH, each from 1 to 16384" '' draw "$gear" --size 10
+    row 1 "--size is '0x5'" '' draw "$gear" --size 0x5
+    row 1 "--size is '17000x5'" '' draw "$gear" --size=17000x5
+    row 1 "--view is 'isso'; allowed is one of iso, front" '' draw "$gear" --view isso
+    row 1 "--eye is '1,2'; allowed is three numbers" '' draw "$gear" --eye 1,2
+    row 1 "--fov is '300'; allowed is a number from 1 to 170" '' draw "$gear" --fov 300
+    row 1 "--fov is 'nan'" '' draw "$gear" --fov nan
+    row 1 "--seed is '1.5'; allowed is a whole number" '' draw "$gear" --seed 1.5
+    row 1 "--samples is '3'; allowed is a square number" '' draw "$gear" --samples 3
+    row 1 "--up-axis is 'x'" '' draw "$gear" --up-axis x
+    row 1 '--ortho and --fov exclude' '' draw "$gear" --ortho --fov 20
+    row 1 '--camera excludes' '' draw "$gear" --camera a --view top
+    row 1 '--target needs --eye' '' draw "$gear" --target 1,2,3
+    row 1 "allowed is FIRST:LAST:FPS" '' draw "$gear" --frames 1-2
+    row 1 "allowed is FIRST:LAST:FPS" '' draw "$gear" --frames 5:2:24
+    row 1 "allowed is FIRST:LAST:FPS" '' draw "$gear" --frames 0:1:0
+    row 1 'has \{frame\}, but there is no --frames' '' draw "$gear" -o 'x{frame}.png'
+    row 1 'one file for all frames' '' draw "$gear" -o x.png --frames 0:1:2
+    row 1 '--time and --frames exclude' '' draw "$gear" --time 1 --frames 0:1:2
+    row 1 'picture and report cannot both' '' draw "$gear" -o - --report -
+    row 1 'frames cannot go to standard output' '' draw "$gear" -o - --frames 0:1:2
+    row 1 'one file for all inputs' '' draw "$gear" "$box" -o '{name}.png' --report r.json
+    row 1 'another input has the same' '' draw a/x.stl b/x.stl -o '{name}.png'
+    row 1 "cannot tell the format from '.gif'" '' draw "$gear" -o x.gif
+    row 1 'there is no such format' '' draw "$gear" --format gif
+    row 1 "there is no look 'edgs'" '' draw "$gear" --look edgs
+    row 1 "did you mean 'edges'" '' draw "$gear" --look edgs
+    row 1 'lines.width is .99.; allowed is a number from .* px' '' draw "$gear" --set lines.width=99
+    row 1 "did you mean 'width'" '' draw "$gear" --set lines.widht=9
+    row 1 'allowed is KIND.PARAM=VALUE' '' draw "$gear" --set lines.width
+    row 1 'has no lines' '' draw "$gear" --look plain --set lines.width=3
+}
+
+group_draw() {
+    local view
+    row 0 '' 'gearbox.png' draw "$gear" $small; is_png gearbox.png
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --look toon --set lines.width=3 --set surface.bands=4
+    row 0 '' 'x.png' draw -ox.png $small -- "$gear"
+    row 0 '' 'x.tmp' draw "$gear" $small -o x.tmp --format png; is_png x.tmp
+    row 0 '' '' draw "$gear" $small -o -; is_png .stdout
+    row 0 '' '' draw "$gear" $small -o - --format png; is_png .stdout
+    for view in iso front back left right top bottom; do
+        row 0 '' 'x.png' draw "$gear" $small -o x.png --view $view
+    done
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --eye -300,-200,100.5
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --eye=300,-200,100 --target 0,0,0 --up 0,0,1
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --ortho --fit 0.5 --time 0.5 --seed 7 --samples 4 --up-axis y
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --fov 60 --background none --select 'gear*'
+    row 0 'drawn in [0-9]+ ms' 'x.png' draw "$gear" $small -o x.png --verbose
+    row 1 'selector .a,. is wrong at character' '' draw "$gear" $small --select 'a,'
+    row 1 'colour|background' '' draw "$gear" $small --background nosuch
+    row 1 "selection 'nosuch' matches none" '' draw "$gear" $small --select nosuch
+    row 1 "camera" '' draw "$gear" $small --camera nosuch
+    row 4 '^limner: nosuch/x.png: ' '' draw "$gear" $small -o nosuch/x.png
+    row 4 '^limner: nosuch/r.json: ' 'x.png' draw "$gear" $small -o x.png --report nosuch/r.json
+    row 0 '' 'a.png' draw "$gear" $small -o a.png && cp a.png in-first.png
+    row 0 '' 'a.png' draw "$gear" $small -o a.png
+    cmp -s a.png in-first.png || complain "two runs give different files"
+    rows=$((rows + 1))
+    row="draw -o - on a full disk"
+    "$limner" draw "$gear" $small -o - > /dev/full 2> .stderr
+    [ $? = 4 ] || complain "exit status is not 4"
+    "$limner" draw "$gear" $small --look plain --set lines.operator=four-tap -o in-a.png
+    "$limner" draw "$gear" $small --look plain -o in-b.png
+    cmp -s in-a.png in-b.png && complain "--set lines.operator changes nothing"
+}
+
+group_many() {
+    cp "$gear" in-one.stl; cp "$gear" in-two.stl; printf 'solid x\nfacet' > in-bad.stl
+    row 0 '' 'p-in-one.png p-in-two.png' draw in-one.stl in-two.stl $small -o 'p-{name}.png'
+    row 2 '^limner: in-bad.stl:2: ' 'p-in-one.png p-in-two.png' draw in-one.stl in-bad.stl in-two.stl $small -o 'p-{name}.png'
+    row 2 '^limner: in-none.stl: ' 'p-in-two.png' draw in-none.stl in-two.stl $small -o 'p-{name}.png'
+    row 2 '^limner: in-bad.stl:2: ' '' draw in-one.stl in-bad.stl $small
+    row 1 'matches none' 'p-in-two.png' draw in-one.stl in-two.stl $small -o 'p-{name}.png' --select 'in-two*'
+    row 0 '' 'x.png' draw in-one.stl in-two.stl $small -o x.png
+    row 0 '' 'gearbox-0003.png gearbox-0004.png' draw "$gear" $small --frames 3:4:24
+    row 0 '' '0000-gearbox.png' draw "$gear" $small --frames 0:0:24 -o '{frame}-{name}.png'
+    row 4 '^limner: nosuch/0000.png: ' '' draw "$gear" $small --frames 0:0:24 -o 'nosuch/{frame}.png'
+}
+
+group_report() {
+    row 0 '' 'r.json x.png' draw "$gear" $small -o x.png --report r.json
+    cp r.json in-report.json; documented in-report.json report.md
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --report -
+    out '"path": "x.png"'; out '"load_ms"'
+    row 0 '' 'p-r.json p.png' draw "$gear" $small -o p.png --report p-r.json --aov .maps
+    local map
+    for map in depth.pfm normal.pfm id.png edge.png shade.png; do
+        [ -s .maps/$map ] || complain "there is no $map"
+    done
+    row 0 '' '' bench "$gear" --look edges --look toon $small --repeat 2 --json
+    documented .stdout bench.md
+    row 0 '' '' bench "$gear" --look edges $small --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
+    row 1 "there is no look 'nosuch'" '' bench "$gear" --look nosuch
+    row 0 '' '' info "$gear" --json; documented .stdout info.md
+    row 0 '' '' info "$gear"; out '^triangles +9532$'
+}
+
+group_inputs() {
+    row 2 '^limner: nosuch.glb: ' '' draw nosuch.glb
+    row 2 '^limner: nosuch.glb: ' '' info nosuch.glb
+    row 2 '^limner: /: |^limner: /' '' draw /
+    printf 'what is this' > in-unknown.xyz
+    row 2 '^limner: in-unknown.xyz: ' '' draw in-unknown.xyz
+    : > in-empty.glb
+    row 2 '^limner: in-empty.glb: ' '' draw in-empty.glb
+    : > in-empty.stl
+    row 2 '^limner: in-empty.stl: ' '' draw in-empty.stl
+    row 2 'nosuch.json: ' '' draw "$gear" --look nosuch.json
+    printf '{"version": 1,\n "rules": [{"surface": "lit" "lines": "id"}]}' > in-syntax.json
+    row 2 '^limner: in-syntax.json:2:[0-9]+: not valid JSON' '' draw "$gear" --look in-syntax.json
+    printf '{"version": 1,\n "rules": [{"surfac": "lit"}]}' > in-key.json
+    row 2 "^limner: in-key.json:2:13: rules\[0\]: unknown key 'surfac'" '' draw "$gear" --look in-key.json
+    row 2 "^hint: did you mean 'surface'" '' draw "$gear" --look in-key.json
+    printf '{"version": 1, "rules": [{"surface": {"technique": "toon", "bands": 99}}]}' > in-value.json
+    row 2 '^limner: in-value.json:1:[0-9]+: .*bands is .99.; allowed is a whole number from' '' draw "$gear" --look in-value.json
+    printf '{"version": 99}' > in-version.json
+    row 2 'in-version.json:1:2: version is 99' '' draw "$gear" --look in-version.json
+    printf '{"version": 1, "x-mine": 1, "rules": [{"surface": "lit"}]}' > in-good.json
+    row 0 '' 'x.png' draw "$gear" $small --look ./in-good.json -o x.png
+    local model
+    for model in "$examples"/*.glb "$examples"/*.obj; do
+        row 0 '' 'x.png' draw "$model" $small -o x.png
+        row 0 '' '' info "$model" --json; documented .stdout info.md
+    done
+}
+
+group_looks() {
+    local name
+    row 0 '' '' looks; out '^plain '; out '^edges '
+    row 0 '' '' looks --json; documented .stdout looks-json.md
+    row 0 '' '' looks edges --json; documented .stdout looks-json.md
+    row 0 '' '' looks edges; out 'lines.width .*px'
+    row 1 "did you mean 'edges'" '' looks edgs
+    row 1 '--markdown goes with neither' '' looks edges --markdown
+    for name in $("$limner" looks | sed -n 's/^\([a-z][a-z-]*\) .*/\1/p'); do
+        row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png
+        row 0 '' '' looks "$name"; out "^$name: "
+    done
+}
+
+group_doctor() {
+    row 0 '' '' doctor; out 'Limner can draw here'
+    row 0 '' '' doctor --json; documented .stdout doctor.md
+    # An EGL without any vendor is a machine without drivers.
+    export __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing
+    row 3 '' '' doctor; out 'sudo apt-get install'
+    row 3 '' '' doctor --json; out '"usable": false'; documented .stdout doctor.md
+    row 3 '^limner: ' '' draw "$gear"
+    row 2 '^limner: nosuch.stl: ' '' draw nosuch.stl
+}
+
+group_cancel() {
+    local got=0
+    row="draw with Ctrl-C"
+    rows=1
+    "$limner" draw "$gear" --frames 0:9999:24 -o 'f-{frame}.png' 2> .stderr &
+    local waited=0
+    until [ -e f-0000.png ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
+    kill -INT $!
+    wait $! || got=$?
+    [ $got = 5 ] || complain "exit status $got, expected 5"
+    find . -name '*.part*' | grep -q . && complain "a half-written file stays behind"
+}
+
+group_"$group"
+printf '%d rows, %d wrong\n' $rows $wrong
+[ $wrong = 0 ]

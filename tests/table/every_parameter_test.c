@@ -1,0 +1,279 @@
+/* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some value:
+ * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "limner/limner.h"
+#include "look/look.h"
+
+enum { SIDE = 160, VALUES_MAX = 24, TEXT_SIZE = 96 };
+
+typedef struct fixture {
+    lmn_scene    *scene;
+    lmn_renderer *renderer;
+    const char   *examples;
+    int           mistakes, drawn;
+} fixture;
+
+/* Parameters that cannot change this picture, with the reason. */
+static const struct {
+    const char *kind, *key, *reason;
+} exceptions[] = {
+    {"layers", "shading", "both ways give the same picture"},
+    {"scene", "lights", "the scene has no lights of its own"},
+};
+
+static bool is_exception(const kind *k, const param *p)
+{
+    for (size_t i = 0; i < PARAM_COUNT(exceptions); i++)
+        if (strcmp(exceptions[i].kind, k->name) == 0 && strcmp(exceptions[i].key, p->key) == 0)
+            return true;
+    return false;
+}
+
+/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues and intersections. */
+static void write_ball(FILE *file, double x)
+{
+    enum { ROWS = 10, COLUMNS = 16 };
+    fprintf(file, "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
+                  "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face %d\n"
+                  "property list uchar int vertex_indices\nend_header\n", (ROWS + 1) * COLUMNS, ROWS * COLUMNS);
+    for (int r = 0; r <= ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS;
+            fprintf(file, "%.4f %.4f %.4f %d %d %d\n", 45 * sin(polar) * cos(around) + x, 45 * cos(polar) + 45,
+                    45 * sin(polar) * sin(around) + 20, 200 - 15 * r, 60 + 8 * c, 60);
+        }
+    for (int r = 0; r < ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            int next = (c + 1) % COLUMNS;
+            fprintf(file, "4 %d %d %d %d\n", r * COLUMNS + c, (r + 1) * COLUMNS + c, (r + 1) * COLUMNS + next, r * COLUMNS + next);
+        }
+}
+
+static lmn_look *look_of(const technique *t, char *json, size_t size)
+{
+    lmn_look *look = NULL;
+    lmn_error error = {0};
+    snprintf(json, size, "{\"version\": 1, \"rules\": [%s, {\"select\": \"other*\", \"surface\": \"lit\"}], "
+                         "\"finish\": {\"ground\": \"#7080a0\"}}", t->example);
+    if (lmn_look_parse(&look, json, t->name, &error) != LMN_OK)
+        fail_msg("example of %s: %s", t->name, error.message);
+    return look;
+}
+
+static lmn_drawing *draw(fixture *f, const lmn_look *look, const char *what)
+{
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    lmn_drawing *drawing = NULL;
+    lmn_error error = {0};
+    desc.width = desc.height = SIDE;
+    f->drawn++;
+    if (lmn_draw(&drawing, f->renderer, f->scene, look, &desc, &error) == LMN_OK)
+        return drawing;
+    print_error("%s: cannot be drawn: %s\n", what, error.message);
+    f->mistakes++;
+    return NULL;
+}
+
+static bool are_equal(const lmn_drawing *a, const lmn_drawing *b)
+{
+    int width, height;
+    return memcmp(lmn_drawing_pixels(a, &width, &height), lmn_drawing_pixels(b, &width, &height), (size_t)SIDE * SIDE * 4) == 0;
+}
+
+/* Values worth trying; a number's extremes come first. */
+static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
+{
+    size_t count = 0;
+    double soft_min = p->soft_min != 0 || p->soft_max != 0 ? p->soft_min : p->min;
+    double soft_max = p->soft_min != 0 || p->soft_max != 0 ? p->soft_max : p->max;
+    const double numbers[] = {p->min, p->max, soft_min, soft_max, (soft_min + soft_max) / 2, p->def * 2, p->def / 2 + 0.3};
+    static const char *const colours[] = {"#ff00ff", "#00ff00", "none"}, *const axes[] = {"1,0,0", "0,0,1", "-1,-1,0.2"};
+    static const char *const palettes[] = {"#000000", "#ff0000,#00ff00,#0000ff,#ffffff"};
+    switch (p->type) {
+    case PARAM_INT:
+    case PARAM_FLOAT:
+        for (size_t i = 0; i < PARAM_COUNT(numbers); i++)
+            snprintf(values[count++], TEXT_SIZE, p->type == PARAM_INT ? "%.0f" : "%.6f", numbers[i]);
+        break;
+    case PARAM_BOOL:
+        snprintf(values[count++], TEXT_SIZE, "%s", p->def != 0 ? "false" : "true");
+        break;
+    case PARAM_ENUM:
+        for (; p->names[count] && count < VALUES_MAX; count++)
+            snprintf(values[count], TEXT_SIZE, "%s", p->names[count]);
+        break;
+    case PARAM_COLOUR:
+    case PARAM_DIRECTION:
+        for (size_t i = 0; i < 3; i++)
+            snprintf(values[count++], TEXT_SIZE, "%s", p->type == PARAM_COLOUR ? colours[i] : axes[i]);
+        break;
+    case PARAM_PALETTE:
+        for (size_t i = 0; i < 2; i++)
+            snprintf(values[count++], TEXT_SIZE, "%s", palettes[i]);
+        break;
+    }
+    return count;
+}
+
+/* Makes one term of a condition hold: "key", "key=name", "key>number", "key<number". */
+static void make_term_hold(lmn_look *look, const kind *k, const technique *t, const char *term)
+{
+    char key[TEXT_SIZE], path[TEXT_SIZE * 2], value[TEXT_SIZE];
+    size_t length = strcspn(term, "=<>");
+    snprintf(key, sizeof key, "%.*s", (int)length, term);
+    const param *p = kind_find_param(k, t, key);
+    if (!p)
+        fail_msg("%s.%s: only_if names the unknown '%s'", k->name, t->name, key);
+    double bound = term[length] == '>' || term[length] == '<' ? atof(term + length + 1) : 0;
+    if (term[length] == '=')
+        snprintf(value, sizeof value, "%s", term + length + 1);
+    else if (p->type == PARAM_BOOL)
+        snprintf(value, sizeof value, "true");
+    else if (p->type == PARAM_ENUM)
+        snprintf(value, sizeof value, "%s", p->names[term[length] == '<' ? 0 : (size_t)bound + 1]);
+    else
+        snprintf(value, sizeof value, "%.6g", term[length] == '<' ? p->min : p->soft_max != 0 ? p->soft_max : p->max);
+    snprintf(path, sizeof path, "%s%s.%s", k->look_wide ? "" : "0:", k->name, key);
+    lmn_look_set(look, path, value, NULL);
+}
+
+static void make_condition_hold(lmn_look *look, const kind *k, const technique *t, const char *condition)
+{
+    for (const char *at = condition; at;) {
+        char term[TEXT_SIZE];
+        snprintf(term, sizeof term, "%.*s", (int)strcspn(at, "&"), at);
+        make_term_hold(look, k, t, term);
+        at = strchr(at, '&');
+        at = at ? at + 1 : NULL;
+    }
+}
+
+/* Does the parameter change the picture? */
+static bool check_param(fixture *f, const kind *k, const technique *t, const param *p)
+{
+    char json[2048], path[TEXT_SIZE * 2], what[TEXT_SIZE * 3], values[VALUES_MAX][TEXT_SIZE];
+    lmn_look *look = look_of(t, json, sizeof json);
+    snprintf(path, sizeof path, "%s%s.%s", k->look_wide ? "" : "0:", k->name, p->key);
+    if (k->id == KIND_LAYERS)
+        lmn_look_set(look, "0:lines.operator", "discontinuity", NULL);
+    if (k->id == KIND_LINES) /* white lines show only on something darker */
+        lmn_look_set(look, "0:surface.technique", "lit", NULL);
+    make_condition_hold(look, k, t, p->only_if);
+    lmn_drawing *before = draw(f, look, path);
+    size_t count = values_of(p, values);
+    bool changed = false;
+    for (size_t i = 0; i < count && before; i++) {
+        if (changed && i >= 2) /* the two extremes are drawn in any case */
+            break;
+        if (lmn_look_set(look, path, values[i], NULL) != LMN_OK)
+            continue;
+        snprintf(what, sizeof what, "%.60s: %.90s=%.90s", t->name, path, values[i]);
+        lmn_drawing *after = draw(f, look, what);
+        changed = changed || (after && !are_equal(before, after));
+        lmn_drawing_destroy(&after);
+    }
+    lmn_drawing_destroy(&before);
+    lmn_look_destroy(&look);
+    return changed;
+}
+
+static void complain(fixture *f, const kind *k, const char *technique_name, const param *p)
+{
+    if (is_exception(k, p))
+        return;
+    print_error("%s: %s.%s changes nothing\n", technique_name, k->name, p->key);
+    f->mistakes++;
+}
+
+/* A parameter of the whole kind may mean nothing to some of its techniques, but it must to one. */
+static void check_kind(fixture *f, const kind *k)
+{
+    for (size_t i = 0; i < k->common_count; i++) {
+        bool changed = false;
+        for (size_t n = 0; n < k->technique_count; n++)
+            changed = check_param(f, k, k->techniques[n], &k->common[i]) || changed;
+        if (!changed)
+            complain(f, k, "all techniques", &k->common[i]);
+    }
+    for (size_t n = 0; n < k->technique_count; n++)
+        for (size_t i = 0; i < k->techniques[n]->param_count; i++)
+            if (!check_param(f, k, k->techniques[n], &k->techniques[n]->params[i]))
+                complain(f, k, k->techniques[n]->name, &k->techniques[n]->params[i]);
+}
+
+static void test_every_parameter(void **state)
+{
+    fixture *f = *state;
+    for (size_t i = 0; i < KIND_COUNT; i++)
+        check_kind(f, kinds[i]);
+    print_message("%d pictures\n", f->drawn);
+    assert_int_equal(f->mistakes, 0);
+}
+
+/* One part of two materials: two surfaces. */
+static void write_plate(FILE *file, double x)
+{
+    fprintf(file, "v %g 60 60\nv %g 60 60\nv %g 60 60\nv %g 60 90\nv %g 60 90\nv %g 60 90\n", x, x + 30, x + 60, x, x + 30, x + 60);
+    fprintf(file, "o plate\nusemtl left\nf 4 5 2 1\nusemtl right\nf 5 6 3 2\n");
+}
+
+static bool add_file(fixture *f, const char *folder, const char *name, void (*write)(FILE *, double), double x, lmn_error *error)
+{
+    char path[128];
+    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return false;
+    write(file, x);
+    fclose(file);
+    bool done = lmn_scene_add_file(f->scene, path, &load, error) == LMN_OK;
+    remove(path);
+    return done;
+}
+
+static int make_fixture(void **state)
+{
+    fixture *f = *state;
+    char path[1024], folder[] = "/tmp/limner-XXXXXX";
+    lmn_error error = {0};
+    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    if (!mkdtemp(folder))
+        return 1;
+    snprintf(path, sizeof path, "%s/gearbox.stl", f->examples);
+    bool done = lmn_scene_create(&f->scene, &error) == LMN_OK && lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
+                add_file(f, folder, "ball.ply", write_ball, 10, &error) &&
+                add_file(f, folder, "other.ply", write_ball, 70, &error) &&
+                add_file(f, folder, "plate.obj", write_plate, -60, &error) &&
+                lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
+    if (!done)
+        print_error("%s: %s\n", error.file, error.message);
+    rmdir(folder);
+    return !done;
+}
+
+static int end_fixture(void **state)
+{
+    fixture *f = *state;
+    lmn_scene_destroy(&f->scene);
+    lmn_renderer_destroy(&f->renderer);
+    return 0;
+}
+
+int main(int count, char **arguments)
+{
+    fixture f = {.examples = count > 1 ? arguments[1] : "examples"};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate_setup_teardown(test_every_parameter, make_fixture, end_fixture, &f)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

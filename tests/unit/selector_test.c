@@ -1,0 +1,96 @@
+/* Selectors against a small tree: Truck (attribute kind=vehicle) with Body, Wheel Front and Wheel Rear below Truck/Axle. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "look/selector.h"
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static attribute vehicle[] = {{"kind", "vehicle"}}, spare[] = {{"kind", "spare part"}, {"stock", ""}};
+static node nodes[] = {
+    {.parent = NONE, .mesh = NONE, .attributes = vehicle, .attribute_count = 1},
+    {.parent = 0, .mesh = 0},
+    {.parent = 0, .mesh = 1},
+    {.parent = 0, .mesh = 1, .attributes = spare, .attribute_count = 2},
+};
+static primitive painted = {.material = 0}, rubber = {.material = 1};
+static mesh meshes[] = {{.primitives = &painted, .primitive_count = 1}, {.primitives = &rubber, .primitive_count = 1}};
+static material materials[] = {{.name = "Red Paint"}, {.name = "Rubber"}};
+static part parts[] = {{1, "Body", "Truck/Body"}, {2, "Wheel Front", "Truck/Axle/Wheel Front"}, {3, "Wheel Rear", "Truck/Axle/Wheel Rear"}};
+static const lmn_scene scene = {.nodes = nodes, .node_count = COUNT(nodes), .meshes = meshes, .mesh_count = COUNT(meshes),
+                                .materials = materials, .material_count = COUNT(materials), .parts = parts,
+                                .part_count = COUNT(parts)};
+
+static void test_matches(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *parts; /* 1 for each part that matches */
+    } cases[] = {
+        {"*", "111"},                    {"Body", "100"},                {"body", "000"},
+        {"Wheel*", "011"},               {"\"Wheel Front\"", "010"},     {"'Wheel Rear', Body", "101"},
+        {"Truck/*", "111"},              {"Truck/Axle/*", "011"},        {"*/Body", "100"},
+        {"!Body", "011"},                {"!!Body", "100"},              {"Wheel* !*Rear", "010"},
+        {"[kind]", "111"},               {"[kind=vehicle]", "110"},      {"[kind=\"spare part\"]", "001"},
+        {"[stock]", "001"},              {"[stock=]", "001"},            {"[stock=x]", "000"},
+        {"[material=Rub*]", "011"},      {"[material='Red Paint']", "100"}, {"![material]", "000"},
+        {"[id=2]", "010"},               {"[id=1], [id=3]", "101"},      {"Wheel*[kind=vehicle]", "010"},
+        {"  Body  ", "100"},             {"[missing]", "000"},           {"! [id=1]", "011"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        selector *s = NULL;
+        lmn_error error = {0};
+        if (selector_parse(&s, cases[i].text, &error) != LMN_OK)
+            fail_msg("%s", error.message);
+        for (size_t p = 0; p < COUNT(parts); p++)
+            if (selector_matches(s, &scene, p) != (cases[i].parts[p] == '1'))
+                fail_msg("'%s' on %s", cases[i].text, parts[p].name);
+        assert_false(selector_matches(s, &scene, COUNT(parts)));
+        selector_destroy(&s);
+        assert_null(s);
+    }
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {"", "  ", ",", "a,", ",a", "a,,b", "[", "[a", "[]", "[=x]", "]", "\"a", "!", "a !"};
+    for (size_t i = 0; i < COUNT(wrong); i++) {
+        selector *s = NULL;
+        lmn_error error = {0};
+        if (selector_parse(&s, wrong[i], &error) != LMN_USAGE)
+            fail_msg("'%s' was accepted", wrong[i]);
+        assert_null(s);
+        assert_non_null(strstr(error.message, "selector"));
+    }
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    lmn_status status = LMN_MEMORY;
+    for (long n = 1; status == LMN_MEMORY; n++) {
+        selector *s = NULL;
+        mem_fail_at(n);
+        status = selector_parse(&s, "a, \"b c\" [d=e] !f", NULL);
+        mem_fail_at(0);
+        assert_true((status == LMN_OK) == (s != NULL));
+        selector_destroy(&s);
+    }
+    assert_int_equal(status, LMN_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_matches),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Makes sure that what Limner is built and tested with is installed: says which Debian packages are missing, then installs them.
+# Usage: tools/setup.sh [--check]   --check: only say it; exit status 1 when something is missing.
+set -euo pipefail
+
+packages=(build-essential cmake ninja-build pkg-config
+          libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
+          libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
+          libpng-dev libjpeg-dev libwebp-dev libdeflate-dev
+          libcmocka-dev libcglm-dev libembree-dev)
+
+if ! command -v dpkg-query > /dev/null; then
+    echo "This is no Debian system; install what docs/DEPENDENCIES.md lists, then run this again." >&2
+    command -v cmake > /dev/null && command -v ninja > /dev/null && command -v pkg-config > /dev/null
+    exit
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null || true)
+    # A package may also be provided by another one that is installed.
+    if [ "$state" != installed ] && ! dpkg-query -W -f='${Provides}\n' 2> /dev/null | grep -qE "(^|[ ,])$package([ ,]|\$)"; then
+        missing+=("$package")
+    fi
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+echo "missing Debian packages: ${missing[*]}"
+if [ "${1:-}" = --check ]; then
+    exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo > /dev/null; then
+        echo "install them as root: apt-get install ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+"${as_root[@]}" apt-get update
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
