@@ -13,7 +13,7 @@
 #include "import/build.h"
 #include "scene/mesh.h"
 
-enum { CHAIN_MAX = 64, MATERIAL_FLOATS = 9 };
+enum { CHAIN_MAX = 64, MATERIAL_FLOATS = 9, INVENTED = -2 };
 
 typedef struct stream {
     const import_job    *job;
@@ -24,6 +24,7 @@ typedef struct stream {
     char               **mesh_names;
     uint32_t            *uses;
     uint32_t             mesh_count, material_count;
+    int32_t             *materials; /* the child's → the scene's; INVENTED: assimp's own, made when a mesh uses it */
     int32_t             *images; /* of embedded pictures, NONE when they cannot be had */
     uint32_t             image_count;
     size_t               vertices, triangles;
@@ -135,7 +136,7 @@ static float unit(float value)
     return value > 0 ? value < 1 ? value : 1 : 0;
 }
 
-static void read_material(stream *s)
+static void read_material(stream *s, uint32_t index)
 {
     float v[MATERIAL_FLOATS];
     char *name = take_text(s);
@@ -143,8 +144,7 @@ static void read_material(stream *s)
     char *texture = take_text(s);
     bool invented = name && strcmp(name, "DefaultMaterial") == 0; /* the file has none */
     if (s->status == LMN_OK && invented) {
-        if (build_plain_material(s->job->scene, false) == NONE)
-            out_of_memory(s);
+        s->materials[index] = INVENTED;
         mem_free(name);
     } else if (s->status == LMN_OK) {
         material *m = scene_append_material(s->job->scene);
@@ -158,9 +158,8 @@ static void read_material(stream *s)
             m->shininess = isfinite(v[7]) && v[7] > 0 ? v[7] : 0;
             m->double_sided = v[8] > 0;
             m->alpha = m->base_colour.w < 1 ? ALPHA_BLEND : ALPHA_OPAQUE;
-            size_t index = s->job->scene->material_count - 1;
-            int32_t found = texture ? find_image(s, texture) : NONE;
-            s->job->scene->materials[index].base_texture.image = found;
+            s->materials[index] = (int32_t)s->job->scene->material_count - 1;
+            m->base_texture.image = texture ? find_image(s, texture) : NONE;
         } else {
             mem_free(name);
             out_of_memory(s);
@@ -205,14 +204,18 @@ static void read_materials(stream *s)
 {
     s->material_count = take_count(s, 4 + MATERIAL_FLOATS * sizeof(float) + 4);
     const unsigned char *first = s->at;
+    s->materials = mem_calloc(s->material_count, sizeof *s->materials);
+    if (!s->materials)
+        out_of_memory(s);
     for (uint32_t i = 0; i < s->material_count && s->status == LMN_OK; i++)
         skip_material(s);
     read_pictures(s);
     const unsigned char *behind = s->at;
     s->at = first;
     for (uint32_t i = 0; i < s->material_count && s->status == LMN_OK; i++)
-        read_material(s);
-    s->at = behind;
+        read_material(s, i);
+    if (s->status == LMN_OK)
+        s->at = behind;
 }
 
 /* --- meshes ------------------------------------------------------------------------------------------------------- */
@@ -296,6 +299,19 @@ static void read_mesh_arrays(stream *s, primitive *p, uint32_t flags)
     p->indices = take_array(s, p->index_count, sizeof *p->indices);
 }
 
+static int32_t find_material(stream *s, uint32_t index, bool has_colours)
+{
+    if (s->status != LMN_OK || index >= s->material_count)
+        return NONE;
+    if (s->materials[index] == INVENTED) {
+        int32_t made = build_plain_material(s->job->scene, has_colours);
+        if (made == NONE)
+            out_of_memory(s);
+        s->materials[index] = made;
+    }
+    return s->materials[index];
+}
+
 static void read_mesh(stream *s, uint32_t index)
 {
     primitive *p = &s->meshes[index];
@@ -304,7 +320,7 @@ static void read_mesh(stream *s, uint32_t index)
     p->vertex_count = take_u32(s);
     p->index_count = take_u32(s);
     uint32_t left_out = take_u32(s);
-    p->material = used_material < s->material_count ? (int32_t)used_material : NONE;
+    p->material = find_material(s, used_material, (flags & STREAM_COLOURS) != 0);
     s->vertices += p->vertex_count;
     s->triangles += p->index_count / 3;
     if (s->status == LMN_OK && (s->vertices > 3 * LIMIT_VERTICES || s->triangles > LIMIT_TRIANGLES))
@@ -486,9 +502,15 @@ static void read_nodes(stream *s)
 static void read_error(stream *s)
 {
     char *message = take_text(s);
-    if (s->status == LMN_OK)
+    if (s->status == LMN_OK && message && strstr(message, "bad_alloc")) {
+        s->status = error_in_file(s->error, LMN_LIMIT, s->job->path, 0, "reading the file takes more than %zu GiB of memory",
+                                  LIMIT_IMPORT_MEMORY >> 30);
+        error_hint(s->error, "its header promises too much, or the model must be simplified");
+    } else if (s->status == LMN_OK) {
         s->status = error_in_file(s->error, LMN_FORMAT, s->job->path, 0, "%.300s",
                                   message ? message : "the file cannot be read");
+        error_hint(s->error, "the file is damaged or of another format than its ending says");
+    }
     mem_free(message);
 }
 
@@ -520,5 +542,6 @@ lmn_status assimp_stream_read(const import_job *job, const unsigned char *bytes,
     mem_free(s.mesh_names);
     mem_free(s.uses);
     mem_free(s.images);
+    mem_free(s.materials);
     return s.status;
 }

@@ -222,15 +222,17 @@ static void prepare(gltf_reader *r)
         gltf_fail(r, LMN_LIMIT, "%zu nodes, allowed are %zu", r->node_count, LIMIT_NODES);
 }
 
-/* When nothing can be drawn because a buffer is missing, that file is to blame. */
-static void check_missing(gltf_reader *r)
+/* When nothing can be drawn because a file is missing, that file is to blame. A valid file in which no drawn node has a
+ * mesh, or whose only data is not there to be found (a buffer without a uri), is an empty scene. */
+static void check_content(gltf_reader *r)
 {
-    if (r->status != LMN_OK || !r->missing_buffer)
-        return;
     for (size_t i = 0; i < r->scene->mesh_count; i++)
         if (mesh_triangle_count(&r->scene->meshes[i]) > 0)
             return;
-    gltf_fail(r, LMN_READ, "nothing to draw: the buffer %s cannot be read", r->missing_buffer);
+    r->scene->may_be_empty = r->scene->mesh_count == 0 || r->nameless_buffer;
+    if (!r->missing_buffer)
+        return;
+    gltf_fail(r, LMN_READ, "nothing to draw: the buffer \"%s\" cannot be read", r->missing_buffer);
     error_hint(r->error, "put the .bin file beside the .gltf, or export as .glb");
 }
 
@@ -239,7 +241,7 @@ static lmn_status read_gltf(const import_job *job, lmn_error *error)
     static void (*const steps[])(gltf_reader *) = {check_version,     check_extensions, prepare,
                                                    gltf_read_materials, gltf_read_cameras, gltf_read_lights,
                                                    gltf_read_nodes,   gltf_read_skins,  gltf_read_animations,
-                                                   check_missing};
+                                                   check_content};
     gltf_reader r = {.job = job, .scene = job->scene, .error = error};
     bool parsed = parse(&r);
     for (size_t i = 0; parsed && r.status == LMN_OK && i < sizeof steps / sizeof *steps; i++)

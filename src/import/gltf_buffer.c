@@ -156,8 +156,9 @@ static const gltf_buffer *get_buffer(gltf_reader *r, size_t index)
         snprintf(where, sizeof where, "buffers[%zu]", index);
         gltf_size(r, object, "byteLength", 0, where, &length);
         find_buffer(r, index, object, b);
-        if (b->missing && !r->missing_buffer)
-            r->missing_buffer = b->name ? b->name : "of a binary chunk";
+        if (b->missing && b->name && !r->missing_buffer)
+            r->missing_buffer = b->name;
+        r->nameless_buffer |= b->missing && !b->name;
         if (r->status == LMN_OK && !b->missing && b->size < length) {
             gltf_fail(r, LMN_FORMAT, "%s (%s): %zu bytes are promised, there are only %zu", where,
                       b->name ? b->name : "embedded", length, b->size);

@@ -356,7 +356,7 @@ static lmn_status read_corners(ply_reader *r, const ply_element *e, const ply_pr
         return bad_value(r, e, row);
     size_t bytes = r->encoding == PLY_ASCII ? 2 : ply_type_size(p->type);
     if (!(count >= 0) || count > ((double)(r->end - r->at) + 1) / (double)bytes)
-        return bad_value(r, e, row);
+        return ply_bad_row(r, e, row, "its list is longer than the rest of the file");
     if (count > (double)limit)
         return error_in_file(r->error, LMN_LIMIT, r->job->path, 0, "%s %llu has %.0f corners, more than the limit of %zu",
                              e->name, (unsigned long long)row, count, limit);

@@ -62,6 +62,15 @@ static bool is_text(const file_data *file)
     return false;
 }
 
+/* Binary headers hold text too, but the count behind them is small against four letters. */
+static bool looks_like_words(const file_data *file)
+{
+    for (size_t i = 0; i < HEADER_BYTES; i++)
+        if (file->data[i] < 0x20 && !is_blank((char)file->data[i]))
+            return false;
+    return true;
+}
+
 static bool recognises(const file_data *file)
 {
     return has_binary_size(file) || is_text(file);
@@ -346,13 +355,15 @@ static lmn_status read_stl(const import_job *job, lmn_error *error)
     const char *bytes = (const char *)job->file->data;
     if (is_text(job->file))
         return read_text(job, error);
-    if (job->file->size >= HEADER_BYTES)
+    if (job->file->size >= HEADER_BYTES && !looks_like_words(job->file))
         return read_binary(job, error);
-    bool cut = job->file->size >= 5 && is_word(bytes, bytes + job->file->size, "solid");
-    error_in_file(error, LMN_FORMAT, job->path, 0,
-                  cut ? "the file is cut off: text STL without a facet" : "the file has only %zu bytes, no STL is that short",
-                  job->file->size);
-    error_hint(error, "copy or export the file again");
+    if (job->file->size >= 5 && is_word(bytes, bytes + job->file->size, "solid"))
+        error_in_file(error, LMN_FORMAT, job->path, 0, "the file is cut off: text STL without \"facet\" or \"endsolid\"");
+    else if (job->file->size >= HEADER_BYTES)
+        error_in_file(error, LMN_FORMAT, job->path, 1, "this is not STL: text that does not begin with \"solid\"");
+    else
+        error_in_file(error, LMN_FORMAT, job->path, 0, "the file has only %zu bytes, no STL is that short", job->file->size);
+    error_hint(error, "check the ending, or copy or export the file again");
     return LMN_FORMAT;
 }
 

@@ -308,5 +308,10 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     s->parts = parts;
     s->part_count = count;
     s->revision++;
-    return count ? LMN_OK : nothing_to_draw(&c);
+    if (count > 0)
+        return LMN_OK;
+    if (!s->may_be_empty)
+        return nothing_to_draw(&c);
+    warnings_add(&s->warnings, WARNING_BAD_GEOMETRY, "nothing to draw: the file has no triangles");
+    return LMN_OK;
 }

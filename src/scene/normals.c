@@ -49,11 +49,17 @@ static vec3 add(vec3 a, vec3 b)
     return (vec3){a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
+/* A face without area (a morph may open it) has no direction of its own and goes along with any. */
+static bool within(const corner_face *a, const corner_face *b, float cos_crease)
+{
+    return dot(a->unit, b->unit) >= cos_crease || dot(a->unit, a->unit) == 0 || dot(b->unit, b->unit) == 0;
+}
+
 static bool all_within(const corner_face *faces, size_t count, float cos_crease)
 {
     for (size_t i = 0; i < count; i++)
         for (size_t k = i + 1; k < count; k++)
-            if (dot(faces[i].unit, faces[k].unit) < cos_crease)
+            if (!within(&faces[i], &faces[k], cos_crease))
                 return false;
     return true;
 }
@@ -63,9 +69,9 @@ static void split_exact(normals_job *job, const corner_face *faces, size_t count
     for (size_t i = 0; i < count; i++) {
         vec3 sum = {0, 0, 0};
         for (size_t k = 0; k < count; k++)
-            if (k == i || dot(faces[i].unit, faces[k].unit) >= job->cos_crease)
+            if (k == i || within(&faces[i], &faces[k], job->cos_crease))
                 sum = add(sum, faces[k].area);
-        job->corner_normals[faces[i].corner] = unit_or(sum, faces[i].unit);
+        job->corner_normals[faces[i].corner] = unit_or(sum, unit_or(faces[i].unit, (vec3){0, 0, 1}));
     }
 }
 
@@ -101,7 +107,7 @@ static void split_by_cells(normals_job *job, const corner_face *faces, size_t co
         for (int c = 0; c < DIRECTION_CELLS * DIRECTION_CELLS; c++)
             if (c == own || dot(faces[i].unit, units[c]) >= job->cos_crease)
                 sum = add(sum, sums[c]);
-        job->corner_normals[faces[i].corner] = unit_or(sum, faces[i].unit);
+        job->corner_normals[faces[i].corner] = unit_or(sum, unit_or(faces[i].unit, (vec3){0, 0, 1}));
     }
 }
 

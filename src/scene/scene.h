@@ -183,6 +183,7 @@ struct lmn_scene {
     size_t     file_count, file_capacity;
     uint64_t   revision; /* changes whenever the content does; never repeats within a process's scene */
     char       up;       /* 'y', 'z', or 0 while empty */
+    bool       may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
     warnings   warnings;
     double     load_ms;
 };
@@ -216,7 +217,8 @@ bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
 
 /* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
  * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
- * `file` stands in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. */
+ * `file` stands in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. With
+ * may_be_empty set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
 lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
 
 /* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to `into`'s up
