@@ -217,6 +217,9 @@ void primitive_release(primitive *p);
 /* Puts the primitives into the mesh's array; the mesh then owns what they hold. False when memory is gone. */
 bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
 
+/* A number that no other content of this process has had. Any thread. */
+uint64_t scene_next_revision(void);
+
 /* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
  * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
  * `file` stands in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. With
