@@ -22,12 +22,6 @@ lmn_scene *scene_new(void)
     return mem_calloc(1, sizeof(lmn_scene));
 }
 
-uint64_t scene_next_revision(void)
-{
-    static atomic_uint_fast64_t last;
-    return atomic_fetch_add(&last, 1) + 1;
-}
-
 /* Makes room for one more zeroed element and counts it. */
 static void *append(void **array, size_t *capacity, size_t *count, size_t element_size)
 {
