@@ -121,6 +121,8 @@ static bool parse(gltf_reader *r)
     /* GLB chunks are padded with blanks, by some writers with zeros. */
     while (size > 0 && json[size - 1] == '\0')
         size--;
+    if (size > LIMIT_JSON_BYTES)
+        return gltf_fail(r, LMN_LIMIT, "%zu bytes of JSON, allowed are %zu", size, LIMIT_JSON_BYTES), false;
     if (!check_depth(r, json, size))
         return false;
     json_error_t problem;

@@ -209,6 +209,13 @@ static void store_integers(void *out, size_t index, const unsigned char *value, 
 static void *make_room(gltf_reader *r, const gltf_accessor *a, int components, const char *where)
 {
     r->elements += a->count;
+    /* Accessors without a view are zeros: they promise much and cost the file nothing. */
+    if (!a->data)
+        r->zeros += a->count;
+    if (r->zeros > LIMIT_ZERO_ELEMENTS) {
+        gltf_fail(r, LMN_LIMIT, "%s: more than %zu elements without data in all", where, LIMIT_ZERO_ELEMENTS);
+        return NULL;
+    }
     if (r->elements > LIMIT_ELEMENTS) {
         gltf_fail(r, LMN_LIMIT, "%s: more than %zu elements in all", where, LIMIT_ELEMENTS);
         return NULL;

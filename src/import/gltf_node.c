@@ -72,6 +72,10 @@ static void read_instances(gltf_reader *r, json_t *object, node *n)
     float *t = read_instance_values(r, attributes, "TRANSLATION", 3, &count);
     float *q = read_instance_values(r, attributes, "ROTATION", 4, &count);
     float *s = read_instance_values(r, attributes, "SCALE", 3, &count);
+    if (t || q || s)
+        r->instances += count;
+    if (r->instances > LIMIT_INSTANCES)
+        gltf_fail(r, LMN_LIMIT, "EXT_mesh_gpu_instancing: more than %zu instances in all", LIMIT_INSTANCES);
     if (r->status == LMN_OK && (t || q || s) && count > 0)
         n->instances = gltf_alloc(r, count, sizeof *n->instances);
     for (size_t i = 0; n->instances && i < count; i++) {

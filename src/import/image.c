@@ -146,6 +146,15 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
         warnings_add(&job->scene->warnings, WARNING_BAD_TEXTURE, "texture \"%s\": %s", name, problem.message);
         return LMN_OK;
     }
+    size_t total = (size_t)decoded.width * decoded.height;
+    for (size_t i = 0; i < job->scene->image_count; i++)
+        total += (size_t)job->scene->images[i].width * job->scene->images[i].height;
+    if (total > LIMIT_SCENE_PIXELS) {
+        warnings_add(&job->scene->warnings, WARNING_BAD_TEXTURE, "texture \"%s\": all textures together have more than %zu pixels",
+                     name, LIMIT_SCENE_PIXELS);
+        mem_free(decoded.pixels);
+        return LMN_OK;
+    }
     decoded.name = mem_copy_text(name);
     image *added = decoded.name ? scene_append_image(job->scene) : NULL;
     if (!added) {

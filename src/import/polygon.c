@@ -98,19 +98,24 @@ void build_triangulate(const vec3 *positions, const uint32_t *corners, uint32_t 
     }
     for (uint32_t i = 0; i < count; i++)
         ring[i] = i;
+    uint32_t from = 0; /* the search goes on where it stopped, as the neighbourhood changes only there */
     while (count > 3) {
-        uint32_t ear = 0;
-        while (ear < count && !is_ear(flat, ring, count, ear))
-            ear++;
-        /* A polygon that crosses itself may have none left; any cut keeps the number of triangles. */
-        if (ear == count)
-            ear = 1;
+        uint32_t tries = 0;
+        while (tries < count && !is_ear(flat, ring, count, (from + tries) % count))
+            tries++;
+        if (tries == count)
+            break; /* the polygon crosses itself */
+        uint32_t ear = (from + tries) % count;
         *out++ = corners[ring[(ear + count - 1) % count]];
         *out++ = corners[ring[ear]];
         *out++ = corners[ring[(ear + 1) % count]];
         memmove(ring + ear, ring + ear + 1, (count - ear - 1) * sizeof *ring);
         count--;
+        from = ear ? ear - 1 : 0;
     }
-    for (int i = 0; i < 3; i++)
+    for (uint32_t i = 2; i < count; i++) {
+        *out++ = corners[ring[0]];
+        *out++ = corners[ring[i - 1]];
         *out++ = corners[ring[i]];
+    }
 }

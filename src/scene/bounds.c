@@ -1,12 +1,17 @@
 /* World matrices and bounds. */
-#include <math.h>
-
 #include "base/memory.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 
-/* Up to this many vertices times instances the bounds of turned meshes are exact; beyond, boxes of boxes do. */
-enum { EXACT_POINTS_MAX = 1 << 23 };
+/* Bounds of turned and posed meshes are exact as long as all of a scene's nodes take about this many points; beyond, boxes
+ * around boxes do. Otherwise a small file that draws one large mesh a million times would take hours. */
+enum { EXACT_POINTS = 1 << 26, EXACT_LEAST = 64 };
+
+static bool is_affordable(const lmn_scene *s, size_t points, size_t draws)
+{
+    size_t share = EXACT_POINTS / s->node_count;
+    return points <= (share > EXACT_LEAST ? share : EXACT_LEAST) / draws;
+}
 
 int32_t scene_next_node(const lmn_scene *s, int32_t root, int32_t current)
 {
@@ -68,7 +73,7 @@ static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, c
 
 static mat4 *skin_matrices(const lmn_scene *s, const mat4 *worlds, int32_t skin_index)
 {
-    if (skin_index == NONE)
+    if (skin_index == NONE || !is_affordable(s, s->skins[skin_index].joint_count, 1))
         return NULL;
     const skin *k = &s->skins[skin_index];
     mat4 *joints = mem_alloc(k->joint_count * sizeof *joints);
@@ -77,21 +82,42 @@ static mat4 *skin_matrices(const lmn_scene *s, const mat4 *worlds, int32_t skin_
     return joints;
 }
 
-static box3 placed_bounds(const primitive *p, const vec3 *posed, const node *n, const mat4 *world)
+/* A skinned vertex lies between where its joints put it, so the boxes of all joints hold it. */
+static box3 joint_boxes(box3 box, const mat4 *joints, size_t joint_count)
 {
-    const vec3 *points = posed ? posed : p->positions;
-    box3 local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
-    size_t draws = node_draw_count(n);
-    bool affordable = p->vertex_count <= EXACT_POINTS_MAX / draws;
+    box3 out = box3_empty();
+    for (size_t i = 0; i < joint_count; i++)
+        out = box3_union(out, box3_transform(box, &joints[i]));
+    return out;
+}
+
+static box3 placed_bounds(const vec3 *points, size_t count, box3 local, const node *n, const mat4 *world, bool exact)
+{
     box3 box = box3_empty();
-    for (size_t i = 0; i < draws; i++) {
+    for (size_t i = 0; i < node_draw_count(n); i++) {
         mat4 placed = n->instance_count ? mat4_multiply(world, &n->instances[i]) : *world;
-        if (!affordable || keeps_boxes(&placed))
+        if (!exact || keeps_boxes(&placed))
             box = box3_union(box, box3_transform(local, &placed));
         else
-            box = box3_union(box, points_bounds(points, p->vertex_count, &placed));
+            box = box3_union(box, points_bounds(points, count, &placed));
     }
     return box;
+}
+
+static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive *p, const mat4 *world, const mat4 *joints)
+{
+    bool skinned = joints && p->joints && p->weights;
+    bool exact = is_affordable(s, p->vertex_count, node_draw_count(n));
+    size_t joint_count = skinned ? s->skins[n->skin].joint_count : 0;
+    if (skinned && !exact)
+        return joint_boxes(p->bounds, joints, joint_count);
+    vec3 *posed = exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count) : NULL;
+    box3 local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
+    /* Skinned vertices are already in the world: the node's own place does not move them. */
+    if (!skinned || !posed)
+        local = placed_bounds(posed ? posed : p->positions, p->vertex_count, local, n, world, exact);
+    mem_free(posed);
+    return local;
 }
 
 box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
@@ -102,16 +128,8 @@ box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
         return box;
     const mesh *m = &s->meshes[n->mesh];
     mat4 *joints = skin_matrices(s, worlds, n->skin);
-    mat4 none = mat4_identity();
-    for (size_t i = 0; i < m->primitive_count; i++) {
-        const primitive *p = &m->primitives[i];
-        const mat4 *own_joints = p->joints && p->weights ? joints : NULL;
-        size_t joint_count = own_joints ? s->skins[n->skin].joint_count : 0;
-        vec3 *posed = posed_positions(p, n, m, own_joints, joint_count);
-        /* Skinned vertices are already in the world: the node's own place does not move them. */
-        box = box3_union(box, placed_bounds(p, posed, n, own_joints && posed ? &none : &worlds[node_index]));
-        mem_free(posed);
-    }
+    for (size_t i = 0; i < m->primitive_count; i++)
+        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints));
     mem_free(joints);
     return box;
 }

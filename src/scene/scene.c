@@ -8,15 +8,18 @@
 #include "base/text.h"
 #include "scene/parts.h"
 
-lmn_scene *scene_new(void)
-{
-    return mem_calloc(1, sizeof(lmn_scene));
-}
+/* One counter for the process: a renderer keeps GPU copies of the scene it drew last and knows it by address and revision, and
+ * a new scene may lie where an old one was. */
+static atomic_uint_fast64_t revisions;
 
 uint64_t scene_next_revision(void)
 {
-    static atomic_uint_fast64_t last;
-    return atomic_fetch_add(&last, 1) + 1;
+    return atomic_fetch_add_explicit(&revisions, 1, memory_order_relaxed) + 1;
+}
+
+lmn_scene *scene_new(void)
+{
+    return mem_calloc(1, sizeof(lmn_scene));
 }
 
 /* Makes room for one more zeroed element and counts it. */
