@@ -100,8 +100,8 @@ static void against_twin(const twin_case *c, const shape *s, const char *file, c
         double r = twin_byte(v.profile), g = twin_byte(v.inner), wanted[3] = {r, g, r * g / 255};
         for (int k = 0; k < 3; k++) {
             double error = fabs(drawing.edge[4 * i + k] - wanted[k]);
-            off += error > allowed;
-            if (error > worst[k]) {
+            off += error > allowed && !v.doubtful;
+            if (error > worst[k] && !v.doubtful) {
                 worst[k] = error;
                 place[k] = i;
             }
