@@ -161,11 +161,14 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     return program;
 }
 
-/* The value a written picture has outside the scissor. */
-static const float *neutral(target t)
+/* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
+static void set_outside(const figure_state *s, const pass *p, float out[4])
 {
-    static const float paper[4] = {1, 1, 1, 1}, nothing[4] = {0, 0, 0, 0};
-    return t == TARGET_EDGE ? paper : nothing;
+    const float background[4] = {0, 0, 1, (float)s->far}, paper[4] = {1, 1, 1, 1};
+    if (!p->zero_outside && p->writes == TARGET_EDGE)
+        memcpy(out, paper, sizeof paper);
+    else if (!p->zero_outside && p->writes == TARGET_NORMAL_DEPTH)
+        memcpy(out, background, sizeof background);
 }
 
 static void run_geometry(frame *f, figure_state *s, const pass *p, const char *group)
@@ -184,7 +187,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     if (program && written && !gpu_failed(f->g)) {
         gpu_pass target = {.colours = {written}, .colour_count = 1, .depth = p->depth ? f->page_depth : NULL,
                            .clear = !page, .keep_depth = true};
-        memcpy(target.clear_values[0], neutral(p->writes), 4 * sizeof(float));
+        set_outside(s, p, target.clear_values[0]);
         memcpy(target.scissor, s->pixels, sizeof target.scissor);
         memcpy(target.clear_box, s->around, sizeof target.clear_box);
         gpu_pass_begin(f->g, &target);

@@ -23,7 +23,7 @@ static const param common[] = {
     PARAM_FLOAT_ROW(lines_common, threshold, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
                     .doc = "Ink below this share is paper; taken off before the gain."),
     PARAM_FLOAT_ROW(lines_common, sharpen, .def = 0, .min = -0.12, .max = 1, .soft_min = -0.12, .soft_max = 0.5,
-                    .doc = "Sharpening of the normal-depth buffer before detection; -0.1 gives softer and stronger lines."),
+                    .doc = "Sharpening of the normal-depth buffer before detection; 0.1 gives wider and stronger lines, negative values blur."),
     PARAM_ENUM_ROW(lines_common, contrast, .names = contrasts, .variant = true,
                    .doc = "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
                           "the dark colour by the ground; directed puts the second line towards the outside."),

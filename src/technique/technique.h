@@ -43,6 +43,7 @@ typedef struct pass {
     bool        geometry; /* draws the figure's parts again, shaded and inked by the shader file's ink_at, instead of a full screen */
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
+    bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
 } pass;
 
 typedef struct technique {

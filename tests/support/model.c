@@ -238,3 +238,11 @@ bool model_write_glb(const char *path, const shape *s)
     free(json);
     return saved;
 }
+
+bool model_write(const char *path, const shape *s)
+{
+    const char *ending = strrchr(path, '.');
+    if (ending && strcmp(ending, ".glb") == 0)
+        return model_write_glb(path, s);
+    return ending && strcmp(ending, ".stl") == 0 ? model_write_stl(path, s) : model_write_ply(path, s);
+}

@@ -8,6 +8,9 @@
 bool model_write_ply(const char *path, const shape *s);
 bool model_write_stl(const char *path, const shape *s);
 
+/* By the ending of the path: .ply, .stl or .glb. */
+bool model_write(const char *path, const shape *s);
+
 /* GLB with one node, mesh and material a part; textures embedded as PNG. */
 bool model_write_glb(const char *path, const shape *s);
 

@@ -271,6 +271,53 @@ void shape_quad(shape *s, const char *name, double half, double z)
     put_quad(p, 0, 0, 1, 2, 3);
 }
 
+static dvec area_normal(const shape_part *p, uint32_t face)
+{
+    dvec a = dvec_from(p->positions[p->indices[3 * face]]), b = dvec_from(p->positions[p->indices[3 * face + 1]]);
+    dvec c = dvec_from(p->positions[p->indices[3 * face + 2]]);
+    return dvec_cross(dvec_sub(b, a), dvec_sub(c, a));
+}
+
+/* Every corner against every other: slow, and hard to get wrong. */
+static dvec corner_normal(const shape_part *p, uint32_t corner, double limit)
+{
+    dvec own = dvec_unit(area_normal(p, corner / 3)), sum = {0, 0, 0};
+    const float *place = p->positions[p->indices[corner]];
+    for (uint32_t k = 0; k < p->index_count; k++) {
+        const float *other = p->positions[p->indices[k]];
+        if (place[0] < other[0] || place[0] > other[0] || place[1] < other[1] || place[1] > other[1] || place[2] < other[2] ||
+            place[2] > other[2])
+            continue;
+        dvec n = area_normal(p, k / 3);
+        if (dvec_dot(own, dvec_unit(n)) >= limit)
+            sum = dvec_add(sum, n);
+    }
+    return dvec_unit(sum);
+}
+
+void shape_make_normals(shape *s, double crease_degrees)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        shape_part *p = &s->parts[i];
+        uint32_t    count = p->index_count;
+        float (*positions)[3] = check_alloc(count, sizeof *positions), (*normals)[3] = check_alloc(count, sizeof *normals);
+        for (uint32_t k = 0; k < count; k++) {
+            dvec n = corner_normal(p, k, cos(crease_degrees * pi / 180));
+            memcpy(positions[k], p->positions[p->indices[k]], sizeof *positions);
+            set3(normals[k], n.x, n.y, n.z);
+        }
+        for (uint32_t k = 0; k < count; k++)
+            p->indices[k] = k;
+        free(p->positions);
+        free(p->normals);
+        free(p->uvs);
+        p->uvs = NULL;
+        p->positions = positions;
+        p->normals = normals;
+        p->vertex_count = count;
+    }
+}
+
 void shape_join(shape *out, const char *name, const shape *s)
 {
     uint32_t vertices = 0, indices = 0;

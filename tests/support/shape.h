@@ -22,6 +22,7 @@ typedef struct shape_part {
     int       texture_size;         /* both are squares of this side */
 } shape_part;
 
+/* The tag is for headers that only pass shapes on. */
 typedef struct shape {
     shape_part *parts;
     size_t      count;
@@ -54,6 +55,10 @@ void shape_wedge(shape *s, const char *name, double degrees);
 
 /* A square of side 2·half in the plane z, facing +z, with normals and texture coordinates (v down from the top). */
 void shape_quad(shape *s, const char *name, double half, double z);
+
+/* Gives every part normals: at each corner the area-weighted mean of the faces of the part around its place whose normals are
+ * within the crease angle of the corner's own face. Corners are no longer shared. */
+void shape_make_normals(shape *s, double crease_degrees);
 
 /* All parts moved into one, as one mesh. */
 void shape_join(shape *out, const char *name, const shape *s);

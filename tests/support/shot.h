@@ -7,6 +7,8 @@
 
 #include "vec.h"
 
+struct shape;
+
 typedef struct shot_view {
     int         width, height;
     dvec        eye, target, up;
@@ -33,6 +35,13 @@ typedef struct shot {
  * a failed check, when anything goes wrong. `changes` is a NULL-terminated list KEY, VALUE, KEY, VALUE …, or NULL. */
 bool shot_take(shot *out, const char *model, const char *look, const char *const *changes, const shot_view *view);
 void shot_release(shot *s);
+
+/* The same for a shape, which is written to `file` in the program's folder first. */
+bool shot_of_shape(shot *out, const struct shape *s, const char *file, const char *look, const char *const *changes,
+                   const shot_view *view);
+
+/* A look with one flat white rule, white ground and these lines (an object's JSON, or NULL); valid until the fourth next call. */
+const char *shot_line_look(const char *lines);
 
 /* A shot that nobody drew: matrices of the view, an edge map without ink, the given depth range. For trying out references. */
 void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth);

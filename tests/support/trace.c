@@ -200,6 +200,36 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
     return found;
 }
 
+/* One ray's answer: depth, normal and id where it hits; empty otherwise. */
+static uint16_t look_at(const tracer *t, const shot *view, double x, double y, double *depth, dvec *normal)
+{
+    dvec      origin, direction;
+    trace_hit hit;
+    shot_ray(view, x, y, &origin, &direction);
+    *depth = INFINITY;
+    *normal = dvec_of(0, 0, 0);
+    /* Parallel rays begin nowhere: the near plane is tight around the scene. */
+    if (!tracer_hit(t, origin, direction, view->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
+        return 0;
+    const trace_triangle *f = &t->triangles[hit.triangle];
+    dvec point = dvec_add(origin, dvec_scale(direction, hit.t));
+    dvec n = dvec_add(dvec_scale(f->n[0], 1 - hit.u - hit.v), dvec_add(dvec_scale(f->n[1], hit.u), dvec_scale(f->n[2], hit.v)));
+    *depth = -shot_to_eye(view, point, 1).z;
+    *normal = dvec_unit(shot_to_eye(view, n, 0));
+    return (uint16_t)(f->part + 1);
+}
+
+double trace_normal_error(const tracer *t, const shot *view, int x, int y, dvec normal)
+{
+    static const double shift[5][2] = {{0, 0}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    double least = INFINITY, depth;
+    dvec   other;
+    for (int k = 0; k < 5; k++)
+        if (look_at(t, view, x + 0.5 + shift[k][0] / 128, y + 0.5 + shift[k][1] / 128, &depth, &other))
+            least = fmin(least, dvec_length(dvec_sub(normal, other)));
+    return least;
+}
+
 void trace_map_make(trace_map *out, const tracer *t, const shot *view)
 {
     size_t count = (size_t)view->width * (size_t)view->height;
@@ -208,21 +238,9 @@ void trace_map_make(trace_map *out, const tracer *t, const shot *view)
     out->depth = check_alloc(count, sizeof *out->depth);
     out->normal = check_alloc(count, sizeof *out->normal);
     out->id = check_alloc(count, sizeof *out->id);
-    for (size_t i = 0; i < count; i++) {
-        dvec      origin, direction;
-        trace_hit hit;
-        shot_ray(view, (double)(i % (size_t)view->width) + 0.5, (double)(i / (size_t)view->width) + 0.5, &origin, &direction);
-        out->depth[i] = INFINITY;
-        /* Parallel rays begin nowhere: the near plane is tight around the scene. */
-        if (!tracer_hit(t, origin, direction, view->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
-            continue;
-        const trace_triangle *f = &t->triangles[hit.triangle];
-        dvec point = dvec_add(origin, dvec_scale(direction, hit.t));
-        dvec n = dvec_add(dvec_scale(f->n[0], 1 - hit.u - hit.v), dvec_add(dvec_scale(f->n[1], hit.u), dvec_scale(f->n[2], hit.v)));
-        out->depth[i] = -shot_to_eye(view, point, 1).z;
-        out->normal[i] = dvec_unit(shot_to_eye(view, n, 0));
-        out->id[i] = (uint16_t)(f->part + 1);
-    }
+    for (size_t i = 0; i < count; i++)
+        out->id[i] = look_at(t, view, (double)(i % (size_t)view->width) + 0.5, (double)(i / (size_t)view->width) + 0.5,
+                             &out->depth[i], &out->normal[i]);
 }
 
 void trace_map_release(trace_map *m)

@@ -37,6 +37,9 @@ typedef struct trace_map {
 } trace_map;
 
 void trace_map_make(trace_map *out, const tracer *t, const shot *view);
+/* How far a pixel's normal is from the truth. Rasterisers place corners on a grid of 1/256 px, so on the line between two
+ * facets either facet's normal will do. */
+double trace_normal_error(const tracer *t, const shot *view, int x, int y, dvec normal);
 void trace_map_release(trace_map *m);
 
 /* Does the map change within the 3x3 pixels around this one: another part, empty against full, or a depth step of more than

@@ -48,8 +48,10 @@ void twin_sharpen(twin_map *m, double amount)
             depth[i] -= amount * m->depth[other];
         }
     }
-    twin_map_release(m);
-    *m = (twin_map){.width = m->width, .height = m->height, .normal = normal, .depth = depth};
+    free(m->normal);
+    free(m->depth);
+    m->normal = normal;
+    m->depth = depth;
 }
 
 void twin_bilinear(const twin_map *m, double x, double y, dvec *normal, double *depth)
@@ -81,7 +83,8 @@ twin_value twin_four_tap(const twin_map *m, int x, int y, double offset, bool sq
         d[k] = limited(d[k]);
     }
     double profile = (1 - 0.5 * fabs(d[0] - d[1])) * (1 - 0.5 * fabs(d[2] - d[3]));
-    return (twin_value){squared ? profile * profile : profile, 0.5 * (dvec_dot(n[0], n[1]) + dvec_dot(n[2], n[3]))};
+    return (twin_value){.profile = squared ? profile * profile : profile,
+                        .inner = 0.5 * (dvec_dot(n[0], n[1]) + dvec_dot(n[2], n[3]))};
 }
 
 /* Four numbers a pixel, so that one gradient serves depth and normal. */
@@ -109,7 +112,7 @@ static twin_value from_gradients(const double gx[4], const double gy[4])
     double normal = 0;
     for (int k = 0; k < 3; k++)
         normal += gx[k] * gx[k] + gy[k] * gy[k];
-    return (twin_value){1 - 0.25 * hypot(gx[3], gy[3]), 1 - 0.25 * sqrt(normal)};
+    return (twin_value){.profile = 1 - 0.25 * hypot(gx[3], gy[3]), .inner = 1 - 0.25 * sqrt(normal)};
 }
 
 twin_value twin_sobel_nine(const twin_map *m, int x, int y)
@@ -178,7 +181,7 @@ static double second_order(const twin_map *m, int x, int y)
 
 twin_value twin_saito(const twin_map *m, int x, int y)
 {
-    return (twin_value){1 - first_order(m, x, y), 1 - fabs(second_order(m, x, y))};
+    return (twin_value){.profile = 1 - first_order(m, x, y), .inner = 1 - fabs(second_order(m, x, y))};
 }
 
 twin_value twin_pencil(const twin_map *m, int x, int y, double scale)
@@ -187,7 +190,7 @@ twin_value twin_pencil(const twin_map *m, int x, int y, double scale)
     depths(m, x, y, d);
     for (int k = 0; k < 9; k++)
         sum += (k % 2 ? 0.25 : 0.125) * fabs(d[k] - d[4]);
-    return (twin_value){1 - scale * sum, 1 - fabs(second_order(m, x, y))};
+    return (twin_value){.profile = 1 - scale * sum, .inner = 1 - fabs(second_order(m, x, y))};
 }
 
 /* The seeds name this normalisation without a formula. Reading taken: a neighbourhood whose gradients all agree is a slope and
@@ -204,7 +207,7 @@ twin_value twin_saito_normalised(const twin_map *m, int x, int y, double jump, d
     }
     double profile = greatest > floor_value ? (greatest - least) / fmax(greatest, jump) : 0;
     double inner = greatest >= jump ? 0 : limited(fabs(second_order(m, x, y)) / jump);
-    return (twin_value){1 - profile, 1 - inner};
+    return (twin_value){1 - profile, 1 - inner, fabs(greatest - jump) < 1e-3 * jump || fabs(greatest - floor_value) < 1e-3 * floor_value};
 }
 
 /* The sample lies half a pixel up and to the right of the centre, where four pixels weigh the same. */
@@ -219,7 +222,7 @@ twin_value twin_denormal(const twin_map *m, int x, int y, double tolerance, bool
         s += 0.25 * sin(angle);
     }
     double profile = with_depth ? 1 - 4 * (1 - (c * c + s * s + tolerance)) : 1;
-    return (twin_value){profile, 1 - 4 * (1 - (dvec_dot(n, n) + tolerance))};
+    return (twin_value){.profile = profile, .inner = 1 - 4 * (1 - (dvec_dot(n, n) + tolerance))};
 }
 
 double twin_byte(double intensity)

@@ -15,6 +15,7 @@ typedef struct twin_map {
 
 typedef struct twin_value {
     double profile, inner; /* R and G of the edge map before clamping */
+    bool   doubtful;       /* a decision hung on a comparison that rounding to 16-bit floats can turn */
 } twin_value;
 
 void twin_map_make(twin_map *out, const shot *s);

@@ -41,7 +41,8 @@ static const param normalised_params[] = {
 
 static const pass normalised_passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "gradient", .shader = "lines/edge/saito_gradient.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
+    {.name = "gradient", .shader = "lines/edge/saito_gradient.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE,
+     .zero_outside = true},
     {.name = "normalise", .shader = "lines/edge/saito_normalise.frag", .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
