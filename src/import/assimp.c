@@ -173,43 +173,10 @@ static lmn_status explain(const child *c, const char *path, lmn_error *error)
     return status;
 }
 
-/* assimp says nothing about a material library that is not there. */
-static lmn_status check_libraries(const import_job *job, lmn_error *error)
-{
-    char ending[16];
-    file_ending(job->path, ending, sizeof ending);
-    const char *at = (const char *)job->file->data, *end = at + job->file->size;
-    if (strcmp(ending, ".obj") != 0)
-        return LMN_OK;
-    while (at && at < end) {
-        const char *line_end = memchr(at, '\n', (size_t)(end - at));
-        const char *stop = line_end ? line_end : end;
-        if (stop - at > 7 && memcmp(at, "mtllib ", 7) == 0) {
-            at += 7;
-            while (stop > at && (stop[-1] == '\r' || stop[-1] == ' '))
-                stop--;
-            char *name = scene_clean_name(at, (size_t)(stop - at));
-            char *path = name ? file_beside(job->path, name) : NULL;
-            bool good = path != NULL;
-            if (good && access(path, R_OK) != 0)
-                warnings_add(&job->scene->warnings, WARNING_MISSING_FILE, "material library \"%s\": %s", name,
-                             strerror(errno));
-            mem_free(name);
-            mem_free(path);
-            if (!good)
-                return error_memory(error);
-        }
-        at = line_end ? line_end + 1 : NULL;
-    }
-    return LMN_OK;
-}
-
 static lmn_status read_assimp(const import_job *job, lmn_error *error)
 {
     child c = {.pipe = -1};
-    lmn_status status = check_libraries(job, error);
-    if (status == LMN_OK)
-        status = start(&c, job->path, error);
+    lmn_status status = start(&c, job->path, error);
     if (status != LMN_OK)
         return status;
     status = receive(&c, job, error);
@@ -223,5 +190,5 @@ static lmn_status read_assimp(const import_job *job, lmn_error *error)
 
 const import_format import_assimp = {
     "a format that assimp reads",
-    ".obj .fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .ifc .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
+    ".fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .ifc .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
     'y', NULL, read_assimp};
