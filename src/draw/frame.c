@@ -38,6 +38,8 @@ static void draw_figure(frame *f, const figure *fig)
     if (!(s.far > s.near))
         s.far = s.near + 1;
     camera_pixels(&f->camera, fig->box, f->width, f->height, reach_of(fig), s.pixels);
+    if (!f->maps) /* maps are read back whole */
+        camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * reach_of(fig) + 2, s.around);
     if (s.pixels[2] <= 0 || s.pixels[3] <= 0 || gpu_failed(f->g))
         return;
     if (fig->reflects && !f->mirror_depth)

@@ -11,7 +11,8 @@ typedef struct figure_state {
     gpu_texture  *targets[TARGET_COUNT];
     gpu_texture  *geometry;  /* the normal-depth buffer as it was drawn; techniques may filter a copy of it */
     float        *edges;     /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
-    int           pixels[4]; /* scissor */
+    int           pixels[4]; /* where the figure and its lines can be: scissor */
+    int           around[4]; /* what passes there can look at: cleared */
     double        near, far;
 } figure_state;
 

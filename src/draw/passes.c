@@ -10,6 +10,7 @@ void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
     gpu_set_vec2(g, "u_size", (float)f->width, (float)f->height);
+    gpu_set_vec2(g, "u_texel", 1 / (float)f->width, 1 / (float)f->height);
     gpu_set_float(g, "u_perspective", f->camera.orthographic ? 0 : 1);
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
     gpu_set_float(g, "u_near", (float)s->near);
@@ -185,6 +186,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
                            .clear = !page, .keep_depth = true};
         memcpy(target.clear_values[0], neutral(p->writes), 4 * sizeof(float));
         memcpy(target.scissor, s->pixels, sizeof target.scissor);
+        memcpy(target.clear_box, s->around, sizeof target.clear_box);
         gpu_pass_begin(f->g, &target);
         gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth,
                                            .blend = p->blend == BLEND_OVER ? GPU_BLEND_OVER

@@ -227,6 +227,7 @@ void raster_figure(frame *f, figure_state *s)
     stopwatch w = watch_start(f);
     gpu_pass pass = {.clear = true};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
     outputs o = {-1, -1, -1, -1};
     if (fig->channels & CHANNEL_NORMAL_DEPTH)
         o.normal_depth = add_output(f, s, &pass, TARGET_NORMAL_DEPTH, (float[]){0, 0, 1, (float)s->far});

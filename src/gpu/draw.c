@@ -63,9 +63,19 @@ static void bind_framebuffer(gpu *g, const gpu_pass *pass)
         gpu_fail(g, LMN_GL, "the driver cannot draw into this set of pictures");
 }
 
+static void set_scissor(const int box[4])
+{
+    if (box[2] > 0) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(box[0], box[1], box[2], box[3]);
+    } else {
+        glDisable(GL_SCISSOR_TEST);
+    }
+}
+
 static void clear_targets(const gpu_pass *pass)
 {
-    glDisable(GL_SCISSOR_TEST);
+    set_scissor(pass->clear_box);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     for (int i = 0; i < pass->colour_count; i++) {
         const float *v = pass->clear_values[i];
@@ -89,12 +99,7 @@ void gpu_pass_begin(gpu *g, const gpu_pass *pass)
     glViewport(0, 0, any->width, any->height);
     if (pass->clear)
         clear_targets(pass);
-    if (pass->scissor[2] > 0) {
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(pass->scissor[0], pass->scissor[1], pass->scissor[2], pass->scissor[3]);
-    } else {
-        glDisable(GL_SCISSOR_TEST);
-    }
+    set_scissor(pass->scissor);
 }
 
 void gpu_use(gpu *g, gpu_program *p, gpu_state state)

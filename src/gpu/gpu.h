@@ -84,7 +84,8 @@ typedef struct gpu_pass {
     bool         clear;                                /* all colours to clear_values, depth to 1 */
     bool         keep_depth;                           /* with clear: leave the depth as it is */
     float        clear_values[GPU_COLOURS_MAX][4];     /* RG32UI takes them as integers */
-    int          scissor[4];                           /* x, y, width, height; width 0 = all. Clears ignore it. */
+    int          scissor[4];                           /* drawing: x, y, width, height; width 0 = all */
+    int          clear_box[4];                         /* clearing: the same */
 } gpu_pass;
 void gpu_pass_begin(gpu *g, const gpu_pass *pass);
 

@@ -307,7 +307,7 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     parts_release(s->parts, s->part_count);
     s->parts = parts;
     s->part_count = count;
-    s->revision++;
+    s->revision = scene_next_revision();
     if (count > 0)
         return LMN_OK;
     if (!s->may_be_empty)

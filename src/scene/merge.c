@@ -164,7 +164,7 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
     warnings_append(&into->warnings, &from->warnings);
     warnings_release(&from->warnings);
     into->load_ms += from->load_ms;
-    into->revision++;
+    into->revision = scene_next_revision();
 }
 
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)

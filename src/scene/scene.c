@@ -1,11 +1,21 @@
 /* A scene's memory: making, appending, freeing. */
 #include "scene/scene.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/parts.h"
+
+/* One counter for the process: a renderer keeps GPU copies of the scene it drew last and knows it by address and revision, and
+ * a new scene may lie where an old one was. */
+static atomic_uint_fast64_t revisions;
+
+uint64_t scene_next_revision(void)
+{
+    return atomic_fetch_add_explicit(&revisions, 1, memory_order_relaxed) + 1;
+}
 
 lmn_scene *scene_new(void)
 {

@@ -181,7 +181,7 @@ struct lmn_scene {
     size_t     part_count;
     char     **files; /* paths as they were given, one per merged file */
     size_t     file_count, file_capacity;
-    uint64_t   revision; /* changes whenever the content does; never repeats within a process's scene */
+    uint64_t   revision; /* changes whenever the content does; no two scenes of a process ever share one */
     char       up;       /* 'y', 'z', or 0 while empty */
     bool       may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
     warnings   warnings;
@@ -190,6 +190,8 @@ struct lmn_scene {
 
 /* An empty scene; NULL when memory is gone. */
 lmn_scene *scene_new(void);
+/* A revision that no scene of this process has had. */
+uint64_t scene_next_revision(void);
 /* Frees a scene and all it owns. NULL is accepted. */
 void scene_free(lmn_scene *scene);
 
@@ -214,6 +216,9 @@ void mesh_release(mesh *m);
 void primitive_release(primitive *p);
 /* Puts the primitives into the mesh's array; the mesh then owns what they hold. False when memory is gone. */
 bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
+
+/* A number that no other content of this process has had. Any thread. */
+uint64_t scene_next_revision(void);
 
 /* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
  * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.

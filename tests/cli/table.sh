@@ -143,6 +143,13 @@ group_draw() {
 group_many() {
     cp "$gear" in-one.stl; cp "$gear" in-two.stl; printf 'solid x\nfacet' > in-bad.stl
     row 0 '' 'p-in-one.png p-in-two.png' draw in-one.stl in-two.stl $small -o 'p-{name}.png'
+    # One renderer for all must not keep anything of the scene before.
+    row 0 '' 'p-box-animated.png p-box.png p-gearbox.png' draw "$box" "$gear" "$examples/box-animated.glb" $small -o 'p-{name}.png'
+    local name
+    for name in box gearbox box-animated; do
+        "$limner" draw "$examples/$name".* $small -o in-single.png
+        cmp -s in-single.png p-$name.png || complain "$name alone gives another picture"
+    done
     row 2 '^limner: in-bad.stl:2: ' 'p-in-one.png p-in-two.png' draw in-one.stl in-bad.stl in-two.stl $small -o 'p-{name}.png'
     row 2 '^limner: in-none.stl: ' 'p-in-two.png' draw in-none.stl in-two.stl $small -o 'p-{name}.png'
     row 2 '^limner: in-bad.stl:2: ' '' draw in-one.stl in-bad.stl $small

@@ -28,7 +28,9 @@ static const struct {
     const char *kind, *key, *reason;
 } exceptions[] = {
     {"layers", "shading", "both ways give the same picture"},
+    {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
+    {"lines", "taps", "both forms are the same sums"},
 };
 
 static bool is_exception(const kind *k, const param *p)

@@ -46,6 +46,20 @@ static void later_files_are_turned_to_the_first(void **state)
     lmn_scene_destroy(&s);
 }
 
+static void revisions_tell_scenes_apart(void **state)
+{
+    (void)state;
+    lmn_scene *a = NULL, *b = NULL;
+    assert_int_equal(lmn_scene_create(&a, NULL), LMN_OK);
+    assert_int_equal(add(a, "a.stl", triangle_stl, NULL), LMN_OK);
+    uint64_t revision = a->revision;
+    lmn_scene_destroy(&a); /* the next one may lie at the same address */
+    assert_int_equal(lmn_scene_create(&b, NULL), LMN_OK);
+    assert_int_equal(add(b, "a.stl", triangle_stl, NULL), LMN_OK);
+    assert_true(b->revision != revision);
+    lmn_scene_destroy(&b);
+}
+
 static void paths_are_unique(void **state)
 {
     (void)state;
@@ -147,6 +161,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(later_files_are_turned_to_the_first),
+        cmocka_unit_test(revisions_tell_scenes_apart),
         cmocka_unit_test(paths_are_unique),
         cmocka_unit_test(failures_leave_the_scene_alone),
         cmocka_unit_test(arguments_are_checked),

@@ -7,6 +7,7 @@ layout(location = 0) out vec4 out_edge;
 
 uniform float u_near; /* of the figure, eye depth */
 uniform float u_far;
+uniform vec2  u_texel; /* 1 / u_size */
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;
@@ -34,7 +35,7 @@ void write_edges(float profile, float inner, float id)
 /* The texel `off` pixels from this one, clamped at the border by the sampler, which costs less than fetching by index. */
 vec4 neighbour(sampler2D map, vec2 off)
 {
-    return textureLod(map, (gl_FragCoord.xy + off) / u_size, 0.0);
+    return textureLod(map, (gl_FragCoord.xy + off) * u_texel, 0.0);
 }
 
 vec4 texel(sampler2D map, ivec2 at)

@@ -1,0 +1,223 @@
+#include "shot.h"
+
+#include <jansson.h>
+#include <limner/limner.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "picture.h"
+
+static lmn_renderer *renderers[2];
+
+void shot_end(void)
+{
+    for (int i = 0; i < 2; i++)
+        lmn_renderer_destroy(&renderers[i]);
+}
+
+static bool accepted(lmn_status status, const lmn_error *error, const char *what)
+{
+    if (status == LMN_OK)
+        return true;
+    check_that("engine", false, "%s: %s %s", what, error->message, error->hint);
+    return false;
+}
+
+static lmn_renderer *renderer_of(bool es)
+{
+    lmn_error error = {0};
+    if (!renderers[es]) {
+        lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+        desc.es = es;
+        if (!accepted(lmn_renderer_create(&renderers[es], &desc, &error), &error, "renderer"))
+            return NULL;
+    }
+    return renderers[es];
+}
+
+static bool load_look(lmn_look **look, const char *text, const char *const *changes)
+{
+    lmn_error error = {0};
+    if (!accepted(text[0] == '{' ? lmn_look_parse(look, text, "look", &error) : lmn_look_load(look, text, &error), &error, "look"))
+        return false;
+    for (; changes && changes[0]; changes += 2)
+        if (!accepted(lmn_look_set(*look, changes[0], changes[1], &error), &error, changes[0]))
+            return false;
+    return true;
+}
+
+static lmn_draw_desc desc_of(const shot_view *view)
+{
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    desc.width = view->width;
+    desc.height = view->height;
+    desc.eye_given = !view->bare;
+    memcpy(desc.eye, &view->eye, sizeof desc.eye);
+    memcpy(desc.target, &view->target, sizeof desc.target);
+    memcpy(desc.up, &view->up, sizeof desc.up);
+    desc.orthographic = view->orthographic;
+    if (view->fov_deg > 0)
+        desc.fov_deg = view->fov_deg;
+    desc.samples = view->samples > 0 ? view->samples : 1;
+    desc.maps = !view->without_maps;
+    return desc;
+}
+
+static bool read_matrix(const json_t *array, double out[16])
+{
+    for (size_t i = 0; i < 16; i++) {
+        json_t *number = json_array_get(array, i);
+        if (!json_is_number(number))
+            return false;
+        out[i] = json_number_value(number);
+    }
+    return true;
+}
+
+static bool read_report(shot *out, const lmn_drawing *drawing)
+{
+    char *text = lmn_drawing_report_json(drawing);
+    json_t *report = text ? json_loads(text, 0, NULL) : NULL, *camera = json_object_get(report, "camera");
+    bool ok = read_matrix(json_object_get(camera, "view_matrix"), out->view) &&
+              read_matrix(json_object_get(camera, "projection_matrix"), out->projection);
+    out->near_depth = json_number_value(json_object_get(camera, "near"));
+    out->far_depth = json_number_value(json_object_get(camera, "far"));
+    const char *kind = json_string_value(json_object_get(camera, "projection"));
+    out->orthographic = kind && strcmp(kind, "orthographic") == 0;
+    out->report = text ? strdup(text) : NULL;
+    lmn_text_free(text);
+    json_decref(report);
+    return check_that("report", ok, "the report is JSON with the camera's matrices") && ok;
+}
+
+static bool read_maps(shot *out, const lmn_drawing *drawing)
+{
+    static int count;
+    char       folder[480];
+    const char *names[] = {"depth.pfm", "normal.pfm", "id.png", "edge.png", "shade.png"};
+    char       path[5][512];
+    lmn_error  error = {0};
+    snprintf(folder, sizeof folder, "%s", check_path("maps%d", count++ % 4));
+    if (!accepted(lmn_drawing_write_maps(drawing, folder, &error), &error, "maps"))
+        return false;
+    for (int i = 0; i < 5; i++)
+        snprintf(path[i], sizeof path[i], "%s/%s", folder, names[i]);
+    int w[5] = {0}, h[5] = {0};
+    out->depth = picture_read_pfm(path[0], 1, &w[0], &h[0]);
+    out->normal = (float(*)[3])picture_read_pfm(path[1], 3, &w[1], &h[1]);
+    out->id = picture_read_grey16(path[2], &w[2], &h[2]);
+    out->edge = picture_read_rgba(path[3], &w[3], &h[3]);
+    out->shade = picture_read_rgba(path[4], &w[4], &h[4]);
+    for (int i = 0; i < 5; i++)
+        if (w[i] != out->width || h[i] != out->height)
+            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", names[i], w[i], h[i]);
+    return true;
+}
+
+static bool draw(shot *out, lmn_scene *scene, const lmn_look *look, const shot_view *view)
+{
+    lmn_error     error = {0};
+    lmn_drawing  *drawing = NULL;
+    lmn_draw_desc desc = desc_of(view);
+    lmn_renderer *renderer = renderer_of(view->es);
+    if (!renderer || !accepted(lmn_draw(&drawing, renderer, scene, look, &desc, &error), &error, "draw"))
+        return false;
+    const uint8_t *pixels = lmn_drawing_pixels(drawing, &out->width, &out->height);
+    size_t         size = (size_t)out->width * (size_t)out->height * 4;
+    out->picture = check_alloc(size, 1);
+    memcpy(out->picture, pixels, size);
+    bool ok = read_report(out, drawing) && (view->without_maps || read_maps(out, drawing));
+    lmn_drawing_destroy(&drawing);
+    return ok;
+}
+
+bool shot_take(shot *out, const char *model, const char *look_text, const char *const *changes, const shot_view *view)
+{
+    memset(out, 0, sizeof *out);
+    lmn_error  error = {0};
+    lmn_scene *scene = NULL;
+    lmn_look  *look = NULL;
+    bool ok = accepted(lmn_scene_create(&scene, &error), &error, "scene") &&
+              accepted(lmn_scene_add_file(scene, model, NULL, &error), &error, model) &&
+              load_look(&look, look_text, changes) && draw(out, scene, look, view);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&scene);
+    if (!ok)
+        shot_release(out);
+    return ok;
+}
+
+void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth)
+{
+    double n = near_depth, f = far_depth, t = tan((view->fov_deg > 0 ? view->fov_deg : 30) * 3.14159265358979323846 / 360);
+    double aspect = (double)view->width / view->height;
+    dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back));
+    dvec up = dvec_cross(back, right);
+    size_t count = (size_t)view->width * (size_t)view->height;
+    *out = (shot){.width = view->width, .height = view->height, .near_depth = n, .far_depth = f, .orthographic = view->orthographic,
+                  .view = {right.x, up.x, back.x, 0, right.y, up.y, back.y, 0, right.z, up.z, back.z, 0, -dvec_dot(right, view->eye),
+                           -dvec_dot(up, view->eye), -dvec_dot(back, view->eye), 1}};
+    double half = t * dvec_length(dvec_sub(view->eye, view->target));
+    double parallel[16] = {[0] = 1 / (half * aspect), [5] = 1 / half, [10] = -2 / (f - n), [14] = -(f + n) / (f - n), [15] = 1};
+    double central[16] = {[0] = 1 / (t * aspect), [5] = 1 / t, [10] = -(f + n) / (f - n), [11] = -1, [14] = -2 * f * n / (f - n)};
+    memcpy(out->projection, view->orthographic ? parallel : central, sizeof central);
+    out->edge = check_alloc(count, 4);
+    out->depth = check_alloc(count, sizeof *out->depth);
+    out->normal = check_alloc(count, sizeof *out->normal);
+    memset(out->edge, 255, count * 4);
+}
+
+void shot_release(shot *s)
+{
+    free(s->picture);
+    free(s->edge);
+    free(s->shade);
+    free(s->depth);
+    free(s->normal);
+    free(s->id);
+    free(s->report);
+    memset(s, 0, sizeof *s);
+}
+
+/* The projection is one of two known forms, so that its inverse is written down directly. */
+void shot_ray(const shot *s, double x, double y, dvec *origin, dvec *direction)
+{
+    const double *p = s->projection, *v = s->view;
+    double nx = 2 * x / s->width - 1, ny = 1 - 2 * y / s->height;
+    dvec eye_origin = {0, 0, 0}, eye_direction = {0, 0, -1};
+    if (s->orthographic)
+        eye_origin = dvec_of((nx - p[12]) / p[0], (ny - p[13]) / p[5], 0);
+    else
+        eye_direction = dvec_of((nx + p[8]) / p[0], (ny + p[9]) / p[5], -1);
+    dvec rows[3] = {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}};
+    dvec moved = dvec_sub(eye_origin, dvec_of(v[12], v[13], v[14]));
+    *origin = dvec_of(dvec_dot(rows[0], moved), dvec_dot(rows[1], moved), dvec_dot(rows[2], moved));
+    *direction = dvec_of(dvec_dot(rows[0], eye_direction), dvec_dot(rows[1], eye_direction), dvec_dot(rows[2], eye_direction));
+}
+
+dvec shot_project(const shot *s, dvec point)
+{
+    double w, unused;
+    dvec clip = dmat_apply(s->projection, dmat_apply(s->view, point, 1, &unused), 1, &w);
+    return dvec_of((clip.x / w * 0.5 + 0.5) * s->width, (0.5 - clip.y / w * 0.5) * s->height, w);
+}
+
+dvec shot_to_eye(const shot *s, dvec v, double w)
+{
+    return dmat_apply(s->view, v, w, NULL);
+}
+
+dvec shot_viewer(const shot *s, double *w)
+{
+    dvec origin, direction;
+    shot_ray(s, s->width / 2.0, s->height / 2.0, &origin, &direction);
+    *w = s->orthographic ? 0 : 1;
+    return s->orthographic ? dvec_scale(direction, -1) : origin;
+}
+
+int shot_ink(const shot *s, int x, int y)
+{
+    const uint8_t *e = &s->edge[4 * ((size_t)y * (size_t)s->width + (size_t)x)];
+    return e[2] < e[3] ? e[2] : e[3];
+}

@@ -1,0 +1,58 @@
+/* A drawing made through the public API, with its maps and its report. All pictures have row 0 on top. */
+#ifndef TRUTH_SHOT_H
+#define TRUTH_SHOT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "vec.h"
+
+typedef struct shot_view {
+    int         width, height;
+    dvec        eye, target, up;
+    bool        orthographic;
+    double      fov_deg; /* 0: the default */
+    int         samples; /* 0: 1 */
+    bool        without_maps;
+    bool        es;
+    bool        bare;    /* no eye: the named iso view */
+} shot_view;
+
+typedef struct shot {
+    int       width, height;
+    uint8_t  *picture, *edge, *shade; /* RGBA8 */
+    float    *depth;  /* eye depth, infinite where empty */
+    float   (*normal)[3];
+    uint16_t *id;
+    double    view[16], projection[16], near_depth, far_depth;
+    bool      orthographic;
+    char     *report;
+} shot;
+
+/* Draws a model file with a look (JSON text, or the name of a look that ships when it does not begin with '{'). False, with
+ * a failed check, when anything goes wrong. `changes` is a NULL-terminated list KEY, VALUE, KEY, VALUE …, or NULL. */
+bool shot_take(shot *out, const char *model, const char *look, const char *const *changes, const shot_view *view);
+void shot_release(shot *s);
+
+/* A shot that nobody drew: matrices of the view, an edge map without ink, the given depth range. For trying out references. */
+void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth);
+
+/* Ends the renderers; call before the program ends so that leak checkers stay quiet. */
+void shot_end(void);
+
+/* The ray through a pixel position (in pixels, row 0 on top): origin on the near plane, direction not normalised. */
+void shot_ray(const shot *s, double x, double y, dvec *origin, dvec *direction);
+
+/* A point on the picture in pixels; z is the clip-space w, so that z <= 0 lies behind the viewer. */
+dvec shot_project(const shot *s, dvec point);
+
+/* Eye-space vector or point (w 0 or 1). */
+dvec shot_to_eye(const shot *s, dvec v, double w);
+
+/* Where the viewer is, or for parallel rays (w 0) the direction towards the viewer. */
+dvec shot_viewer(const shot *s, double *w);
+
+/* The smallest of the combined and the id channel: what counts as ink when <= 127. */
+int shot_ink(const shot *s, int x, int y);
+
+#endif
