@@ -10,7 +10,7 @@ float unexplained(float before, float across, float behind)
 {
     float low = min(before, behind), high = max(before, behind);
     float excess = max(low - across, across - high);
-    return excess - 0.5 * max(abs(before), abs(behind));
+    return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
 /* x: profile ink, y: inner ink, z: id ink of the pair of this pixel and the neighbour at `side`. */
