@@ -117,6 +117,5 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
     }
     mem_free(all);
     warnings_release(&notes);
-    gpu_targets_trim(r->g);
     return status;
 }

@@ -104,6 +104,11 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
         error_hint(error, "ask for a smaller --size or fewer --samples");
         return status;
     }
+    if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
+        gpu_targets_trim(r->g);
+    r->width = desc->width;
+    r->height = desc->height;
+    r->samples = desc->samples;
     frame *f = &s->frame;
     f->g = r->g;
     f->up = &r->up;
@@ -259,7 +264,6 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
         status = error_set(error, LMN_CANCELLED, "cancelled");
     if (status == LMN_OK && (desc->maps || desc->profile))
         status = draw_maps(d, r, scene, look, desc, error);
-    gpu_targets_trim(r->g);
     if (status != LMN_OK)
         drawing_destroy(&d);
     *out = d;

@@ -10,6 +10,7 @@ struct lmn_renderer {
     upload          up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
     bool            up_valid;
+    int             width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
 };
 
 struct lmn_drawing {

@@ -19,7 +19,22 @@
 #include "import/assimp_stream.h"
 #include "import/build.h"
 
-enum { POLL_MS = 50, READ_BYTES = 1 << 20 };
+enum { POLL_MS = 20, READ_BYTES = 1 << 20 };
+
+/* The address sanitizer maps terabytes, so that there the child's address space cannot be limited; its resident memory can. */
+#if defined(__SANITIZE_ADDRESS__)
+#define LIMIT_RESIDENT (LIMIT_IMPORT_MEMORY / 4)
+#define LIMIT_SPACE    RLIM_INFINITY
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define LIMIT_RESIDENT (LIMIT_IMPORT_MEMORY / 4)
+#define LIMIT_SPACE    RLIM_INFINITY
+#endif
+#endif
+#ifndef LIMIT_RESIDENT
+#define LIMIT_RESIDENT LIMIT_IMPORT_MEMORY
+#define LIMIT_SPACE    memory
+#endif
 
 typedef struct child {
     pid_t          id;
@@ -27,23 +42,25 @@ typedef struct child {
     unsigned char *bytes;
     size_t         size, room;
     int            status; /* as waitpid gives it */
-    bool           timed_out;
+    bool           timed_out, too_big;
 } child;
 
-/* This process's own address space. A GL driver may have mapped many gigabytes, and the child starts with the same. */
-static size_t address_space(void)
+/* Bytes that a process has mapped (field 0 of its statm) or resident (field 1); 0 when that cannot be told. */
+static size_t process_memory(pid_t id, int field)
 {
-    char text[64];
-    int descriptor = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    char path[64], numbers[128];
+    snprintf(path, sizeof path, "/proc/%ld/statm", (long)id);
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)
         return 0;
-    ssize_t got = read(descriptor, text, sizeof text - 1);
+    ssize_t got = read(descriptor, numbers, sizeof numbers - 1);
     close(descriptor);
-    size_t pages = 0;
-    for (ssize_t i = 0; i < got && text[i] >= '0' && text[i] <= '9'; i++)
-        pages = pages * 10 + (size_t)(text[i] - '0');
+    numbers[got > 0 ? got : 0] = '\0';
+    size_t pages[2] = {0, 0};
+    if (sscanf(numbers, "%zu %zu", &pages[0], &pages[1]) != 2)
+        return 0;
     long page = sysconf(_SC_PAGESIZE);
-    return page > 0 ? pages * (size_t)page : 0;
+    return page > 0 ? pages[field] * (size_t)page : 0;
 }
 
 static void limit(__rlimit_resource_t what, size_t value)
@@ -68,11 +85,8 @@ static void run_child(const char *path, int pipe_end, size_t memory)
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CPU, LIMIT_IMPORT_SECONDS);
-#ifndef __SANITIZE_ADDRESS__
-    limit(RLIMIT_AS, memory);
-#else
-    (void)memory; /* the sanitizer maps terabytes */
-#endif
+    (void)memory;
+    limit(RLIMIT_AS, LIMIT_SPACE);
     assimp_child_write(path, pipe_end);
     _exit(0);
 }
@@ -81,7 +95,8 @@ static lmn_status start(child *c, const char *path, lmn_error *error)
 {
     int ends[2];
     size_t memory;
-    if (!size_add(address_space(), LIMIT_IMPORT_MEMORY, &memory) || pipe2(ends, O_CLOEXEC) != 0)
+    /* A GL driver may have mapped many gigabytes here, and the child starts with the same. */
+    if (!size_add(process_memory(getpid(), 0), LIMIT_IMPORT_MEMORY, &memory) || pipe2(ends, O_CLOEXEC) != 0)
         return error_in_file(error, LMN_INTERNAL, path, 0, "cannot start the reader: %s", strerror(errno));
     c->id = fork();
     if (c->id == 0)
@@ -130,10 +145,10 @@ static lmn_status receive(child *c, const import_job *job, lmn_error *error)
             status = import_progress(job, 0.1, "reading", error);
         if (status != LMN_OK)
             break;
-        if (now_seconds() > end) {
-            c->timed_out = true;
+        c->timed_out = now_seconds() > end;
+        c->too_big = ready == 0 && process_memory(c->id, 1) > LIMIT_RESIDENT;
+        if (c->timed_out || c->too_big)
             break;
-        }
     }
     return status;
 }
@@ -142,14 +157,15 @@ static lmn_status receive(child *c, const import_job *job, lmn_error *error)
 static void end_child(child *c)
 {
     close(c->pipe);
-    if (c->size == 0 || c->bytes[c->size - 1] != STREAM_END || c->timed_out) {
+    bool stopped = c->timed_out || c->too_big;
+    if (c->size == 0 || c->bytes[c->size - 1] != STREAM_END || stopped) {
         /* A child that crashed is gone already and keeps its status. */
         struct timespec moment = {0, 20000000};
-        if (!c->timed_out && waitpid(c->id, &c->status, WNOHANG) == c->id)
+        if (!stopped && waitpid(c->id, &c->status, WNOHANG) == c->id)
             return;
-        if (!c->timed_out)
+        if (!stopped)
             nanosleep(&moment, NULL);
-        if (!c->timed_out && waitpid(c->id, &c->status, WNOHANG) == c->id)
+        if (!stopped && waitpid(c->id, &c->status, WNOHANG) == c->id)
             return;
     }
     kill(c->id, SIGKILL);
@@ -160,7 +176,10 @@ static void end_child(child *c)
 static lmn_status explain(const child *c, const char *path, lmn_error *error)
 {
     lmn_status status;
-    if (c->timed_out || (WIFSIGNALED(c->status) && WTERMSIG(c->status) == SIGXCPU))
+    if (c->too_big)
+        status = error_in_file(error, LMN_LIMIT, path, 0, "reading the file takes more than %zu GiB of memory",
+                               LIMIT_RESIDENT >> 30);
+    else if (c->timed_out || (WIFSIGNALED(c->status) && WTERMSIG(c->status) == SIGXCPU))
         status = error_in_file(error, LMN_LIMIT, path, 0, "reading took longer than %d s and was stopped",
                                LIMIT_IMPORT_SECONDS);
     else if (WIFSIGNALED(c->status) && WTERMSIG(c->status) == SIGABRT)
@@ -173,55 +192,22 @@ static lmn_status explain(const child *c, const char *path, lmn_error *error)
     return status;
 }
 
-/* assimp says nothing about a material library that is not there. */
-static lmn_status check_libraries(const import_job *job, lmn_error *error)
-{
-    char ending[16];
-    file_ending(job->path, ending, sizeof ending);
-    const char *at = (const char *)job->file->data, *end = at + job->file->size;
-    if (strcmp(ending, ".obj") != 0)
-        return LMN_OK;
-    while (at && at < end) {
-        const char *line_end = memchr(at, '\n', (size_t)(end - at));
-        const char *stop = line_end ? line_end : end;
-        if (stop - at > 7 && memcmp(at, "mtllib ", 7) == 0) {
-            at += 7;
-            while (stop > at && (stop[-1] == '\r' || stop[-1] == ' '))
-                stop--;
-            char *name = scene_clean_name(at, (size_t)(stop - at));
-            char *path = name ? file_beside(job->path, name) : NULL;
-            bool good = path != NULL;
-            if (good && access(path, R_OK) != 0)
-                warnings_add(&job->scene->warnings, WARNING_MISSING_FILE, "material library \"%s\": %s", name,
-                             strerror(errno));
-            mem_free(name);
-            mem_free(path);
-            if (!good)
-                return error_memory(error);
-        }
-        at = line_end ? line_end + 1 : NULL;
-    }
-    return LMN_OK;
-}
-
 static lmn_status read_assimp(const import_job *job, lmn_error *error)
 {
     child c = {.pipe = -1};
-    lmn_status status = check_libraries(job, error);
-    if (status == LMN_OK)
-        status = start(&c, job->path, error);
+    lmn_status status = start(&c, job->path, error);
     if (status != LMN_OK)
         return status;
     status = receive(&c, job, error);
     end_child(&c);
     bool whole = c.size > 0 && (c.bytes[0] == STREAM_ERROR || c.bytes[c.size - 1] == STREAM_END);
     if (status == LMN_OK)
-        status = whole && !c.timed_out ? assimp_stream_read(job, c.bytes, c.size, error) : explain(&c, job->path, error);
+        status = whole && !c.timed_out && !c.too_big ? assimp_stream_read(job, c.bytes, c.size, error) : explain(&c, job->path, error);
     mem_free(c.bytes);
     return status;
 }
 
 const import_format import_assimp = {
     "a format that assimp reads",
-    ".obj .fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .ifc .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
+    ".fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .ifc .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
     'y', NULL, read_assimp};

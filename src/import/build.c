@@ -4,9 +4,6 @@
 
 #include "base/memory.h"
 
-/* sRGB 0.8: paper-like shades stay visible on both white and dark grounds. */
-static const float plain_grey = 0.6038f;
-
 int32_t build_plain_material(lmn_scene *scene, bool has_colours)
 {
     material *m = scene_append_material(scene);
@@ -16,7 +13,7 @@ int32_t build_plain_material(lmn_scene *scene, bool has_colours)
     if (!m->name)
         return NONE;
     if (!has_colours)
-        m->base_colour = (vec4){plain_grey, plain_grey, plain_grey, 1};
+        m->base_colour = (vec4){BUILD_PLAIN_GREY, BUILD_PLAIN_GREY, BUILD_PLAIN_GREY, 1};
     return (int32_t)scene->material_count - 1;
 }
 

@@ -8,6 +8,9 @@
  * be NULL and is copied. Errors: LMN_MEMORY. */
 lmn_status build_part(lmn_scene *scene, primitive *p, const char *name, lmn_error *error);
 
+/* sRGB 0.8 in linear light: shades stay visible on both white and dark grounds. */
+#define BUILD_PLAIN_GREY 0.6038f
+
 /* The material of formats that have none: light neutral grey, white when vertex colours decide. Adds it; NONE when memory
  * is gone. */
 int32_t build_plain_material(lmn_scene *scene, bool has_colours);

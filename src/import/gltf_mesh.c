@@ -231,11 +231,22 @@ static void read_morphs(gltf_reader *r, shape *s)
 
 /* --- the whole --------------------------------------------------------------------------------------------------- */
 
-/* Primitives without Draco data, and files that offer plain data too to builds without Draco, need nothing here. */
+/* A build without Draco can still use the plain data that a file may offer beside it. */
+static void check_plain(gltf_reader *r, shape *s)
+{
+    size_t index;
+    if (gltf_index(r, s->attributes, "POSITION", accessor_total(r), "accessors", s->where, &index) &&
+        !json_object_get(gltf_item(r, "accessors", index), "bufferView"))
+        gltf_fail(r, LMN_UNSUPPORTED, "%s needs the extension KHR_draco_mesh_compression, which this build does not read",
+                  s->where);
+}
+
 static void open_draco(gltf_reader *r, shape *s)
 {
     size_t view_index;
     json_t *extension = gltf_extension(s->object, "KHR_draco_mesh_compression");
+    if (extension && !draco_is_built())
+        check_plain(r, s);
     if (!extension || !draco_is_built())
         return;
     if (!gltf_index(r, extension, "bufferView", r->view_count, "bufferViews", s->where, &view_index)) {

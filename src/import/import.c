@@ -8,7 +8,7 @@
 #include "base/memory.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl, &import_assimp};
+static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl, &import_obj, &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 static double now_ms(void)

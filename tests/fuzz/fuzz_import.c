@@ -17,6 +17,8 @@ static lmn_status read_format(const import_job *job, lmn_error *error)
     return import_stl.read(job, error);
 #elif defined(FUZZ_ply)
     return import_ply.read(job, error);
+#elif defined(FUZZ_obj)
+    return import_obj.read(job, error);
 #elif defined(FUZZ_stream)
     return assimp_stream_read(job, job->file->data, job->file->size, error);
 #else
