@@ -1,5 +1,331 @@
+/* How area is filled: tones counted on spheres, Gooch's ramp in closed form, tone borders, orientation of textures. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "check.h"
+#include "picture.h"
+#include "shape.h"
+#include "shot.h"
+
+static const shot_view front = {.width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
+
+static const char *surface_look(const char *surface, const char *light, double fill)
+{
+    static char text[1024];
+    snprintf(text, sizeof text,
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\",\"fill\":%g},"
+             "\"rules\":[{\"surface\":%s}]}", light, fill, surface);
+    return text;
+}
+
+static bool take_ball(shot *out, const char *look, const char *const *changes)
+{
+    shape s = {0};
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
+    bool ok = shot_of_shape(out, &s, "ball.glb", look, changes, &front);
+    shape_release(&s);
+    return ok;
+}
+
+static double luminance(const uint8_t *p)
+{
+    return 0.2126 * picture_linear(p[0]) + 0.7152 * picture_linear(p[1]) + 0.0722 * picture_linear(p[2]);
+}
+
+/* Distinct colours inside the figure and how many pixels each has, the most frequent first; at most `room`. */
+static int colours_of(const shot *s, uint32_t *colours, int *pixels, int room)
+{
+    int count = 0;
+    for (int i = 0; i < s->width * s->height; i++) {
+        if (isinf(s->depth[i]))
+            continue;
+        uint32_t c;
+        memcpy(&c, &s->picture[4 * i], 4);
+        int k = 0;
+        while (k < count && colours[k] != c)
+            k++;
+        if (k == room)
+            continue;
+        if (k == count) {
+            colours[count] = c;
+            pixels[count++] = 0;
+        }
+        pixels[k]++;
+    }
+    for (int i = 0; i < count; i++)
+        for (int k = i + 1; k < count; k++)
+            if (pixels[k] > pixels[i]) {
+                int      n = pixels[i];
+                uint32_t c = colours[i];
+                pixels[i] = pixels[k];
+                pixels[k] = n;
+                colours[i] = colours[k];
+                colours[k] = c;
+            }
+    return count;
+}
+
+/* Is a pixel lighter than another whenever it is turned to the light by a tenth more? */
+static int wrong_order(const shot *s, dvec light)
+{
+    double darkest[21], lightest[21];
+    int    wrong = 0;
+    for (int k = 0; k < 21; k++) {
+        darkest[k] = INFINITY;
+        lightest[k] = -INFINITY;
+    }
+    for (int i = 0; i < s->width * s->height; i++) {
+        if (isinf(s->depth[i]))
+            continue;
+        int k = (int)floor((dvec_dot(dvec_unit(light), dvec_from(s->normal[i])) + 1) * 10);
+        double l = luminance(&s->picture[4 * i]);
+        darkest[k] = fmin(darkest[k], l);
+        lightest[k] = fmax(lightest[k], l);
+    }
+    for (int k = 0; k + 1 < 21; k++)
+        for (int j = k + 2; j < 21; j++)
+            wrong += lightest[k] > darkest[j] + 0.01;
+    return wrong;
+}
+
+static void tones_are_counted(void)
+{
+    static const char *const palettes[] = {"[\"#202020\",\"#f0f0f0\"]", "[\"#202020\",\"#808080\",\"#f0f0f0\"]",
+                                           "[\"#101010\",\"#404040\",\"#707070\",\"#a0a0a0\",\"#d0d0d0\"]"};
+    static const int steps[] = {2, 3, 5};
+    uint32_t colours[64];
+    int      pixels[64];
+    for (int i = 0; i < 3; i++)
+        for (int fill = 0; fill < 2; fill++) {
+            char surface[160];
+            shot s;
+            snprintf(surface, sizeof surface, "{\"technique\":\"tones\",\"palette\":%s}", palettes[i]);
+            if (take_ball(&s, surface_look(surface, "0.8,0.5,0.4", fill ? 0.6 : 0), NULL)) {
+                int count = colours_of(&s, colours, pixels, 64);
+                check_near("G1", count, fill ? count : steps[i], 0, "tones on a sphere from a palette of %d%s", steps[i], fill ? " with a second light" : "");
+                check_at_most("G1", count, steps[i], "and never more");
+                if (!fill)
+                    check_at_most("G1", wrong_order(&s, dvec_of(0.8, 0.5, 0.4)), 0, "places where the side to the light is the darker one");
+            }
+            shot_release(&s);
+        }
+    for (int bands = 2; bands <= 5; bands++)
+        for (int fill = 0; fill < 2; fill++) {
+            char surface[160];
+            shot s;
+            snprintf(surface, sizeof surface, "{\"technique\":\"toon\",\"bands\":%d,\"softness\":0,\"highlight\":0}", bands);
+            if (take_ball(&s, surface_look(surface, "0.5,0.5,0.7", fill ? 0.8 : 0), NULL))
+                check_near("G1", colours_of(&s, colours, pixels, 64), bands, 0, "tones of toon with %d bands, %s", bands,
+                           fill ? "two lights" : "one light");
+            shot_release(&s);
+        }
+}
+
+/* Flat tones stay constant; between them lie one to three pixels of transition. Counted along rows that cross the borders nearly
+ * at right angles. */
+static void tone_borders(void)
+{
+    static const char *const forms[] = {"{\"technique\":\"toon\",\"bands\":3,\"softness\":1,\"highlight\":0}",
+                                        "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"seed_blur\":true}"};
+    for (int f = 0; f < 2; f++) {
+        uint32_t colours[256];
+        int      pixels[256], runs = 0, short_runs = 0, long_runs = 0, flat = 0, inside = 0;
+        shot     s;
+        if (take_ball(&s, surface_look(forms[f], "1,0.1,0.3", 0), NULL)) {
+            colours_of(&s, colours, pixels, 256);
+            for (int y = 80; y < 176; y++) {
+                int run = -1, tone = -1;
+                for (int x = 0; x < 256; x++) {
+                    int i = y * 256 + x, k = 0;
+                    uint32_t c;
+                    if (isinf(s.depth[i]) || s.normal[i][2] < 0.35f) {
+                        run = -1;
+                        continue;
+                    }
+                    memcpy(&c, &s.picture[4 * i], 4);
+                    while (k < 3 && colours[k] != c)
+                        k++;
+                    inside++;
+                    flat += k < 3;
+                    if (k == 3) {
+                        run += run >= 0;
+                    } else {
+                        if (run >= 0 && k != tone) {
+                            runs++;
+                            short_runs += run < 1;
+                            long_runs += run > 3;
+                        }
+                        tone = k;
+                        run = 0;
+                    }
+                }
+            }
+        }
+        check_at_least("E12", runs, 100, "borders between tones crossed (%s)", f ? "blurred as the seed" : "softness 1");
+        check_at_most("E12", short_runs, 0, "of them without a transition");
+        check_at_most("E12", long_runs, 0, "of them with more than 3 px");
+        check_at_least("E12", inside ? (double)flat / inside : 0, 0.9, "share of pixels in one of the flat tones");
+        shot_release(&s);
+    }
+}
+
+/* Four bilinear samples at two thirds of a pixel are the mean of nine. */
+static void blur_is_a_box(void)
+{
+    shot sharp, blurred;
+    double worst = 0;
+    int    changed = 0;
+    const char *hard = "{\"technique\":\"toon\",\"bands\":4,\"softness\":0,\"highlight\":0}";
+    const char *soft = "{\"technique\":\"toon\",\"bands\":4,\"softness\":0,\"highlight\":0,\"seed_blur\":true}";
+    bool ok = take_ball(&sharp, surface_look(hard, "1,0.35,0.3", 0), NULL);
+    if (take_ball(&blurred, surface_look(soft, "1,0.35,0.3", 0), NULL) && ok)
+        for (int y = 1; y < 255; y++)
+            for (int x = 1; x < 255; x++) {
+                double mean = 0;
+                bool   inside = true;
+                for (int k = 0; k < 9; k++) {
+                    int i = (y + k / 3 - 1) * 256 + x + k % 3 - 1;
+                    inside = inside && !isinf(sharp.depth[i]);
+                    mean += picture_linear(sharp.picture[4 * i]) / 9;
+                }
+                int i = y * 256 + x;
+                if (!inside)
+                    continue;
+                worst = fmax(worst, fabs(picture_linear(blurred.picture[4 * i]) - mean));
+                changed += blurred.picture[4 * i] != sharp.picture[4 * i];
+            }
+    check_at_least("E02", changed, 200, "pixels that the blur changes");
+    check_at_most("E02", worst * 255, 1.5, "levels between the blur and the mean of nine");
+    shot_release(&sharp);
+    shot_release(&blurred);
+}
+
+/* --- Gooch ------------------------------------------------------------------------------------------------------- */
+
+static void gooch_ramp(void)
+{
+    static const double cool[3] = {0x52, 0x66, 0xa8}, warm[3] = {0xcc, 0xb8, 0x7a};
+    const char *look = surface_look("{\"technique\":\"gooch\",\"cool\":\"#5266a8\",\"warm\":\"#ccb87a\",\"cool_share\":0.2,"
+                                    "\"warm_share\":0.35,\"specular\":0}", "0.7,0.6,0.4", 0);
+    dvec   light = dvec_unit(dvec_of(0.7, 0.6, 0.4));
+    double worst = 0, darkest = 1, hue[21] = {0};
+    int    in_bin[21] = {0}, back = 0;
+    shot   s;
+    if (take_ball(&s, look, NULL))
+        for (int i = 0; i < 256 * 256; i++) {
+            if (isinf(s.depth[i]))
+                continue;
+            const uint8_t *p = &s.picture[4 * i];
+            double t = 0.5 * dvec_dot(light, dvec_from(s.normal[i])) + 0.5;
+            for (int k = 0; k < 3; k++) {
+                double kc = fmin(picture_linear((uint8_t)cool[k]) + 0.2, 1), kw = fmin(picture_linear((uint8_t)warm[k]) + 0.35, 1);
+                worst = fmax(worst, fabs(p[k] - picture_srgb(kc * (1 - t) + kw * t)));
+            }
+            darkest = fmin(darkest, luminance(p));
+            hue[(int)(t * 20)] += p[0] - p[2];
+            in_bin[(int)(t * 20)]++;
+        }
+    for (int k = 0, last = -1; k < 21; k++)
+        if (in_bin[k]) {
+            back += last >= 0 && hue[k] / in_bin[k] <= hue[last] / in_bin[last];
+            last = k;
+        }
+    check_at_most("E10", worst, 1.5, "levels between Gooch's shading and its closed form");
+    check_at_most("G2", back, 0, "steps at which the hue goes back towards cool while n.l rises");
+    check_at_least("G2", darkest, 0.05, "luminance of the darkest place");
+    shot_release(&s);
+}
+
+static void gooch_lines(void)
+{
+    const shot_view view = {.width = 300, .height = 240, .eye = {4, 3, 5}, .up = {0, 1, 0}};
+    shape s = {0};
+    shot  drawing;
+    int   outline = 0, light_outline = 0, inner = 0, dark_inner = 0, extreme = 0, away = 0;
+    shape_box(&s, "box", dvec_of(-1, -0.8, -0.8), dvec_of(0.9, 0.7, 0.8));
+    if (shot_of_shape(&drawing, &s, "gooch.ply", "gooch", NULL, &view))
+        for (int i = 0; i < view.width * view.height; i++) {
+            const uint8_t *e = &drawing.edge[4 * i], *p = &drawing.picture[4 * i];
+            if (e[0] == 0) {
+                outline++;
+                light_outline += luminance(p) > 0.05;
+            } else if (e[0] == 255 && e[1] == 0 && !isinf(drawing.depth[i])) {
+                inner++;
+                dark_inner += luminance(p) < 0.7;
+            } else if (e[0] == 255 && e[1] == 255 && !isinf(drawing.depth[i])) {
+                away++;
+                extreme += luminance(p) < 0.01 || luminance(p) > 0.98;
+            }
+        }
+    check_at_least("E10", outline, 200, "pixels of the outline");
+    check_at_most("E10", light_outline, 0, "of them not black");
+    check_at_least("E10", inner, 100, "pixels of inner lines");
+    check_at_most("E10", dark_inner, 0, "of them not white");
+    check_at_least("E10", away, 5000, "pixels of shading");
+    check_at_most("E10", extreme, 0, "of them pure black or pure white");
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+/* --- plain facts ------------------------------------------------------------------------------------------------- */
+
+static void light_comes_from_where_it_is_said(void)
+{
+    static const char *const from[] = {"1,0,0.2", "-1,0.3,0.5", "0,1,0.3", "0.2,-1,0.4", "0,0,1"};
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
+        shot   s;
+        double x, y, z;
+        sscanf(from[i], "%lf,%lf,%lf", &x, &y, &z);
+        if (take_ball(&s, surface_look("{\"technique\":\"lambert\",\"ambient\":0}", from[i], 0), NULL)) {
+            dvec sum = {0, 0, 0};
+            int  best = 0;
+            for (int k = 0; k < 256 * 256; k++)
+                if (!isinf(s.depth[k]) && s.picture[4 * k + 1] > best)
+                    best = s.picture[4 * k + 1];
+            for (int k = 0; k < 256 * 256; k++)
+                if (!isinf(s.depth[k]) && s.picture[4 * k + 1] == best)
+                    sum = dvec_add(sum, dvec_from(s.normal[k]));
+            double angle = acos(fmin(1, dvec_dot(dvec_unit(sum), dvec_unit(dvec_of(x, y, z))))) * 57.29578;
+            check_at_most("light", angle, 5, "degrees between the brightest place and the light %s", from[i]);
+        }
+        shot_release(&s);
+    }
+}
+
+/* A texture with four different quarters, seen straight on: nothing is mirrored, nothing changes its colour. */
+static void texture_stands_upright(void)
+{
+    static const uint8_t quarters[4][4] = {{255, 0, 0, 255}, {0, 180, 0, 255}, {0, 0, 200, 255}, {90, 90, 90, 255}};
+    const shot_view view = {.width = 200, .height = 200, .eye = {0, 0, 4.8}, .up = {0, 1, 0}};
+    shape s = {0};
+    shot  drawing;
+    int   wrong = 0;
+    shape_quad(&s, "wall", 1, 0);
+    s.parts[0].texture_size = 64;
+    s.parts[0].texture = check_alloc(64 * 64, 4);
+    for (int i = 0; i < 64 * 64; i++)
+        memcpy(&s.parts[0].texture[4 * i], quarters[(i / 64 >= 32 ? 2 : 0) + (i % 64 >= 32 ? 1 : 0)], 4);
+    if (shot_of_shape(&drawing, &s, "quarters.glb", surface_look("{\"technique\":\"textured\",\"light\":0}", "0,0,1", 0), NULL, &view))
+        for (int q = 0; q < 4; q++)
+            for (int k = 0; k < 400; k++) {
+                const uint8_t *p = &drawing.picture[4 * (((q / 2 ? 130 : 50) + k / 20) * 200 + (q % 2 ? 130 : 50) + k % 20)];
+                for (int c = 0; c < 3; c++)
+                    wrong += abs(p[c] - quarters[q][c]) > 1;
+            }
+    check_at_most("texture", wrong, 0, "values that differ from the painted ones");
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
 int main(int argc, char **argv)
 {
-    return check_main(argc, argv, "x", 0, 0);
+    static const check_case cases[] = {
+        {"tones", tones_are_counted}, {"borders", tone_borders}, {"blur", blur_is_a_box},
+        {"gooch", gooch_ramp},        {"gooch-lines", gooch_lines}, {"light", light_comes_from_where_it_is_said},
+        {"texture", texture_stands_upright},
+    };
+    int status = check_main(argc, argv, "surfaces", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
 }
