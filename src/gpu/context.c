@@ -40,7 +40,7 @@ lmn_status gpu_check(gpu *g, lmn_error *error)
 void gpu_finish(gpu *g)
 {
     glFinish();
-    (void)g;
+    g->indices_in_flight = 0;
 }
 
 const gpu_facts *gpu_facts_of(const gpu *g)
@@ -113,6 +113,7 @@ static void read_facts(gpu *g, bool debug)
     f->shading = (const char *)glGetString(GL_SHADING_LANGUAGE_VERSION);
     f->es = !epoxy_is_desktop_gl();
     f->debug = debug;
+    f->software = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe") || strstr(f->renderer, "SwiftShader");
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &f->max_texture);
     glGetIntegerv(GL_MAX_SAMPLES, &f->max_samples);
     glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &f->max_attachments);
