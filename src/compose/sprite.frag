@@ -31,8 +31,10 @@ void main()
     vec4 colour = texelFetch(t_shade, pixel, 0);
 #ifdef HAS_COMPLEMENT
     /* Parts that other figures draw are here for their edges alone. */
-    if ((texelFetch(t_id, pixel, 0).g & 0x80000000u) != 0u)
+    if ((texelFetch(t_id, pixel, 0).g & 0x80000000u) != 0u) {
         depth = 1.0;
+        colour = vec4(0.0);
+    }
 #endif
 #ifdef HAS_LINES
 #ifdef MERGED

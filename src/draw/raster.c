@@ -120,6 +120,8 @@ static void declare_outputs(text *prelude, outputs o)
         text_append(prelude, "#define AT_ALBEDO %d\n", o.albedo);
     if (o.shade >= 0)
         text_append(prelude, "#define AT_SHADE %d\n", o.shade);
+    else
+        text_append(prelude, "#define DEFERRED\n");
 }
 
 /* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */

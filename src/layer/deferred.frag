@@ -19,9 +19,7 @@ void main()
     vec4 normal_depth = texelFetch(t_normal_depth, pixel, 0);
     vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
     vec3 eye = vec3(ndc * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
-    vec3 normal = normal_depth.xyz;
-    if (dot(normal, towards_viewer(eye)) < 0.0)
-        normal = -normal;
+    vec3 normal = (id.g & 0x40000000u) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
     out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false));
 }

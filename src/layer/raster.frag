@@ -39,21 +39,27 @@ void main()
 #endif
     albedo.a = 1.0;
     vec3 normal = model_normal();
+#if defined(AT_SHADE) || defined(DEFERRED)
+    /* Lit from the side that is seen: the flat normal decides which that is, so that rims of smooth shapes never flip. */
+    vec3 facing = cross(dFdx(v_eye), dFdy(v_eye));
+    facing *= sign(-dot(facing, u_perspective > 0.5 ? v_eye : vec3(0.0, 0.0, -1.0)));
+    bool turned = dot(facing, normal) < 0.0;
+#endif
 #ifdef AT_NORMAL_DEPTH
     out_normal_depth = vec4(normal, -v_eye.z);
 #endif
 #ifdef AT_ID
     out_id = uvec2(u_part_id, u_surface_id);
+#ifdef DEFERRED
+    if (turned)
+        out_id.g |= 0x40000000u;
+#endif
 #endif
 #ifdef AT_ALBEDO
     out_albedo = albedo;
 #endif
 #ifdef AT_SHADE
-    /* Lit from the side that is seen: the flat normal decides which that is, so that rims of smooth shapes never flip. */
-    vec3 facing = cross(dFdx(v_eye), dFdy(v_eye));
-    facing *= sign(-dot(facing, u_perspective > 0.5 ? v_eye : vec3(0.0, 0.0, -1.0)));
-    vec3 seen = dot(facing, normal) < 0.0 ? -normal : normal;
-    out_shade = surface_colour(surface_point(v_eye, seen, albedo, u_unlit != 0));
+    out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0));
 #ifdef MERGED
     detect_edges();
 #endif

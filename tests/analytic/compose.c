@@ -1,5 +1,406 @@
+/* How figures meet: depth sprites against the real visibility, the other forms of drawing lines, complements, mirrors, and
+ * where the lines lie on both sides of a boundary. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "check.h"
+#include "feature.h"
+#include "picture.h"
+
+#define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[" RULES "]}"
+#define HIDDEN_LINES "\"lines\":{\"operator\":\"four-tap\",\"colour\":\"#00000000\"}"
+
+static const shot_view views[] = {
+    {.width = 320, .height = 240, .eye = {4, 3, 5}, .up = {0, 1, 0}},
+    {.width = 257, .height = 240, .eye = {-2, 3, -4}, .up = {0, 1, 0}, .orthographic = true},
+};
+
+static const uint8_t *pixel(const shot *s, int x, int y)
+{
+    return &s->picture[4 * (y * s->width + x)];
+}
+
+static bool is_colour(const uint8_t *p, int r, int g, int b, int tolerance)
+{
+    return abs(p[0] - r) <= tolerance && abs(p[1] - g) <= tolerance && abs(p[2] - b) <= tolerance;
+}
+
+/* Four parts that run through each other. */
+static void knot(shape *s)
+{
+    shape_box(s, "first", dvec_of(-1, -0.6, -0.7), dvec_of(0.7, 0.5, 0.6));
+    shape_torus(s, "second", 0.9, 0.25, 96, 48);
+    shape_place(s, dvec_of(1, 0.3, 0), 60, dvec_of(0.1, 0.1, 0.2));
+    shape_box(s, "third", dvec_of(-0.1, -1.4, -0.1), dvec_of(0.1, 1.4, 0.1));
+    shape_place(s, dvec_of(0, 0, 1), 30, dvec_of(0.3, 0, 0.53));
+    shape_sphere(s, "fourth", dvec_of(-0.4, 0.4, 0.3), 0.6, 48, 96, true);
+}
+
+/* Each part is drawn in another way and has a colour of its own, so that the picture tells which part won. */
+static void sprites_interleave(void)
+{
+    static const char look[] = LOOK(
+        "{\"select\":\"first\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
+        "{\"select\":\"second\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#00ff00\"}," HIDDEN_LINES "},"
+        "{\"select\":\"third\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},\"compose\":\"superimpose\"," HIDDEN_LINES "},"
+        "{\"select\":\"fourth\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffff00\"},\"compose\":\"merged\"," HIDDEN_LINES "}");
+    static const int colours[5][3] = {{255, 255, 255}, {255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 0}};
+    for (int v = 0; v < 4; v++) {
+        shape s = {0};
+        shot  drawing;
+        shot_view view = views[v / 2];
+        view.without_maps = v % 2;
+        knot(&s);
+        if (shot_of_shape(&drawing, &s, "knot.glb", look, NULL, &view)) {
+            tracer   *t = tracer_create(&s);
+            trace_map map;
+            int       wrong = 0, inside = 0, count = drawing.width * drawing.height;
+            trace_map_make(&map, t, &drawing);
+            for (int i = 0; i < count; i++) {
+                const int *c = colours[map.id[i]];
+                bool differs = !is_colour(&drawing.picture[4 * i], c[0], c[1], c[2], 1);
+                wrong += differs;
+                inside += differs && !trace_map_border(&map, i % drawing.width, i / drawing.width, 1);
+            }
+            check_at_least("E03", 1 - (double)wrong / count, 0.999, "share of pixels that show the right part%s", v % 2 ? " (without maps)" : "");
+            check_at_most("E03", inside, 0, "wrong pixels away from borders");
+            trace_map_release(&map);
+            tracer_destroy(t);
+        }
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+static int largest_difference(const shot *a, const shot *b, const bool *where)
+{
+    int worst = 0;
+    for (int i = 0; i < a->width * a->height * 4; i++)
+        if (!where || where[i / 4])
+            worst = abs(a->picture[i] - b->picture[i]) > worst ? abs(a->picture[i] - b->picture[i]) : worst;
+    return worst;
+}
+
+static void deferred_shading(void)
+{
+    static const char *const surfaces[] = {"lambert", "lit", "tones", "toon", "gooch", "textured", "flat"};
+    for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++) {
+        static const char *const deferred[] = {"layers.shading", "deferred", NULL};
+        char  look[256];
+        shape s = {0};
+        shot  forward, later;
+        knot(&s);
+        for (size_t k = 0; k < s.count; k++)
+            s.parts[k].colour[k % 3] = 0.4f;
+        snprintf(look, sizeof look, LOOK("{\"surface\":\"%s\",\"lines\":{\"operator\":\"four-tap\"}}"), surfaces[i]);
+        bool first = shot_of_shape(&forward, &s, "deferred.glb", look, NULL, &views[0]);
+        if (shot_of_shape(&later, &s, "deferred.glb", look, deferred, &views[0]) && first)
+            check_at_most("E04", largest_difference(&forward, &later, NULL), 2, "levels between forward and deferred: %s", surfaces[i]);
+        shot_release(&forward);
+        shot_release(&later);
+        shape_release(&s);
+    }
+}
+
+/* The three forms of the last pass agree wherever the figure is. */
+static void forms_agree(void)
+{
+    static const char *const operators[] = {"four-tap", "sobel", "saito", "discontinuity", "id"};
+    for (size_t i = 0; i < sizeof operators / sizeof *operators; i++) {
+        static const char *const forms[] = {"opaque", "superimpose", "merged"};
+        char  look[256];
+        shape s = {0};
+        shot  drawn[3];
+        bool  ok = true;
+        knot(&s);
+        snprintf(look, sizeof look, LOOK("{\"surface\":\"lit\",\"lines\":{\"operator\":\"%s\",\"gain\":4}}"), operators[i]);
+        for (int k = 0; k < 3; k++) {
+            const char *changes[] = {"compose.technique", forms[k], NULL};
+            shot_view view = views[0];
+            view.without_maps = k > 0;
+            ok = shot_of_shape(&drawn[k], &s, "forms.glb", look, changes, &view) && ok;
+        }
+        if (ok) {
+            bool *inside = check_alloc((size_t)(drawn[0].width * drawn[0].height), sizeof *inside);
+            int   ink_outside = 0;
+            for (int k = 0; k < drawn[0].width * drawn[0].height; k++) {
+                inside[k] = !isinf(drawn[0].depth[k]);
+                ink_outside += !inside[k] && drawn[0].picture[4 * k] < 128;
+            }
+            check_at_most("E15", largest_difference(&drawn[0], &drawn[1], inside), 2, "levels between sprite and third pass, %s", operators[i]);
+            check_at_most("E16", largest_difference(&drawn[1], &drawn[2], NULL), 1, "levels between third pass and merged, %s", operators[i]);
+            check_at_least("E20", ink_outside, 100, "line pixels of the sprite beyond the boundary");
+            free(inside);
+        }
+        for (int k = 0; k < 3; k++)
+            shot_release(&drawn[k]);
+        shape_release(&s);
+    }
+}
+
+/* The picture is the edge map inked onto the shade map, pixel by pixel, in each class's colour. */
+static void superimposed_colours(void)
+{
+    static const char look[] = LOOK("{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\","
+                                    "\"colour\":\"#ff0000\",\"inner_colour\":\"#0000ff\",\"id_colour\":\"#00ff00\",\"parts\":false}}");
+    static const shot_view odd[] = {{.width = 321, .height = 243, .eye = {4, 3, 5}, .up = {0, 1, 0}},
+                                    {.width = 97, .height = 333, .eye = {4, 3, 5}, .target = {1, 0.5, 0}, .up = {0, 1, 0}}};
+    for (int v = 0; v < 2; v++) {
+        shape s = {0}, one = {0};
+        shot  drawing;
+        int   profile = 0, inner = 0, wrong = 0;
+        knot(&s);
+        shape_join(&one, "one", &s);
+        if (shot_of_shape(&drawing, &one, "colours.ply", look, NULL, &odd[v]))
+            for (int i = 0; i < drawing.width * drawing.height; i++) {
+                const uint8_t *e = &drawing.edge[4 * i], *p = &drawing.picture[4 * i];
+                if (e[0] == 0) {
+                    profile++;
+                    wrong += !is_colour(p, 255, 0, 0, 1);
+                } else if (e[0] == 255 && e[1] == 0) {
+                    inner++;
+                    wrong += !is_colour(p, 0, 0, 255, 1);
+                } else if (e[0] == 255 && e[1] == 255 && e[3] == 255) {
+                    wrong += !is_colour(p, 255, 255, 255, 1);
+                }
+            }
+        check_at_least("E09", profile, 200, "pixels in the profile's colour");
+        check_at_least("E09", inner, 40, "pixels in the inner lines' colour");
+        check_at_most("E08", wrong, 0, "pixels whose colour is not what the edge map says, %d x %d", odd[v].width, odd[v].height);
+        shot_release(&drawing);
+        shape_release(&s);
+        shape_release(&one);
+    }
+}
+
+static int dark_near(const shot *s, dvec place, double radius)
+{
+    int count = 0;
+    for (int y = (int)(place.y - radius); y <= (int)(place.y + radius); y++)
+        for (int x = (int)(place.x - radius); x <= (int)(place.x + radius); x++)
+            if (x >= 0 && y >= 0 && x < s->width && y < s->height)
+                count += pixel(s, x, y)[0] < 100 && pixel(s, x, y)[1] < 100;
+    return count;
+}
+
+/* Only designated parts have lines; where one meets a plain part there is a line, when the plain one is the complement. */
+static void per_object(void)
+{
+    static const char look[] = LOOK(
+        "{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},"
+        "{\"select\":\"lined*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#eeeeee\"},\"lines\":{\"operator\":\"discontinuity\"}}");
+    for (int complement = 1; complement >= 0; complement--) {
+        const char *changes[] = {"layers.complement", complement ? "true" : "false", NULL};
+        shape s = {0};
+        shot  drawing;
+        int   away = 0, seam = 0, lined = 0;
+        shape_box(&s, "plain block", dvec_of(-1, -1, -1), dvec_of(1, 0, 1));
+        shape_box(&s, "lined post", dvec_of(-0.3, -0.5, -0.3), dvec_of(0.3, 0.8, 0.3));
+        if (shot_of_shape(&drawing, &s, "objects.glb", look, changes, &views[0])) {
+            for (int i = 0; i <= 50; i++) {
+                double t = i / 50.0;
+                away += dark_near(&drawing, shot_project(&drawing, dvec_of(-1 + 2 * t, -1, 1)), 3) > 0;
+                away += dark_near(&drawing, shot_project(&drawing, dvec_of(1, -1 + 0.9 * t, 1)), 3) > 0;
+                if (t > 0.1 && t < 0.9) {
+                    seam += dark_near(&drawing, shot_project(&drawing, dvec_of(-0.3 + 0.6 * t, 0, 0.3)), 1.5) > 0;
+                    lined += dark_near(&drawing, shot_project(&drawing, dvec_of(-0.3 + 0.6 * t, 0.8, 0.3)), 1.5) > 0;
+                }
+            }
+        }
+        check_at_most("E17", away, 0, "places along the plain block with a line");
+        check_at_least("E17", lined, 39, "of 39 places along the designated post's edge with a line");
+        if (complement)
+            check_at_least("E18", seam, 39, "of 39 places of the intersection with a line");
+        else
+            check_at_most("E18", seam, 39, "without the complement (for comparison only)");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* A figure drawn by ids alone is an outline; the background beside it keeps all its lines. */
+static void id_only(void)
+{
+    static const char look[] = LOOK(
+        "{\"select\":\"arch\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\"}},"
+        "{\"select\":\"person\",\"surface\":\"flat\",\"lines\":{\"operator\":\"id\"}}");
+    shape s = {0};
+    shot  drawing;
+    int   inner = 0, outline = 0, open = 0, arch = 0;
+    shape_box(&s, "arch", dvec_of(-1.2, -1, -1.4), dvec_of(1.2, 1, -1));
+    shape_torus(&s, "person", 0.5, 0.2, 64, 32);
+    shape_place(&s, dvec_of(1, 0, 0), 55, dvec_of(0, 0, 0.2));
+    if (shot_of_shape(&drawing, &s, "abstract.glb", look, NULL, &views[0])) {
+        for (int y = 3; y + 3 < drawing.height; y++)
+            for (int x = 3; x + 3 < drawing.width; x++) {
+                bool deep = true, rim = false;
+                for (int k = 0; k < 49; k++)
+                    deep = deep && drawing.id[(y + k / 7 - 3) * drawing.width + x + k % 7 - 3] == 2;
+                for (int k = 1; k < 9; k += 2)
+                    rim = rim || drawing.id[(y + k / 3 - 1) * drawing.width + x + k % 3 - 1] != 2;
+                rim = rim && drawing.id[y * drawing.width + x] == 2;
+                inner += deep && pixel(&drawing, x, y)[0] < 128;
+                outline += rim;
+                open += rim && pixel(&drawing, x, y)[0] >= 128;
+            }
+        for (int i = 1; i < 50; i++)
+            arch += dark_near(&drawing, shot_project(&drawing, dvec_of(1.2, -1 + i / 25.0, -1)), 1.5) > 0;
+    }
+    check_at_most("E23", inner, 0, "dark pixels inside the figure that has id lines only");
+    check_at_least("E23", outline, 100, "pixels of its outline");
+    check_at_most("E23", open, 0, "of them without a line");
+    check_at_least("E23", arch, 49, "of 49 places along an inner edge of the background with a line");
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+/* How much ink lies on each side of the upright boundary x = 0 of a plate, in pixels, row by row. */
+static void measure_boundary(const shot *s, double boundary, double *outside, double *inside)
+{
+    *outside = *inside = 0;
+    for (int y = s->height / 2 - 10; y < s->height / 2 + 10; y++)
+        for (int x = (int)boundary - 24; x < (int)boundary + 24; x++) {
+            double ink = 1 - picture_linear(pixel(s, x, y)[0]);
+            *(x + 0.5 < boundary ? outside : inside) += ink / 20;
+        }
+}
+
+/* Width and symmetry of outlines at several requested widths and sizes of picture. */
+static void widths(void)
+{
+    static const char *const requested[] = {"1", "2", "3", "4", "6", "9"};
+    static const char *const operators[] = {"discontinuity", "four-tap", "id"};
+    for (int size = 128; size <= 512; size *= 2)
+        for (int o = 0; o < 3; o++)
+            for (int w = 0; w < 6; w++) {
+                const char *changes[] = {"lines.width", requested[w], "lines.colour", "#000000", NULL};
+                const shot_view view = {.width = size, .height = size, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+                char  lines[64];
+                shape s = {0};
+                shot  drawing;
+                double outside, inside, wanted = atof(requested[w]);
+                shape_box(&s, "plate", dvec_of(0, -2, -1), dvec_of(2, 2, 0));
+                snprintf(lines, sizeof lines, "{\"operator\":\"%s\"}", operators[o]);
+                if (shot_of_shape(&drawing, &s, "plate.glb", shot_line_look(lines), changes, &view)) {
+                    measure_boundary(&drawing, size / 2.0, &outside, &inside);
+                    check_near("E21", outside + inside, wanted, wanted <= 2 ? 0.5 : 1, "%s, width %s at %d px: ink across the outline",
+                               operators[o], requested[w], size);
+                    if (wanted >= 2)
+                        check_near("E20", outside, inside, 0.5, "  outside and inside");
+                }
+                shot_release(&drawing);
+                shape_release(&s);
+            }
+}
+
+/* A slanted outline is antialiased when samples are asked for, and its width does not change. */
+static void slanted_width(void)
+{
+    for (int samples = 1; samples <= 16; samples *= 4) {
+        const char *changes[] = {"lines.colour", "#000000", NULL};
+        const shot_view view = {.width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .samples = samples};
+        shape s = {0};
+        shot  drawing;
+        double ink = 0;
+        int   grey = 0;
+        shape_box(&s, "plate", dvec_of(0, -6, -1), dvec_of(6, 6, 0));
+        shape_place(&s, dvec_of(0, 0, 1), 20, dvec_of(0, 0, 0));
+        if (shot_of_shape(&drawing, &s, "slanted.glb", shot_line_look("{\"operator\":\"discontinuity\",\"width\":2}"), changes, &view))
+            for (int y = 100; y < 156; y++)
+                for (int x = 60; x < 196; x++) {
+                    double v = 1 - picture_linear(pixel(&drawing, x, y)[0]);
+                    ink += v;
+                    grey += v > 0.1 && v < 0.9;
+                }
+        double across = ink / 56 * cos(20 / 57.29578);
+        check_near("E21", across, 2, 0.6, "slanted line of width 2 with %d samples", samples);
+        if (samples > 1)
+            check_at_least("E21", grey, 56, "antialiased pixels along it");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* --- mirror ------------------------------------------------------------------------------------------------------ */
+
+static void add_floor(shape *s, double half)
+{
+    shape_quad(s, "mirror", half, 0);
+    shape_place(s, dvec_of(1, 0, 0), -90, dvec_of(0, 0, 0));
+}
+
+/* The box below the floor is what the mirror shows: seen through the floor it must have the reflected box's colour and edges. */
+static void mirror(void)
+{
+    static const char look[] = LOOK(
+        "{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff4040\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}},"
+        "{\"select\":\"mirror\",\"surface\":{\"technique\":\"mirror\",\"reflectivity\":1,\"tint\":\"#8080ff\"}}");
+    const shot_view view = {.width = 320, .height = 320, .eye = {2, 3.2, 5}, .target = {0, 0.2, 0}, .up = {0, 1, 0}};
+    shape real = {0}, floor_only = {0}, image = {0};
+    shot  drawing;
+    shape_box(&real, "box", dvec_of(-0.5, 0.3, -0.5), dvec_of(0.5, 1.1, 0.5));
+    add_floor(&real, 1.2);
+    add_floor(&floor_only, 1.2);
+    shape_box(&image, "image", dvec_of(-0.5, -1.1, -0.5), dvec_of(0.5, -0.3, 0.5));
+    if (shot_of_shape(&drawing, &real, "mirror.glb", look, NULL, &view)) {
+        tracer   *t_real = tracer_create(&real), *t_image = tracer_create(&image);
+        trace_map seen, reflected;
+        int       wrong = 0, inside = 0, leaked = 0;
+        trace_map_make(&seen, t_real, &drawing);
+        trace_map_make(&reflected, t_image, &drawing);
+        for (int y = 2; y + 2 < 320; y++)
+            for (int x = 2; x + 2 < 320; x++) {
+                int i = y * 320 + x;
+                const uint8_t *p = pixel(&drawing, x, y);
+                bool clear = true;
+                for (int k = 0; k < 25; k++)
+                    clear = clear && seen.id[i + (k / 5 - 2) * 320 + k % 5 - 2] == seen.id[i];
+                if (!clear)
+                    continue;
+                if (seen.id[i] == 2 && !trace_map_border(&reflected, x, y, 0.001)) {
+                    bool is_box = is_colour(p, 255, 64, 64, 3), is_line = p[0] < 60 && p[2] < 60;
+                    inside++;
+                    wrong += reflected.id[i] ? !is_box && !is_line : !is_colour(p, 128, 128, 255, 3) && !is_line;
+                }
+                leaked += seen.id[i] == 0 && !is_colour(p, 255, 255, 255, 1);
+            }
+        check_at_least("E14", inside, 3000, "pixels judged inside the mirror");
+        check_at_most("E14", wrong, 0.005 * inside, "of them with neither the reflection nor a line");
+        check_at_most("E14", leaked, 0, "pixels of the reflection or its lines outside the mirror");
+        feature_lines lines;
+        feature_find(&lines, &image, t_image, &drawing, 45);
+        int samples = 0, found = 0;
+        for (size_t k = 0; k < lines.sample_count; k++) {
+            int x = (int)lines.samples[k].x, y = (int)lines.samples[k].y;
+            if (x < 3 || y < 3 || x > 316 || y > 316 || seen.id[y * 320 + x] != 2 || trace_map_border(&seen, x, y, 1))
+                continue;
+            samples++;
+            found += dark_near(&drawing, dvec_of((double)lines.samples[k].x, (double)lines.samples[k].y, 0), 1) > 0;
+        }
+        check_at_least("E14", samples, 200, "samples on reflected edges");
+        check_at_least("E14", samples ? (double)found / samples : 0, 0.98, "share of them with a line");
+        feature_release(&lines);
+        trace_map_release(&seen);
+        trace_map_release(&reflected);
+        tracer_destroy(t_real);
+        tracer_destroy(t_image);
+        picture_write_rgba(check_path("mirror.png"), drawing.picture, 320, 320);
+    }
+    shot_release(&drawing);
+    shape_release(&real);
+    shape_release(&image);
+    shape_release(&floor_only);
+}
+
 int main(int argc, char **argv)
 {
-    return check_main(argc, argv, "x", 0, 0);
+    static const check_case cases[] = {
+        {"sprites", sprites_interleave}, {"deferred", deferred_shading}, {"forms", forms_agree},  {"colours", superimposed_colours},
+        {"objects", per_object},         {"abstract", id_only},          {"widths", widths},      {"slanted", slanted_width},
+        {"mirror", mirror},
+    };
+    int status = check_main(argc, argv, "compose", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
 }

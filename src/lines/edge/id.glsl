@@ -7,7 +7,7 @@ uint id_at(ivec2 off)
 #if OF == 0
     return id.r;
 #else
-    return id.r * 4096u + (id.g & 0x7FFFFFFFu);
+    return id.r * 4096u + (id.g & 0x3FFFFFFFu);
 #endif
 }
 
