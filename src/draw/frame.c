@@ -26,6 +26,35 @@ static int reach_of(const figure *fig)
     return (int)ceilf(widest) + 2;
 }
 
+static void clear_page(frame *f)
+{
+    gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};
+    uniforms_linear(f->ground, pass.clear_values[0]);
+    for (int k = 0; k < 3; k++)
+        pass.clear_values[0][k] *= f->ground.a;
+    gpu_pass_begin(f->g, &pass);
+}
+
+static void draw_figures(frame *f);
+
+/* Draws everything but the mirror as its plane shows it, with lines of its own, into a picture of the page's size. */
+static void draw_reflection(frame *f, figure_state *s)
+{
+    frame inner;
+    if (!mirror_prepare(f, s->figure, &inner))
+        return;
+    stopwatch w = watch_start(f);
+    inner.page = frame_acquire(f, TARGET_PAGE);
+    inner.page_depth = frame_acquire(f, TARGET_DEPTH);
+    if (!gpu_failed(f->g)) {
+        clear_page(&inner);
+        draw_figures(&inner);
+    }
+    gpu_target_release(f->g, inner.page_depth);
+    s->targets[TARGET_REFLECTION] = inner.page;
+    watch_stop(f, w, "surface", "reflection");
+}
+
 static void draw_figure(frame *f, const figure *fig)
 {
     figure_state s = {.figure = fig, .near = f->camera.near, .far = f->camera.far};
@@ -43,7 +72,7 @@ static void draw_figure(frame *f, const figure *fig)
     if (s.pixels[2] <= 0 || s.pixels[3] <= 0 || gpu_failed(f->g))
         return;
     if (fig->reflects && !f->mirror_depth)
-        mirror_draw_reflection(f, &s);
+        draw_reflection(f, &s);
     if (fig->direct && !f->maps) {
         raster_direct(f, &s);
     } else {
@@ -61,16 +90,7 @@ static void draw_figure(frame *f, const figure *fig)
     release_targets(f, &s);
 }
 
-void frame_clear_page(frame *f)
-{
-    gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};
-    uniforms_linear(f->ground, pass.clear_values[0]);
-    for (int k = 0; k < 3; k++)
-        pass.clear_values[0][k] *= f->ground.a;
-    gpu_pass_begin(f->g, &pass);
-}
-
-void frame_draw_figures(frame *f)
+static void draw_figures(frame *f)
 {
     for (size_t i = 0; i < f->plan->figure_count; i++)
         if (&f->plan->figures[i] != f->mirror)
@@ -96,8 +116,8 @@ void frame_draw(frame *f, gpu_texture *out)
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     if (!gpu_failed(f->g)) {
-        frame_clear_page(f);
-        frame_draw_figures(f);
+        clear_page(f);
+        draw_figures(f);
         if (out)
             encode(f, out);
     }

@@ -1,4 +1,4 @@
-/* What the files that draw a frame share: profile.c, lighting.c, raster.c, passes.c, mirror.c, collect.c and frame.c. */
+/* What the files that draw a frame share: profile.c, lighting.c, bind.c, raster.c, passes.c, mirror.c, collect.c and frame.c. */
 #ifndef LIMNER_DRAW_FRAME_PRIVATE_H
 #define LIMNER_DRAW_FRAME_PRIVATE_H
 
@@ -28,7 +28,7 @@ void      watch_stop(frame *f, stopwatch w, const char *group, const char *name)
 void lights_declare(text *prelude, const frame *f);
 void lights_set(frame *f);
 
-/* --- passes.c: declared passes and what they share with the geometry pass --- */
+/* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);
 void                 frame_set_common(frame *f, const figure_state *s);
 param_set            use_own_set(kind_id id, const technique_use *use);
@@ -38,7 +38,8 @@ const pass          *rule_merged_detection(const rule *r); /* the pass that the 
 /* Declares, or sets, the pictures that these passes read and that are there; either pass may be NULL. */
 void                 reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
 void                 reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
-void                 passes_run_kind(frame *f, figure_state *s, kind_id id);
+bool                 pass_applies(kind_id id, const pass *p, const technique_use *use);
+gpu_texture         *target_of(const frame *f, const figure_state *s, target t);
 
 /* --- raster.c: the geometry pass --- */
 void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless deferred */
@@ -46,15 +47,15 @@ void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
 void raster_shade_deferred(frame *f, figure_state *s);
 
+/* --- passes.c: declared passes --- */
+void passes_run_kind(frame *f, figure_state *s, kind_id id);
+
 /* --- mirror.c --- */
-void mirror_draw_reflection(frame *f, figure_state *s);
+/* Makes a frame of what the mirror's plane shows, without pictures to draw into; false when the part has no plane. */
+bool mirror_prepare(const frame *f, const figure *mirror, frame *inner);
 
 /* --- collect.c: maps --- */
 void collect_edges(frame *f, figure_state *s);
 void collect_figure(frame *f, figure_state *s);
-
-/* --- frame.c --- */
-void frame_clear_page(frame *f);
-void frame_draw_figures(frame *f);
 
 #endif

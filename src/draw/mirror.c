@@ -40,12 +40,11 @@ static bool mirror_plane(const frame *f, const figure *fig, double plane[4])
     return true;
 }
 
-/* Draws everything but the mirror as its plane shows it, with lines of its own, into a picture of the page's size. */
-void mirror_draw_reflection(frame *f, figure_state *s)
+bool mirror_prepare(const frame *f, const figure *mirror, frame *inner)
 {
     double p[4];
-    if (!mirror_plane(f, s->figure, p))
-        return;
+    if (!mirror_plane(f, mirror, p))
+        return false;
     /* The viewer is on one side of the plane; only what is on his side is reflected. */
     double side = f->camera.orthographic ? p[2] : p[3];
     if (side < 0)
@@ -57,27 +56,18 @@ void mirror_draw_reflection(frame *f, figure_state *s)
             reflect.m[4 * column + row] -= 2 * p[column] * p[row];
     for (int row = 0; row < 3; row++)
         reflect.m[12 + row] = -2 * p[3] * p[row];
-    frame inner = *f;
-    inner.camera.view = mat4_multiply(&reflect, &f->camera.view);
-    inner.mirror = s->figure;
-    inner.mirror_depth = f->mirror_depth + 1;
-    inner.maps = NULL;
-    inner.profile = false;
-    inner.ground = (colour){0, 0, 0, 0};
-    inner.page = frame_acquire(f, TARGET_PAGE);
-    inner.page_depth = frame_acquire(f, TARGET_DEPTH);
+    *inner = *f;
+    inner->camera.view = mat4_multiply(&reflect, &f->camera.view);
+    inner->mirror = mirror;
+    inner->mirror_depth = f->mirror_depth + 1;
+    inner->maps = NULL;
+    inner->profile = false;
+    inner->ground = (colour){0, 0, 0, 0};
     /* Reflected eye space lies beyond the plane, where dot(p, eye) + p.w is negative. */
     for (int k = 0; k < 4; k++)
-        inner.clip_plane[k] = (float)-p[k];
+        inner->clip_plane[k] = (float)-p[k];
     double nearest = INFINITY, farthest = -INFINITY;
-    camera_depth_range(&inner.camera, f->plan->box, &nearest, &farthest);
-    camera_set_range(&inner.camera, fmax(nearest, f->camera.orthographic ? nearest : 0), farthest);
-    stopwatch w = watch_start(f);
-    if (!gpu_failed(f->g)) {
-        frame_clear_page(&inner);
-        frame_draw_figures(&inner);
-    }
-    watch_stop(f, w, "surface", "reflection");
-    gpu_target_release(f->g, inner.page_depth);
-    s->targets[TARGET_REFLECTION] = inner.page;
+    camera_depth_range(&inner->camera, f->plan->box, &nearest, &farthest);
+    camera_set_range(&inner->camera, fmax(nearest, f->camera.orthographic ? nearest : 0), farthest);
+    return true;
 }

@@ -72,7 +72,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     const rule *r = f->rule;
     const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
     const front_values *front = layers ? layers->values : NULL;
-    f->deferred = front && front->shading == SHADING_DEFERRED;
+    f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
     f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->selected_count;
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));

@@ -2,56 +2,10 @@
 #include "gpu/gpu_private.h"
 
 #include <dlfcn.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-
-void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
-{
-    if (g->failed)
-        return;
-    char message[sizeof g->error.message];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    g->failed = true;
-    error_set(&g->error, status, "%s", message);
-}
-
-bool gpu_failed(const gpu *g)
-{
-    return g->failed;
-}
-
-lmn_status gpu_check(gpu *g, lmn_error *error)
-{
-    if (!g->failed)
-        return LMN_OK;
-    g->failed = false;
-    if (error)
-        *error = g->error;
-    return g->error.status;
-}
-
-void gpu_finish(gpu *g)
-{
-    glFinish();
-    (void)g;
-}
-
-const gpu_facts *gpu_facts_of(const gpu *g)
-{
-    return &g->facts;
-}
-
-uint64_t gpu_draw_count(const gpu *g)
-{
-    return g->draws;
-}
 
 static lmn_status no_gl(gpu **g, lmn_error *error, const char *what)
 {
@@ -113,6 +67,7 @@ static void read_facts(gpu *g, bool debug)
     f->shading = (const char *)glGetString(GL_SHADING_LANGUAGE_VERSION);
     f->es = !epoxy_is_desktop_gl();
     f->debug = debug;
+    f->software = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe") || strstr(f->renderer, "SwiftShader");
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &f->max_texture);
     glGetIntegerv(GL_MAX_SAMPLES, &f->max_samples);
     glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &f->max_attachments);

@@ -34,7 +34,7 @@ void gpu_finish(gpu *g);
 
 typedef struct gpu_facts {
     const char *vendor, *renderer, *version, *shading; /* owned by the context */
-    bool        es, debug;
+    bool        es, debug, software; /* software: the driver runs on the CPU */
     int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
     bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
 } gpu_facts;

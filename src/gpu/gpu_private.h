@@ -56,6 +56,7 @@ struct gpu {
     framebuffer   framebuffers[FRAMEBUFFERS_MAX];
     int           framebuffer_count;
     uint64_t      clock, draws;
+    uint32_t      indices_in_flight; /* drawn since the last finish */
     GLuint        empty_array;
     gpu_program  *program; /* in use */
     int           next_unit;

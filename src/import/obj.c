@@ -69,81 +69,6 @@ typedef struct obj_reader {
     bool              has_objects;
 } obj_reader;
 
-/* --- words ------------------------------------------------------------------------------------------------------- */
-
-void obj_skip_blanks(obj_text *t)
-{
-    while (t->at < t->end) {
-        const char *p = t->at;
-        if (*p == ' ' || *p == '\t')
-            t->at++;
-        else if (*p == '\\' && p + 1 < t->end && p[1] == '\n')
-            t->at += 2;
-        else if (*p == '\\' && p + 2 < t->end && p[1] == '\r' && p[2] == '\n')
-            t->at += 3;
-        else
-            break;
-    }
-}
-
-bool obj_at_line_end(obj_text *t)
-{
-    obj_skip_blanks(t);
-    return t->at >= t->end || *t->at == '\n' || *t->at == '\r' || *t->at == '#';
-}
-
-void obj_next_line(obj_text *t)
-{
-    const char *next = t->at < t->end ? memchr(t->at, '\n', (size_t)(t->end - t->at)) : NULL;
-    t->at = next ? next + 1 : t->end;
-}
-
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-bool obj_word(obj_text *t, const char **word, size_t *length)
-{
-    if (obj_at_line_end(t))
-        return false;
-    *word = t->at;
-    while (t->at < t->end && !is_blank(*t->at))
-        t->at++;
-    *length = (size_t)(t->at - *word);
-    return true;
-}
-
-bool obj_is(const char *word, size_t length, const char *expected)
-{
-    return strlen(expected) == length && memcmp(word, expected, length) == 0;
-}
-
-bool obj_number(obj_text *t, double *out)
-{
-    if (obj_at_line_end(t))
-        return false;
-    const char *next = text_parse_double(t->at, t->end, out);
-    if (!next)
-        return false;
-    while (next < t->end && !is_blank(*next))
-        next++;
-    t->at = next;
-    return true;
-}
-
-char *obj_rest(obj_text *t)
-{
-    obj_skip_blanks(t);
-    const char *from = t->at;
-    while (t->at < t->end && *t->at != '\n' && *t->at != '\r')
-        t->at++;
-    const char *end = t->at;
-    while (end > from && is_blank(end[-1]))
-        end--;
-    return scene_clean_name(from, (size_t)(end - from));
-}
-
 /* --- vertices ---------------------------------------------------------------------------------------------------- */
 
 static lmn_status wrong(const obj_reader *r, const char *what)
@@ -364,16 +289,16 @@ static bool read_corner(obj_reader *r, corner *out)
     if (!read_index(t, r->position_count, &out->position))
         return false;
     if (t->at >= t->end || *t->at != '/')
-        return t->at >= t->end || is_blank(*t->at) || *t->at == '\\';
+        return t->at >= t->end || obj_is_blank(*t->at) || *t->at == '\\';
     t->at++;
-    if (t->at < t->end && *t->at != '/' && !is_blank(*t->at) && !read_index(t, r->uv_count, &out->uv))
+    if (t->at < t->end && *t->at != '/' && !obj_is_blank(*t->at) && !read_index(t, r->uv_count, &out->uv))
         return false;
     if (t->at < t->end && *t->at == '/') {
         t->at++;
-        if (t->at < t->end && !is_blank(*t->at) && !read_index(t, r->normal_count, &out->normal))
+        if (t->at < t->end && !obj_is_blank(*t->at) && !read_index(t, r->normal_count, &out->normal))
             return false;
     }
-    return t->at >= t->end || is_blank(*t->at) || *t->at == '\\';
+    return t->at >= t->end || obj_is_blank(*t->at) || *t->at == '\\';
 }
 
 /* The piece of the current object and material. An object that is continued gets a new one, which does no harm. */

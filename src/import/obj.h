@@ -11,6 +11,7 @@ typedef struct obj_text {
 
 /* Skips blanks within the line; a backslash at its end joins the next one. */
 void obj_skip_blanks(obj_text *t);
+bool obj_is_blank(char c); /* blanks and line ends */
 bool obj_at_line_end(obj_text *t);
 void obj_next_line(obj_text *t);
 /* The next word of the line, false at its end. */

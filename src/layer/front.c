@@ -7,7 +7,7 @@ static const param params[] = {
     PARAM_BOOL_ROW(front_values, complement, .def = 1, .cpu_only = true,
                    .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they meet this rule's parts."),
     PARAM_ENUM_ROW(front_values, shading, .names = shading_names, .cpu_only = true,
-                   .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards."),
+                   .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless the surface technique needs its geometry."),
 };
 
 static const technique front = {

@@ -182,12 +182,3 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
     *out_count = l.count;
     return true;
 }
-
-void parts_release(part *parts, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        mem_free(parts[i].name);
-        mem_free(parts[i].path);
-    }
-    mem_free(parts);
-}

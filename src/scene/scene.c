@@ -17,6 +17,15 @@ uint64_t scene_next_revision(void)
     return atomic_fetch_add_explicit(&revisions, 1, memory_order_relaxed) + 1;
 }
 
+void parts_release(part *parts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        mem_free(parts[i].name);
+        mem_free(parts[i].path);
+    }
+    mem_free(parts);
+}
+
 lmn_scene *scene_new(void)
 {
     return mem_calloc(1, sizeof(lmn_scene));

@@ -14,5 +14,5 @@ static const param params[] = {
 const technique surface_mirror = {
     .name = "mirror", .doc = "A planar mirror.", .example = "{\"surface\": \"mirror\", \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(mirror),
-    .surface = "surface/mirror.glsl", .reflects = true,
+    .surface = "surface/mirror.glsl", .forward = true, .reflects = true,
 };

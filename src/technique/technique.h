@@ -60,6 +60,7 @@ typedef struct technique {
     const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
                                * technique's `detect` itself instead of reading its map; NULL: never */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
+    bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
 } technique;
 

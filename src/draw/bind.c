@@ -1,0 +1,129 @@
+/* What programs of all passes get: pictures, parameters, and the facts of the frame. */
+#include "draw/frame_private.h"
+
+#include <string.h>
+
+void frame_set_common(frame *f, const figure_state *s)
+{
+    gpu *g = f->g;
+    gpu_set_vec2(g, "u_size", (float)f->width, (float)f->height);
+    gpu_set_vec2(g, "u_texel", 1 / (float)f->width, 1 / (float)f->height);
+    gpu_set_float(g, "u_perspective", f->camera.orthographic ? 0 : 1);
+    gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
+    gpu_set_float(g, "u_near", (float)s->near);
+    gpu_set_float(g, "u_far", (float)s->far);
+    if (gpu_has_uniform(g, "u_light_position"))
+        lights_set(f);
+}
+
+static const char *prefix_of(kind_id id)
+{
+    return id == KIND_LINES ? "u_line_" : "u_";
+}
+
+param_set use_own_set(kind_id id, const technique_use *use)
+{
+    return (param_set){prefix_of(id), use->technique->params, use->technique->param_count, use->values};
+}
+
+param_set use_common_set(kind_id id, const technique_use *use)
+{
+    return (param_set){prefix_of(id), kinds[id]->common, kinds[id]->common_count, use->values};
+}
+
+/* The line technique that a composition inks; NULL when the rule has none. */
+const technique_use *rule_inked_lines(const rule *r)
+{
+    size_t count = r->use_counts[KIND_LINES];
+    return count ? &r->uses[KIND_LINES][count - 1] : NULL;
+}
+
+gpu_texture *frame_acquire(frame *f, target t)
+{
+    static const gpu_format formats[TARGET_COUNT] = {
+        [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,     [TARGET_ALBEDO] = GPU_RGBA16F,
+        [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_EDGE] = GPU_RGBA16F,
+        [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
+    };
+    return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
+}
+
+gpu_texture *target_of(const frame *f, const figure_state *s, target t)
+{
+    return t == TARGET_PAGE ? f->page : s->targets[t];
+}
+
+bool pass_applies(kind_id id, const pass *p, const technique_use *use)
+{
+    const technique *t = use->technique;
+    const kind *k = kinds[id];
+    if (!p->when)
+        return true;
+    char key[32];
+    size_t length = strcspn(p->when, "=<>");
+    if (length >= sizeof key)
+        return false;
+    memcpy(key, p->when, length);
+    key[length] = '\0';
+    for (size_t i = 0; i < k->common_count; i++)
+        if (strcmp(k->common[i].key, key) == 0)
+            return params_condition(p->when, k->common, k->common_count, use->values);
+    return params_condition(p->when, t->params, t->param_count, use->values);
+}
+
+const pass *rule_merged_detection(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
+    if (!compose || !compose->technique->merges_when || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
+        !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
+        return NULL;
+    const pass *only = NULL;
+    for (size_t i = 0; i < lines->technique->pass_count; i++) {
+        const pass *p = &lines->technique->passes[i];
+        if (!pass_applies(KIND_LINES, p, lines))
+            continue;
+        if (only)
+            return NULL;
+        only = p;
+    }
+    return only;
+}
+
+/* The pictures of both passes, each once. Returns how many. */
+static int union_of_reads(const pass *a, const pass *b, target out[2 * PASS_READS_MAX])
+{
+    int count = 0;
+    for (int which = 0; which < 2; which++) {
+        const pass *p = which ? b : a;
+        for (int i = 0; p && i < PASS_READS_MAX && p->reads[i]; i++) {
+            bool known = false;
+            for (int k = 0; k < count; k++)
+                known = known || out[k] == p->reads[i];
+            if (!known)
+                out[count++] = p->reads[i];
+        }
+    }
+    return count;
+}
+
+void reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b)
+{
+    target reads[2 * PASS_READS_MAX];
+    int count = union_of_reads(a, b, reads);
+    for (int i = 0; i < count; i++)
+        if (target_of(f, s, reads[i]))
+            target_declare(prelude, reads[i]);
+    if (s->targets[TARGET_ID])
+        text_append(prelude, "#define HAS_ID\n");
+}
+
+void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
+{
+    target reads[2 * PASS_READS_MAX];
+    int count = union_of_reads(a, b, reads);
+    for (int i = 0; i < count; i++) {
+        /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
+        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE;
+        gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
+    }
+}
