@@ -9,7 +9,13 @@ layout(location = 0) out vec4 out_0;
 float neighbour_depth(ivec2 pixel)
 {
     ivec2 last = ivec2(u_size) - 1;
-    int reach = max(int(ceil(0.5 * u_line_width + float(CONTRAST))), 1);
+    float extent = 0.5 * u_line_width;
+#if CONTRAST == 1
+    extent += max(abs(u_line_offset_x), abs(u_line_offset_y));
+#elif CONTRAST == 3
+    extent += max(u_line_width, 1.0);
+#endif
+    int reach = max(int(ceil(extent)), 1);
     float least = 1.0;
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
