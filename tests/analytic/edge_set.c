@@ -8,24 +8,9 @@
 
 static const double crease = 45, recall_needed = 0.98, false_allowed = 0.02;
 
-static bool ends_with(const char *path, const char *ending)
-{
-    size_t length = 0, size = 0;
-    while (path[length])
-        length++;
-    while (ending[size])
-        size++;
-    for (size_t i = 0; i < size; i++)
-        if (length < size || path[length - size + i] != ending[i])
-            return false;
-    return true;
-}
-
 static bool save(const char *path, const shape *s)
 {
-    bool saved = ends_with(path, ".glb") ? model_write_glb(path, s) : ends_with(path, ".stl") ? model_write_stl(path, s)
-                                                                                             : model_write_ply(path, s);
-    return check_that("files", saved, "%s is written", path) && saved;
+    return model_write(path, s) || check_that("files", false, "%s cannot be written", path);
 }
 
 static void compare(const char *title, const shape *s, const shot *drawing, bool judged)
@@ -155,6 +140,49 @@ static void terrain(void)
     }
 }
 
+/* Twelve more landscapes, coarse and fine, flat and steep, pooled. */
+static void landscapes(void)
+{
+    double found = 0, wrong = 0;
+    size_t samples = 0, ink = 0;
+    for (uint32_t i = 0; i < 12; i++) {
+        const shot_view view = {.width = 400, .height = 300, .eye = {4.5 * sin(i), 0.8 + 0.06 * i, 4.5 * cos(i)}, .target = {0, 0.2, 0},
+                                .up = {0, 1, 0}, .orthographic = i % 3 == 2};
+        shape s = {0};
+        shot  drawing;
+        shape_terrain(&s, "terrain", 2, 0.3 + 0.1 * (i % 5), 64 + 32 * (int)(i % 4), 100 + 17 * i);
+        if (shot_of_shape(&drawing, &s, "landscape.ply", "edges", NULL, &view)) {
+            tracer       *t = tracer_create(&s);
+            feature_lines lines;
+            feature_find(&lines, &s, t, &drawing, crease);
+            feature_score score = feature_compare(&lines, &drawing, NULL);
+            check_note("landscape %u: recall %.4f, false ink %.4f", i, score.recall, score.false_ink);
+            found += score.recall * (double)score.samples;
+            wrong += score.false_ink * (double)score.ink;
+            samples += score.samples;
+            ink += score.ink;
+            feature_release(&lines);
+            tracer_destroy(t);
+        }
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+    check_at_least("edge set", samples ? found / (double)samples : 0, recall_needed, "landscapes: lines with ink (%zu samples)", samples);
+    check_at_most("edge set", ink ? wrong / (double)ink : 1, false_allowed, "landscapes: ink without line (%zu px)", ink);
+}
+
+/* Depth and normal Sobel finds the outline and the creases of a cube, all nine edges. */
+static void sobel_cube(void)
+{
+    shape s = {0};
+    shot  drawing;
+    shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+    if (shot_of_shape(&drawing, &s, "sobel-cube.ply", shot_line_look("{\"operator\":\"sobel\",\"gain\":2,\"threshold\":0.1}"), NULL, &around[0]))
+        compare("sobel-cube", &s, &drawing, true);
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
 /* The operators of the seeds on the same scenes, for comparison only: none of them knows a slope from a step. */
 static void operators_compared(void)
 {
@@ -188,7 +216,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"cube", cube},     {"steps", stepped_block}, {"fine-steps", fine_steps}, {"torus", torus}, {"boxes", interpenetrating_boxes},
-        {"terrain", terrain}, {"compared", operators_compared},
+        {"terrain", terrain}, {"landscapes", landscapes}, {"sobel", sobel_cube}, {"compared", operators_compared},
     };
     int status = check_main(argc, argv, "edge_set", cases, sizeof cases / sizeof *cases);
     shot_end();

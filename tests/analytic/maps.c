@@ -1,4 +1,5 @@
 /* The G-buffer as the AOVs show it, against rays through the pixel centres: depth, normal, id, and what is made of them. */
+#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -249,11 +250,37 @@ static void capture_and_report(void)
     shape_release(&s);
 }
 
+/* All channels come from one geometry pass. */
+static void one_pass(void)
+{
+    shape s = {0};
+    shot  drawing;
+    int   passes = 0;
+    shot_view view = views[0];
+    view.profile = true;
+    view.without_maps = true;
+    shape_box(&s, "one", dvec_of(-1, -1, -1), dvec_of(0.5, 1, 1));
+    shape_box(&s, "two", dvec_of(0.2, -0.5, -0.5), dvec_of(1, 0.5, 0.5));
+    if (shot_of_shape(&drawing, &s, "pass.glb", "edges", NULL, &view)) {
+        json_t *report = json_loads(drawing.report, 0, NULL), *pass;
+        size_t  i;
+        json_array_foreach(json_object_get(report, "passes"), i, pass) {
+            const char *name = json_string_value(json_object_get(pass, "name"));
+            passes += name && strstr(name, "geometry") != NULL;
+        }
+        check_near("OI-03", passes, 1, 0, "geometry passes for normal, depth, id and colour");
+        json_decref(report);
+    }
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"smooth", smooth_shapes},   {"parts", parts_and_placements}, {"normals", made_normals},     {"linear", depth_is_linear},
         {"sphere", sphere_normals},  {"background", background_and_coarse}, {"capture", capture_and_report},
+        {"pass", one_pass},
     };
     int status = check_main(argc, argv, "maps", cases, sizeof cases / sizeof *cases);
     shot_end();

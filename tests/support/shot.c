@@ -62,6 +62,7 @@ static lmn_draw_desc desc_of(const shot_view *view)
         desc.fov_deg = view->fov_deg;
     desc.samples = view->samples > 0 ? view->samples : 1;
     desc.maps = !view->without_maps;
+    desc.profile = view->profile;
     return desc;
 }
 

@@ -18,6 +18,7 @@ typedef struct shot_view {
     bool        without_maps;
     bool        es;
     bool        bare;    /* no eye: the named iso view */
+    bool        profile; /* the report lists passes */
 } shot_view;
 
 typedef struct shot {
