@@ -73,6 +73,39 @@ static void sprites_interleave(void)
     }
 }
 
+/* Two plates that cross at a degree: a thousandth of depth moves the line where they change places by many pixels. */
+static void shallow_crossing(void)
+{
+    static const char *const forms[] = {"opaque", "superimpose", "merged"};
+    for (int f = 0; f < 3; f++)
+        for (int v = 0; v < 2; v++) {
+            char  look[512];
+            shape s = {0};
+            shot  drawing;
+            int   wrong = 0;
+            snprintf(look, sizeof look, LOOK("{\"select\":\"one\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
+                                             "{\"select\":\"two\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},"
+                                             "\"compose\":\"%s\"," HIDDEN_LINES "}"), forms[f]);
+            shape_quad(&s, "one", 1, 0);
+            shape_quad(&s, "two", 1, 0);
+            shape_place(&s, dvec_of(0, 1, 0.3), 1, dvec_of(0.002, 0.001, 0.003));
+            shape_box(&s, "far", dvec_of(-0.2, -0.2, -4), dvec_of(0.2, 0.2, -3));
+            if (shot_of_shape(&drawing, &s, "shallow.glb", look, NULL, &views[v])) {
+                tracer   *t = tracer_create(&s);
+                trace_map map;
+                trace_map_make(&map, t, &drawing);
+                for (int i = 0; i < drawing.width * drawing.height; i++)
+                    if ((map.id[i] == 1 || map.id[i] == 2) && !trace_map_border(&map, i % drawing.width, i / drawing.width, 1))
+                        wrong += !is_colour(&drawing.picture[4 * i], map.id[i] == 1 ? 255 : 0, 0, map.id[i] == 2 ? 255 : 0, 1);
+                trace_map_release(&map);
+                tracer_destroy(t);
+            }
+            check_at_most("E03", wrong, 0, "wrong pixels of plates that cross at a degree, %s", forms[f]);
+            shot_release(&drawing);
+            shape_release(&s);
+        }
+}
+
 static int largest_difference(const shot *a, const shot *b, const bool *where)
 {
     int worst = 0;
@@ -396,7 +429,7 @@ static void mirror(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"sprites", sprites_interleave}, {"deferred", deferred_shading}, {"forms", forms_agree},  {"colours", superimposed_colours},
+        {"sprites", sprites_interleave}, {"shallow", shallow_crossing}, {"deferred", deferred_shading}, {"forms", forms_agree},  {"colours", superimposed_colours},
         {"objects", per_object},         {"abstract", id_only},          {"widths", widths},      {"slanted", slanted_width},
         {"mirror", mirror},
     };
