@@ -50,9 +50,10 @@ static void sprites_interleave(void)
         shape s = {0};
         shot  drawing;
         shot_view view = views[v / 2];
+        const char *changes[] = {"layers.complement", v % 2 ? "false" : "true", NULL};
         view.without_maps = v % 2;
         knot(&s);
-        if (shot_of_shape(&drawing, &s, "knot.glb", look, NULL, &view)) {
+        if (shot_of_shape(&drawing, &s, "knot.glb", look, changes, &view)) {
             tracer   *t = tracer_create(&s);
             trace_map map;
             int       wrong = 0, inside = 0, count = drawing.width * drawing.height;
@@ -63,7 +64,7 @@ static void sprites_interleave(void)
                 wrong += differs;
                 inside += differs && !trace_map_border(&map, i % drawing.width, i / drawing.width, 1);
             }
-            check_at_least("E03", 1 - (double)wrong / count, 0.999, "share of pixels that show the right part%s", v % 2 ? " (without maps)" : "");
+            check_at_least("E03", 1 - (double)wrong / count, 0.999, "share of pixels that show the right part%s", v % 2 ? " (without maps and complement)" : "");
             check_at_most("E03", inside, 0, "wrong pixels away from borders");
             trace_map_release(&map);
             tracer_destroy(t);
@@ -73,7 +74,8 @@ static void sprites_interleave(void)
     }
 }
 
-/* Two plates that cross at a degree: a thousandth of depth moves the line where they change places by many pixels. */
+/* Two plates that cross at a degree: a thousandth of depth moves the line where they change places by many pixels. Without the
+ * complement nothing but the sprite's depth decides. */
 static void shallow_crossing(void)
 {
     static const char *const forms[] = {"opaque", "superimpose", "merged"};
@@ -83,14 +85,16 @@ static void shallow_crossing(void)
             shape s = {0};
             shot  drawing;
             int   wrong = 0;
+            shot_view view = views[v];
+            view.without_maps = true; /* else all figures are sprites, and wrong in the same way */
             snprintf(look, sizeof look, LOOK("{\"select\":\"one\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
                                              "{\"select\":\"two\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},"
-                                             "\"compose\":\"%s\"," HIDDEN_LINES "}"), forms[f]);
+                                             "\"layers\":{\"complement\":false},\"compose\":\"%s\"," HIDDEN_LINES "}"), forms[f]);
             shape_quad(&s, "one", 1, 0);
             shape_quad(&s, "two", 1, 0);
             shape_place(&s, dvec_of(0, 1, 0.3), 1, dvec_of(0.002, 0.001, 0.003));
             shape_box(&s, "far", dvec_of(-0.2, -0.2, -4), dvec_of(0.2, 0.2, -3));
-            if (shot_of_shape(&drawing, &s, "shallow.glb", look, NULL, &views[v])) {
+            if (shot_of_shape(&drawing, &s, "shallow.glb", look, NULL, &view)) {
                 tracer   *t = tracer_create(&s);
                 trace_map map;
                 trace_map_make(&map, t, &drawing);
