@@ -477,6 +477,22 @@ static void depth_as_vector(void)
     }
 }
 
+/* The filter takes one fetch a pixel: the shader is read, without the part that adds depth. */
+static void one_fetch(void)
+{
+    FILE *file = fopen(LIMNER_SOURCE "/lines/edge/denormal.frag", "r");
+    char  line[512];
+    int   fetches = 0;
+    bool  extra = false;
+    while (file && fgets(line, sizeof line, file)) {
+        extra = strncmp(line, "#if DEPTH", 9) == 0 || (extra && strncmp(line, "#endif", 6) != 0);
+        fetches += !extra && (strstr(line, "texture") || strstr(line, "texel(") || strstr(line, "texelFetch") || strstr(line, "bilinear("));
+    }
+    if (file)
+        fclose(file);
+    check_near("OI-06", fetches, 1, 0, "lines of the denormalisation shader that fetch");
+}
+
 /* I1 answers on both sides of a jump and makes two lines; the normalised operator must not. */
 static void double_lines(void)
 {
@@ -527,7 +543,7 @@ int main(int argc, char **argv)
     static const check_case cases[] = {
         {"twins", twins},       {"steps", steps},           {"creases", creases},         {"thousandth", thousandth},
         {"prefilter", prefilter}, {"ids", id_edges},        {"windows", painted_windows}, {"bumps", bumps},
-        {"directions", all_directions}, {"vector", depth_as_vector}, {"double", double_lines}, {"breadth", pencil_breadth},
+        {"directions", all_directions}, {"vector", depth_as_vector}, {"double", double_lines}, {"breadth", pencil_breadth}, {"fetch", one_fetch},
     };
     int status = check_main(argc, argv, "operators", cases, sizeof cases / sizeof *cases);
     shot_end();

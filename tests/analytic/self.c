@@ -87,7 +87,6 @@ static void caster_equals_brute_force(void)
     shape_box(&s, "box", dvec_of(-0.5, -0.5, -0.5), dvec_of(0.5, 0.6, 0.5));
     shape_place(&s, dvec_of(1, 2, 3), 33, dvec_of(0.3, 0.2, 0.1));
     tracer *t = tracer_create(&s);
-    shape   one = {0};
     shot    view;
     shot_view how = iso(48);
     int     differ = 0;
@@ -114,7 +113,6 @@ static void caster_equals_brute_force(void)
     check_at_most("self", differ, 0, "rays on which the tree and a plain loop differ");
     shot_release(&view);
     tracer_destroy(t);
-    shape_release(&one);
     shape_release(&s);
 }
 

@@ -211,12 +211,11 @@ static void find_cuts(feature_lines *out, const trace_triangle *triangles, size_
 
 /* --- visibility -------------------------------------------------------------------------------------------------- */
 
-static bool is_visible(const tracer *t, const shot *view, const feature *e, dvec point, dvec viewer, double w)
+static bool is_visible(const tracer *t, const feature *e, dvec point, dvec viewer, double w)
 {
     trace_hit hit;
     if (w > 0)
         return !tracer_hit(t, viewer, dvec_sub(point, viewer), 0, 1 - 1e-7, e->triangles, &hit);
-    (void)view;
     dvec towards = dvec_unit(viewer);
     return !tracer_hit(t, point, towards, 1e-7, INFINITY, e->triangles, &hit);
 }
@@ -235,7 +234,7 @@ static void sample_edge(feature_lines *out, const tracer *t, const shot *view, c
         double x = a.x + s * (b.x - a.x), y = a.y + s * (b.y - a.y);
         if (x < -outside || y < -outside || x > view->width + outside || y > view->height + outside)
             continue;
-        if (!is_visible(t, view, e, dvec_mix(e->a, e->b, t3), viewer, w))
+        if (!is_visible(t, e, dvec_mix(e->a, e->b, t3), viewer, w))
             continue;
         seen = true;
         out->samples = grow(out->samples, out->sample_count, &out->sample_room, sizeof *out->samples);
