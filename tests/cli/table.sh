@@ -135,6 +135,13 @@ group_draw() {
     row="draw -o - on a full disk"
     "$limner" draw "$gear" $small -o - > /dev/full 2> .stderr
     [ $? = 4 ] || complain "exit status is not 4"
+    row="info on a full disk"
+    "$limner" info "$gear" > /dev/full 2> .stderr
+    [ $? = 4 ] || complain "exit status is not 4"
+    row="draw -o LINK"
+    : > in-named.png && ln -s in-named.png in-link.png
+    "$limner" draw "$gear" $small -o in-link.png 2> .stderr
+    [ -L in-link.png ] && [ -s in-named.png ] || complain "the link does not lead to the picture"
     "$limner" draw "$gear" $small --look plain --set lines.operator=four-tap -o in-a.png
     "$limner" draw "$gear" $small --look plain -o in-b.png
     cmp -s in-a.png in-b.png && complain "--set lines.operator changes nothing"
@@ -165,6 +172,11 @@ group_report() {
     cp r.json in-report.json; documented in-report.json report.md
     row 0 '' 'x.png' draw "$gear" $small -o x.png --report -
     out '"path": "x.png"'; out '"load_ms"'
+    mkfifo in-pipe
+    timeout 60 cat in-pipe > .piped &
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --report in-pipe
+    wait $!
+    [ -p in-pipe ] && grep -q '"load_ms"' .piped || complain "the report replaces a pipe instead of going through it"
     row 0 '' 'p-r.json p.png' draw "$gear" $small -o p.png --report p-r.json --aov .maps
     local map
     for map in depth.pfm normal.pfm id.png edge.png shade.png; do
@@ -242,7 +254,7 @@ group_cancel() {
     kill -INT $!
     wait $! || got=$?
     [ $got = 5 ] || complain "exit status $got, expected 5"
-    find . -name '*.part*' | grep -q . && complain "a half-written file stays behind"
+    find . -type f ! -name 'f-[0-9][0-9][0-9][0-9].png' ! -name .stderr | grep -q . && complain "a half-written file stays behind"
 }
 
 group_"$group"
