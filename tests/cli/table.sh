@@ -145,6 +145,12 @@ group_draw() {
     "$limner" draw "$gear" $small --look plain --set lines.operator=four-tap -o in-a.png
     "$limner" draw "$gear" $small --look plain -o in-b.png
     cmp -s in-a.png in-b.png && complain "--set lines.operator changes nothing"
+    # The near plane is close to the eye then, and the wall far behind it where window depth has few steps left.
+    row="draw a flat wall from within the model"
+    local inside="--size 200x200 --eye -0.3,-0.1,0.05 --target 0.5,0.07,0.13 --fov 40"
+    "$limner" draw "$box" $inside -o in-a.png
+    "$limner" draw "$box" $inside -o in-b.png --set lines.operator=none
+    cmp -s in-a.png in-b.png || complain "there are lines on the wall"
 }
 
 group_many() {
@@ -212,6 +218,16 @@ group_inputs() {
     row 2 'in-version.json:1:2: version is 99' '' draw "$gear" --look in-version.json
     printf '{"version": 1, "x-mine": 1, "rules": [{"surface": "lit"}]}' > in-good.json
     row 0 '' 'x.png' draw "$gear" $small --look ./in-good.json -o x.png
+    # A part that no rule picks is not drawn, and hides nothing either: the front square is out, the one behind it whole.
+    printf 'o back\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\no front\nv 0 -1 1\nv 1 -1 1\nv 1 1 1\nv 0 1 1\nf 5 6 7 8\n' > in-two.obj
+    local rule='"select": "back", "surface": "lit", "lines": "discontinuity"'
+    printf '{"version": 1, "rules": [{%s}]}' "$rule" > in-some.json
+    printf '{"version": 1, "rules": [{%s, "layers": {"complement": false}}]}' "$rule" > in-alone.json
+    row 0 '' 'x.png' draw in-two.obj $small --view front --look in-alone.json -o x.png && cp x.png in-alone.png
+    row 0 '' 'x.png' draw in-two.obj $small --view front --look in-some.json -o x.png
+    cmp -s x.png in-alone.png || complain "a part that is not drawn hides another"
+    printf '{"version": 1, "rules": [{"select": "nosuch"}]}' > in-nothing.json
+    row 0 "rule 0 of look 'in-nothing' selects no part" 'x.png' draw in-two.obj $small --look in-nothing.json -o x.png
     local model
     for model in "$examples"/*.glb "$examples"/*.obj; do
         row 0 '' 'x.png' draw "$model" $small -o x.png
