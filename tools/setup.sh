@@ -7,7 +7,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
           libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
           libpng-dev libjpeg-dev libwebp-dev libdeflate-dev
-          libcmocka-dev libcglm-dev libembree-dev)
+          libcmocka-dev)
 
 if ! command -v dpkg-query > /dev/null; then
     echo "This is no Debian system; install what docs/DEPENDENCIES.md lists, then run this again." >&2

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const command *const commands[] = {&command_draw, &command_info, &command_looks, &command_bench, &command_doctor};
 
@@ -36,31 +35,11 @@ int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_
     return message_error(&error);
 }
 
-static bool write_all(FILE *file, const char *text)
-{
-    bool done = fputs(text, file) >= 0;
-    return fflush(file) == 0 && done;
-}
-
 int store_text(const char *path, const char *text)
 {
-    if (strcmp(path, "-") == 0)
-        return write_all(stdout, text) ? EXIT_DONE : message_output("standard output", strerror(errno));
-    size_t size = strlen(path) + 32;
-    char *beside = malloc(size);
-    if (!beside)
-        return message_out_of_memory();
-    snprintf(beside, size, "%s.%ld.part", path, (long)getpid());
-    FILE *file = fopen(beside, "w");
-    bool done = file && write_all(file, text);
-    if (file)
-        done = fclose(file) == 0 && done;
-    done = done && rename(beside, path) == 0;
-    int status = done ? EXIT_DONE : message_output(path, strerror(errno));
-    if (!done && file)
-        remove(beside);
-    free(beside);
-    return status;
+    lmn_error error = {0};
+    fflush(stdout);
+    return lmn_text_write(text, path, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
 }
 
 int print_and_free(char *text)
@@ -139,7 +118,7 @@ static int unknown_command(const char *name)
     return message_usage(hint, "there is no command '%.80s'", name);
 }
 
-int main(int count, char **arguments)
+static int run(int count, char **arguments)
 {
     const char *name = count > 1 ? arguments[1] : "";
     if (strcmp(name, "--version") == 0) {
@@ -162,4 +141,12 @@ int main(int count, char **arguments)
             return run_command(commands[i], count - 2, arguments + 2);
     }
     return unknown_command(help ? arguments[2] : name);
+}
+
+int main(int count, char **arguments)
+{
+    int status = run(count, arguments);
+    if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)
+        status = message_output("standard output", strerror(errno));
+    return status;
 }

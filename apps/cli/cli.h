@@ -17,7 +17,7 @@ lmn_up_axis up_axis_of(int choice);
 /* Loads files into a new scene. Errors are printed; returns the exit status. */
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p);
 
-/* Writes text beside the path and renames it there; "-" is standard output. Prints what goes wrong; exit status. */
+/* Writes text into a file, whole or not at all; "-" is standard output. Prints what goes wrong; exit status. */
 int store_text(const char *path, const char *text);
 
 /* Prints text from the library and frees it; NULL is "out of memory". Returns the exit status. */

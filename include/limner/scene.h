@@ -65,6 +65,9 @@ LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
 /* Frees text that Limner returned. NULL is accepted. */
 LMN_API void lmn_text_free(char *text);
 
+/* Writes text into a file, whole or not at all; "-" is standard output. Errors: LMN_USAGE, LMN_WRITE, LMN_MEMORY. */
+LMN_API lmn_status lmn_text_write(const char *text, const char *path, lmn_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "import/import.h"
 #include "scene/scene.h"
@@ -115,4 +116,11 @@ char *lmn_scene_info_json(const lmn_scene *scene)
 void lmn_text_free(char *text)
 {
     mem_free(text);
+}
+
+lmn_status lmn_text_write(const char *text, const char *path, lmn_error *error)
+{
+    if (!text || !path || !*path)
+        return error_set(error, LMN_USAGE, "lmn_text_write: %s", text ? "the path is empty" : "`text` is NULL");
+    return file_store(path, text, strlen(text), error);
 }

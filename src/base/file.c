@@ -104,52 +104,77 @@ static bool write_all(int descriptor, const unsigned char *bytes, size_t size)
     return true;
 }
 
+static lmn_status refuse_write(lmn_error *error, const char *path, int problem)
+{
+    return error_in_file(error, LMN_WRITE, path, 0, "cannot write: %s", strerror(problem));
+}
+
+/* Devices and pipes cannot be replaced by a rename; they are written straight. So is what /dev/stdout and the like lead
+ * to: it belongs to whoever opened it. */
+static lmn_status store_straight(const char *path, const void *data, size_t size, lmn_error *error)
+{
+    int descriptor = open(path, O_WRONLY | O_TRUNC | O_CLOEXEC);
+    if (descriptor < 0)
+        return refuse_write(error, path, errno);
+    bool good = write_all(descriptor, data, size);
+    int problem = errno;
+    if (close(descriptor) != 0 && good) {
+        good = false;
+        problem = errno;
+    }
+    return good ? LMN_OK : refuse_write(error, path, problem);
+}
+
+static lmn_status store_beside(const char *path, const void *data, size_t size, mode_t mode, lmn_error *error)
+{
+    size_t room = strlen(path) + 16;
+    char *beside = mem_alloc(room);
+    if (!beside)
+        return error_memory(error);
+    snprintf(beside, room, "%s.XXXXXX", path);
+    int descriptor = mkstemp(beside);
+    if (descriptor < 0) {
+        lmn_status status = refuse_write(error, path, errno);
+        error_hint(error, "give a path in a folder that exists and may be written");
+        mem_free(beside);
+        return status;
+    }
+    bool good = write_all(descriptor, data, size) && fchmod(descriptor, mode) == 0;
+    int problem = errno;
+    if (close(descriptor) != 0 && good) {
+        good = false;
+        problem = errno;
+    }
+    if (good && rename(beside, path) != 0) {
+        good = false;
+        problem = errno;
+    }
+    if (!good)
+        unlink(beside);
+    mem_free(beside);
+    return good ? LMN_OK : refuse_write(error, path, problem);
+}
+
 lmn_status file_store(const char *path, const void *data, size_t size, lmn_error *error)
 {
     if (strcmp(path, "-") == 0) {
         if (!write_all(STDOUT_FILENO, data, size))
-            return error_in_file(error, LMN_WRITE, "standard output", 0, "cannot write: %s", strerror(errno));
+            return refuse_write(error, "standard output", errno);
         return LMN_OK;
     }
     struct stat facts;
     bool exists = stat(path, &facts) == 0;
     if (exists && S_ISDIR(facts.st_mode))
         return error_in_file(error, LMN_WRITE, path, 0, "cannot write: this is a folder");
-    size_t room = strlen(path) + 16;
-    char *beside = mem_alloc(room);
-    if (!beside)
-        return error_memory(error);
-    snprintf(beside, room, "%s.XXXXXX", path);
-    /* Devices and pipes cannot be replaced by a rename; they are written straight. */
-    bool straight = exists && !S_ISREG(facts.st_mode);
-    int descriptor = straight ? open(path, O_WRONLY | O_CLOEXEC) : mkstemp(beside);
-    if (descriptor < 0) {
-        lmn_status status = error_in_file(error, LMN_WRITE, path, 0, "cannot write: %s", strerror(errno));
-        error_hint(error, "give a path in a folder that exists and may be written");
-        mem_free(beside);
-        return status;
-    }
-    bool good = write_all(descriptor, data, size);
-    if (!straight) {
-        mode_t mask = umask(0);
-        umask(mask);
-        good = good && fchmod(descriptor, exists ? facts.st_mode & 0777 : 0666 & ~mask) == 0;
-    }
-    int problem = errno;
-    if (close(descriptor) != 0 && good) {
-        good = false;
-        problem = errno;
-    }
-    if (good && !straight && rename(beside, path) != 0) {
-        good = false;
-        problem = errno;
-    }
-    if (!good && !straight)
-        unlink(beside);
-    mem_free(beside);
-    if (good)
-        return LMN_OK;
-    return error_in_file(error, LMN_WRITE, path, 0, "cannot write: %s", strerror(problem));
+    if (exists && (!S_ISREG(facts.st_mode) || strncmp(path, "/dev/", 5) == 0))
+        return store_straight(path, data, size, error);
+    mode_t mask = umask(0);
+    umask(mask);
+    /* A link stays a link: the file that it names is the one that is replaced. */
+    char *named = exists ? realpath(path, NULL) : NULL;
+    lmn_status status = store_beside(named ? named : path, data, size, exists ? facts.st_mode & 0777 : 0666 & ~mask, error);
+    free(named);
+    return status;
 }
 
 lmn_status file_make_folder(const char *path, lmn_error *error)

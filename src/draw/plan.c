@@ -121,7 +121,8 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
     return status;
 }
 
-/* Gives every selected part to the last rule that selects it. */
+/* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides nothing and
+ * has no lines; the picture is fitted to it all the same, so that looks of one scene can be compared. */
 static void share_parts(plan *p, const upload *up, warnings *notes)
 {
     const lmn_look *look = p->look;
@@ -129,15 +130,18 @@ static void share_parts(plan *p, const upload *up, warnings *notes)
         if (!p->selected[i])
             continue;
         p->box = box3_union(p->box, up->part_boxes[i]);
-        for (size_t r = look->rule_count; r-- > 0;) {
+        bool taken = false;
+        for (size_t r = look->rule_count; r-- > 0 && !taken;) {
             if (look->rules[r].selector && !selector_matches(look->rules[r].selector, p->scene, i))
                 continue;
             figure *f = &p->figures[r];
             f->designated[i] = true;
             f->part_count++;
             f->box = box3_union(f->box, up->part_boxes[i]);
-            break;
+            taken = true;
         }
+        p->selected[i] = taken;
+        p->selected_count -= !taken;
     }
     size_t kept = 0;
     for (size_t r = 0; r < look->rule_count; r++) {

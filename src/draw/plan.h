@@ -23,11 +23,11 @@ typedef struct plan {
     const lmn_look  *look;
     rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted) */
     size_t           rule_count;
-    bool            *selected; /* per part */
+    bool            *selected; /* per part: drawn by some figure */
     size_t           selected_count;
     figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
     size_t           figure_count;
-    box3             box; /* of everything drawn */
+    box3             box; /* of the selection, which the picture is fitted to */
 } plan;
 
 /* Lengths in pixels are multiplied by `pixel_scale`. `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),

@@ -135,9 +135,22 @@ group_draw() {
     row="draw -o - on a full disk"
     "$limner" draw "$gear" $small -o - > /dev/full 2> .stderr
     [ $? = 4 ] || complain "exit status is not 4"
+    row="info on a full disk"
+    "$limner" info "$gear" > /dev/full 2> .stderr
+    [ $? = 4 ] || complain "exit status is not 4"
+    row="draw -o LINK"
+    : > in-named.png && ln -s in-named.png in-link.png
+    "$limner" draw "$gear" $small -o in-link.png 2> .stderr
+    [ -L in-link.png ] && [ -s in-named.png ] || complain "the link does not lead to the picture"
     "$limner" draw "$gear" $small --look plain --set lines.operator=four-tap -o in-a.png
     "$limner" draw "$gear" $small --look plain -o in-b.png
     cmp -s in-a.png in-b.png && complain "--set lines.operator changes nothing"
+    # The near plane is close to the eye then, and the wall far behind it where window depth has few steps left.
+    row="draw a flat wall from within the model"
+    local inside="--size 200x200 --eye -0.3,-0.1,0.05 --target 0.5,0.07,0.13 --fov 40"
+    "$limner" draw "$box" $inside -o in-a.png
+    "$limner" draw "$box" $inside -o in-b.png --set lines.operator=none
+    cmp -s in-a.png in-b.png || complain "there are lines on the wall"
 }
 
 group_many() {
@@ -165,6 +178,11 @@ group_report() {
     cp r.json in-report.json; documented in-report.json report.md
     row 0 '' 'x.png' draw "$gear" $small -o x.png --report -
     out '"path": "x.png"'; out '"load_ms"'
+    mkfifo in-pipe
+    timeout 60 cat in-pipe > .piped &
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --report in-pipe
+    wait $!
+    [ -p in-pipe ] && grep -q '"load_ms"' .piped || complain "the report replaces a pipe instead of going through it"
     row 0 '' 'p-r.json p.png' draw "$gear" $small -o p.png --report p-r.json --aov .maps
     local map
     for map in depth.pfm normal.pfm id.png edge.png shade.png; do
@@ -200,6 +218,16 @@ group_inputs() {
     row 2 'in-version.json:1:2: version is 99' '' draw "$gear" --look in-version.json
     printf '{"version": 1, "x-mine": 1, "rules": [{"surface": "lit"}]}' > in-good.json
     row 0 '' 'x.png' draw "$gear" $small --look ./in-good.json -o x.png
+    # A part that no rule picks is not drawn, and hides nothing either: the front square is out, the one behind it whole.
+    printf 'o back\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\no front\nv 0 -1 1\nv 1 -1 1\nv 1 1 1\nv 0 1 1\nf 5 6 7 8\n' > in-two.obj
+    local rule='"select": "back", "surface": "lit", "lines": "discontinuity"'
+    printf '{"version": 1, "rules": [{%s}]}' "$rule" > in-some.json
+    printf '{"version": 1, "rules": [{%s, "layers": {"complement": false}}]}' "$rule" > in-alone.json
+    row 0 '' 'x.png' draw in-two.obj $small --view front --look in-alone.json -o x.png && cp x.png in-alone.png
+    row 0 '' 'x.png' draw in-two.obj $small --view front --look in-some.json -o x.png
+    cmp -s x.png in-alone.png || complain "a part that is not drawn hides another"
+    printf '{"version": 1, "rules": [{"select": "nosuch"}]}' > in-nothing.json
+    row 0 "rule 0 of look 'in-nothing' selects no part" 'x.png' draw in-two.obj $small --look in-nothing.json -o x.png
     local model
     for model in "$examples"/*.glb "$examples"/*.obj; do
         row 0 '' 'x.png' draw "$model" $small -o x.png
@@ -242,7 +270,7 @@ group_cancel() {
     kill -INT $!
     wait $! || got=$?
     [ $got = 5 ] || complain "exit status $got, expected 5"
-    find . -name '*.part*' | grep -q . && complain "a half-written file stays behind"
+    find . -type f ! -name 'f-[0-9][0-9][0-9][0-9].png' ! -name .stderr | grep -q . && complain "a half-written file stays behind"
 }
 
 group_"$group"

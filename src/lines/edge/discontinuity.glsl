@@ -5,6 +5,10 @@
 
 uniform vec2 u_unproject;
 
+/* Sixteen steps of a float below 1: what the rasteriser's rounding can add up to over the depths that are compared. Where the
+ * near plane is close to the eye (a viewer inside the model), smaller differences of window depth are noise. */
+const float DEPTH_NOISE = 16.0 * 5.96e-8;
+
 /* Part of the step `across` that the slopes before and behind it do not explain. */
 float unexplained(float before, float across, float behind)
 {
@@ -58,6 +62,7 @@ void detect_edges()
         vec3 normal = normal_depth.xyz * (dot(normal_depth.xyz, ray) > 0.0 ? -1.0 : 1.0);
         float z = normal_depth.w;
         float tolerance = u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
+        tolerance = max(tolerance, DEPTH_NOISE);
         uint id = 0u;
 #if PARTS && defined(HAS_ID)
         id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).r;
