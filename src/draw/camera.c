@@ -165,13 +165,14 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
                                     lmn_error *error)
 {
     const char *names[64];
+    char numbered[64][CAMERA_NAME_ROOM], room[CAMERA_NAME_ROOM];
     size_t name_count = 0;
     for (size_t i = 0; i < scene->node_count; i++) {
         const node *n = &scene->nodes[i];
         if (n->camera < 0)
             continue;
         const camera *file = &scene->cameras[n->camera];
-        const char *name = file->name ? file->name : n->name ? n->name : "";
+        const char *name = scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : room);
         if (name_count < 64)
             names[name_count++] = name;
         if (strcmp(name, desc->camera) != 0 && !(n->name && strcmp(n->name, desc->camera) == 0))

@@ -120,12 +120,19 @@ static json_t *textures_json(const lmn_scene *s)
 static json_t *cameras_json(const lmn_scene *s)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < s->camera_count; i++) {
+    char numbered[CAMERA_NAME_ROOM];
+    const char **node_names = mem_calloc(s->camera_count, sizeof *node_names);
+    for (size_t i = s->node_count; node_names && i-- > 0;)
+        if (s->nodes[i].camera != NONE && s->nodes[i].name)
+            node_names[s->nodes[i].camera] = s->nodes[i].name;
+    for (size_t i = 0; node_names && i < s->camera_count; i++) {
         const camera *c = &s->cameras[i];
         json_t *angle = c->orthographic ? json_null() : real(c->fov_y * 57.295779513082320877);
-        json_array_append_new(list, json_pack("{s:o,s:s,s:o}", "name", string_or_null(c->name), "projection",
+        json_array_append_new(list, json_pack("{s:o,s:s,s:o}", "name",
+                                              string_or_null(scene_camera_name(s, i, node_names[i], numbered)), "projection",
                                               c->orthographic ? "orthographic" : "perspective", "fov_deg", angle));
     }
+    mem_free(node_names);
     return list;
 }
 

@@ -2,6 +2,7 @@
 #include "scene/scene.h"
 
 #include <stdatomic.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -270,4 +271,14 @@ uint64_t mesh_triangle_count(const mesh *m)
     for (size_t i = 0; i < m->primitive_count; i++)
         count += m->primitives[i].index_count / 3;
     return count;
+}
+
+const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name, char numbered[CAMERA_NAME_ROOM])
+{
+    if (scene->cameras[index].name)
+        return scene->cameras[index].name;
+    if (node_name)
+        return node_name;
+    snprintf(numbered, CAMERA_NAME_ROOM, "camera-%zu", index + 1);
+    return numbered;
 }

@@ -242,6 +242,11 @@ char *scene_name_of_file(const char *path);
 mat4 *scene_world_matrices(const lmn_scene *scene);
 mat4  node_local_matrix(const node *n);
 
+/* What --camera calls a camera: its name, else that of a node that has it (may be NULL), else "camera-N", counted from 1, in
+ * `numbered`. */
+enum { CAMERA_NAME_ROOM = 32 };
+const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name, char numbered[CAMERA_NAME_ROOM]);
+
 /* The scene's bounds with these world matrices: skinned and morphed parts as they are drawn. Empty box when nothing. */
 box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
 box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);

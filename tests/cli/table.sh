@@ -228,6 +228,17 @@ group_inputs() {
     cmp -s x.png in-alone.png || complain "a part that is not drawn hides another"
     printf '{"version": 1, "rules": [{"select": "nosuch"}]}' > in-nothing.json
     row 0 "rule 0 of look 'in-nothing' selects no part" 'x.png' draw in-two.obj $small --look in-nothing.json -o x.png
+    sed 's/^ *//' > in-eyes.gltf << 'EOF'
+    {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}, {"camera": 1, "name": "Side", "translation": [1, 0, 5]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}, {"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+EOF
+    row 0 '' '' info in-eyes.gltf; out 'camera-1, Side'
+    row 0 '' 'x.png' draw in-eyes.gltf $small --camera camera-1 -o x.png
+    row 0 '' 'x.png' draw in-eyes.gltf $small --camera Side -o x.png
+    row 1 "did you mean 'camera-1'" '' draw in-eyes.gltf $small --camera camera-7 -o x.png
     local model
     for model in "$examples"/*.glb "$examples"/*.obj; do
         row 0 '' 'x.png' draw "$model" $small -o x.png
