@@ -42,7 +42,7 @@ gpu_texture *frame_acquire(frame *f, target t)
 {
     static const gpu_format formats[TARGET_COUNT] = {
         [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,     [TARGET_ALBEDO] = GPU_RGBA16F,
-        [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_EDGE] = GPU_RGBA16F,
+        [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_FILTERED] = GPU_RGBA16F, [TARGET_EDGE] = GPU_RGBA16F,
         [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
     };
     return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
@@ -123,7 +123,7 @@ void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
     int count = union_of_reads(a, b, reads);
     for (int i = 0; i < count; i++) {
         /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
-        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE;
+        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE || reads[i] == TARGET_FILTERED;
         gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
     }
 }

@@ -39,11 +39,13 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
 /* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
 static void set_outside(const figure_state *s, const pass *p, float out[4])
 {
-    const float background[4] = {0, 0, 1, (float)s->far}, paper[4] = {1, 1, 1, 1};
+    const float background[4] = {0, 0, 1, (float)s->far}, filtered[4] = {0, 0, 1, 1}, paper[4] = {1, 1, 1, 1};
     if (!p->zero_outside && p->writes == TARGET_EDGE)
         memcpy(out, paper, sizeof paper);
     else if (!p->zero_outside && p->writes == TARGET_NORMAL_DEPTH)
         memcpy(out, background, sizeof background);
+    else if (p->writes == TARGET_FILTERED)
+        memcpy(out, filtered, sizeof filtered);
 }
 
 static void run_geometry(frame *f, figure_state *s, const pass *p, const char *group)

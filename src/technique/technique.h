@@ -21,6 +21,7 @@ typedef enum target {
     TARGET_ALBEDO,
     TARGET_SHADE,
     TARGET_DEPTH,      /* the figure's depth buffer */
+    TARGET_FILTERED,   /* RGBA16F: normal and normalised depth, which may be sampled with a filter */
     TARGET_EDGE,       /* RGBA16F edge map: R profile, G inner, B combined, A id; 1 = no edge */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */

@@ -16,8 +16,8 @@ static const param params[] = {
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "signed normals", .shader = "lines/edge/denormal_copy.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
-    {.name = "edges", .shader = "lines/edge/denormal.frag", .reads = {TARGET_EDGE}, .writes = TARGET_EDGE},
+    {.name = "filterable", .shader = "lines/edge/filterable.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_FILTERED},
+    {.name = "edges", .shader = "lines/edge/denormal.frag", .reads = {TARGET_FILTERED}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 

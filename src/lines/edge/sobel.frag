@@ -1,17 +1,15 @@
-/* Sobel gradients from bilinear samples, magnitude over both directions: R depth, G normals. Filtering is done on depth and the
- * three normal components at once.
+/* Sobel gradients from bilinear samples, magnitude over both directions: R depth, G normals. The sampler's filter
+ * does the sums, on depth and the three normal components at once.
  * five:  means of 2x2 blocks at the corners; Gx = 4 (TR + BR − TL − BL), Gy = 4 (TL + TR − BL − BR) hold exactly.
  * eight: p' = 2 (t2 + t3 − t0 − t1) with samples between two texels, once for each direction. */
 #include "lines/edge/edge.glsl"
 
 vec4 at(vec2 off)
 {
-    vec4 value = bilinear(t_normal_depth, gl_FragCoord.xy + off);
-    value.w = (value.w - u_near) / (u_far - u_near);
-    return value;
+    return textureLod(t_filtered, (gl_FragCoord.xy + off) * u_texel, 0.0);
 }
 
-void detect_edges()
+void main()
 {
     vec4 across, up;
 #if TAPS == 0

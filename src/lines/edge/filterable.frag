@@ -1,5 +1,4 @@
-/* Normals, signed and of unit length, in a picture that can be filtered; with DEPTH the depth as the angle of a unit vector in
- * the plane of the blue and the alpha channel. */
+/* Unit normals and normalised depth in 16-bit floats: 32-bit ones may have no filter. */
 #include "lines/edge/edge.glsl"
 
 void main()
