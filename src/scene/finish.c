@@ -283,6 +283,27 @@ static lmn_status nothing_to_draw(const check *c)
     return status;
 }
 
+/* Single-precision sums of squares overflow beyond this. */
+static const float FARTHEST = 1e18f;
+
+/* Transforms may be finite and still put a part where no camera can look. */
+static lmn_status check_places(const check *c, const part *parts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        box3 b = parts[i].bounds;
+        float reach[6] = {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z};
+        for (int k = 0; k < 6; k++) {
+            if (fabsf(reach[k]) <= FARTHEST || box3_is_empty(b))
+                continue;
+            lmn_status status = error_in_file(c->error, LMN_FORMAT, c->file, 0,
+                                              "part '%.100s' lies farther than 1e18 from the origin", parts[i].name);
+            error_hint(c->error, "check the transforms above it");
+            return status;
+        }
+    }
+    return LMN_OK;
+}
+
 lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
 {
     check c = {.scene = s, .file = file, .error = error};
@@ -307,6 +328,9 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     parts_release(s->parts, s->part_count);
     s->parts = parts;
     s->part_count = count;
+    status = check_places(&c, parts, count);
+    if (status != LMN_OK)
+        return status;
     s->revision = scene_next_revision();
     if (count > 0)
         return LMN_OK;
