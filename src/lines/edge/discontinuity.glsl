@@ -17,30 +17,36 @@ float unexplained(float before, float across, float behind)
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
-/* x: profile ink, y: inner ink, z: id ink of the pair of this pixel and the neighbour at `side`. */
-vec3 pair(vec2 side, float before, float next, float behind_next, vec3 normal, vec3 ray, float depth, float tolerance, uint id,
-          float crease_weight, float far_weight)
+/* x: inner ink, y: id ink between this pixel and the neighbour at `side`, which is `across` deeper. */
+vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uint id, float crease_weight, float far_weight)
 {
-    if ((depth >= 1.0) != (next >= 1.0))
-        return vec3(depth >= 1.0 ? far_weight : 1.0, 0.0, 0.0);
+    vec3 other = neighbour(t_normal_depth, side).xyz;
+    float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
+    float inner = clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) * crease_weight;
+    float between = 0.0;
+#if PARTS && defined(HAS_ID)
+    uint other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).r;
+    between = other_id != id ? (across > 0.0 ? 1.0 : far_weight) : 0.0;
+#endif
+    return vec2(inner, between);
+}
+
+/* Profile ink between this pixel and its neighbour of depth `next`; `before` and `behind_next` lie on either side of the two. Where
+ * one of the two is empty there is nothing but a profile, and `inks` is cleared. */
+float profile_ink(float before, float depth, float next, float behind_next, float tolerance, float far_weight, inout vec2 inks)
+{
+    if ((depth >= 1.0) != (next >= 1.0)) {
+        inks = vec2(0.0);
+        return depth >= 1.0 ? far_weight : 1.0;
+    }
     float across = next - depth;
     float slope_before = before >= 1.0 ? behind_next - next : depth - before;
     float slope_behind = behind_next >= 1.0 ? depth - before : behind_next - next;
     float excess = unexplained(slope_before, across, slope_behind);
-    float nearness = across > 0.0 ? 1.0 : far_weight;
-    vec3 other = neighbour(t_normal_depth, side).xyz;
-    float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
-    float inner = clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) * crease_weight;
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
-    excess -= inner * 0.5 * max(abs(slope_before), abs(slope_behind));
-    float profile = smoothstep(0.5, 1.0, excess / tolerance) * nearness;
-    float between = 0.0;
-#if PARTS && defined(HAS_ID)
-    uint other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).r;
-    between = other_id != id ? nearness : 0.0;
-#endif
-    return vec3(profile, inner, between);
+    excess -= inks.x * 0.5 * max(abs(slope_before), abs(slope_behind));
+    return smoothstep(0.5, 1.0, excess / tolerance) * (across > 0.0 ? 1.0 : far_weight);
 }
 
 float depth_at(float x, float y)
@@ -52,8 +58,9 @@ void detect_edges()
 {
     float depth = depth_at(0.0, 0.0);
     float right = depth_at(1.0, 0.0), left = depth_at(-1.0, 0.0), up = depth_at(0.0, 1.0), down = depth_at(0.0, -1.0);
-    vec3 ink = vec3(0.0);
-    /* A loop that runs once or not at all: software drivers skip loops, not branches, and most pixels are empty. */
+    float profile = 0.0;
+    vec2 inks = vec2(0.0);
+    /* Loops that run once or not at all: software drivers skip loops, not branches, and most pixels are empty. */
     int busy = min(depth, min(min(left, right), min(up, down))) < 1.0 ? 1 : 0;
     for (int once = 0; once < busy; once++) {
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
@@ -68,10 +75,21 @@ void detect_edges()
         id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).r;
 #endif
         float second = clamp(u_line_width - 1.0, 0.0, 1.0);
-        ink = pair(vec2(1.0, 0.0), left, right, depth_at(2.0, 0.0), normal, ray, depth, tolerance, id, 1.0, second);
-        ink = max(ink, pair(vec2(-1.0, 0.0), right, left, depth_at(-2.0, 0.0), normal, ray, depth, tolerance, id, second, second));
-        ink = max(ink, pair(vec2(0.0, 1.0), down, up, depth_at(0.0, 2.0), normal, ray, depth, tolerance, id, 1.0, second));
-        ink = max(ink, pair(vec2(0.0, -1.0), up, down, depth_at(0.0, -2.0), normal, ray, depth, tolerance, id, second, second));
+        vec2 to_right = inner_and_id(vec2(1.0, 0.0), right - depth, normal, ray, id, 1.0, second);
+        vec2 to_left = inner_and_id(vec2(-1.0, 0.0), left - depth, normal, ray, id, second, second);
+        vec2 to_up = inner_and_id(vec2(0.0, 1.0), up - depth, normal, ray, id, 1.0, second);
+        vec2 to_down = inner_and_id(vec2(0.0, -1.0), down - depth, normal, ray, id, second, second);
+        /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
+        float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));
+        float farthest = max(depth, max(max(left, right), max(up, down)));
+        int bent = bend > 0.5 * tolerance || farthest >= 1.0 ? 1 : 0;
+        for (int again = 0; again < bent; again++) {
+            profile = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, second, to_right);
+            profile = max(profile, profile_ink(right, depth, left, depth_at(-2.0, 0.0), tolerance, second, to_left));
+            profile = max(profile, profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, second, to_up));
+            profile = max(profile, profile_ink(up, depth, down, depth_at(0.0, -2.0), tolerance, second, to_down));
+        }
+        inks = max(max(to_right, to_left), max(to_up, to_down));
     }
-    write_edges(1.0 - ink.x, 1.0 - ink.y, 1.0 - ink.z);
+    write_edges(1.0 - profile, 1.0 - inks.x, 1.0 - inks.y);
 }
