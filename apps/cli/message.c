@@ -49,14 +49,19 @@ int message_error(const lmn_error *error)
     return message_exit_status(error->status);
 }
 
+static void print_line(const char *format, va_list arguments)
+{
+    fputs("limner: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+}
+
 int message_usage(const char *hint, const char *format, ...)
 {
     va_list arguments;
-    fputs("limner: ", stderr);
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    print_line(format, arguments);
     va_end(arguments);
-    fputc('\n', stderr);
     print_hint(hint);
     return EXIT_USAGE;
 }
@@ -84,11 +89,9 @@ void message_warning(const char *text, size_t count)
 void message_note(const char *format, ...)
 {
     va_list arguments;
-    fputs("limner: ", stderr);
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    print_line(format, arguments);
     va_end(arguments);
-    fputc('\n', stderr);
 }
 
 static void on_interrupt(int signal_number)

@@ -2,8 +2,8 @@
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "draw/drawing.h"
 
@@ -14,13 +14,6 @@ typedef struct series {
     double *ms;
     bool    open;
 } series;
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 static int compare(const void *a, const void *b)
 {
@@ -42,10 +35,10 @@ static double median_of(const double *values, int count)
 static double time_frame(series *s)
 {
     gpu_finish(s->session.renderer->g);
-    double start = now_ms();
+    double start = clock_ms();
     frame_draw(&s->session.frame, s->session.out);
     gpu_finish(s->session.renderer->g);
-    return now_ms() - start;
+    return clock_ms() - start;
 }
 
 static json_t *passes_of(series *s, int repeat)

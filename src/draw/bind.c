@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/memory.h"
+
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
@@ -87,6 +89,16 @@ const pass *rule_merged_detection(const rule *r)
         only = p;
     }
     return only;
+}
+
+gpu_program *program_of(frame *f, const char *vertex, const char *fragment, text *prelude)
+{
+    char *finished = text_take(prelude);
+    gpu_program *p = finished ? gpu_program_of(f->g, vertex, fragment, finished) : NULL;
+    if (!finished)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(finished);
+    return p;
 }
 
 /* The pictures of both passes, each once. Returns how many. */

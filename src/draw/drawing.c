@@ -2,19 +2,12 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/limits.h"
+#include "base/clock.h"
 #include "base/memory.h"
 #include "finish/finish.h"
 #include "light/light.h"
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error)
 {
@@ -220,10 +213,10 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
 
 static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *desc, lmn_error *error)
 {
-    double start = now_ms();
+    double start = clock_ms();
     frame_draw(&s->frame, s->out);
     gpu_finish(s->renderer->g);
-    d->frame_ms = now_ms() - start;
+    d->frame_ms = clock_ms() - start;
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
     if (status == LMN_OK)

@@ -9,8 +9,7 @@
 static void release_targets(frame *f, figure_state *s)
 {
     for (int i = 0; i < TARGET_COUNT; i++)
-        if (i != TARGET_REFLECTION)
-            gpu_target_release(f->g, s->targets[i]);
+        gpu_target_release(f->g, s->targets[i]);
 }
 
 static int reach_of(const figure *fig)
@@ -71,7 +70,7 @@ static void draw_figure(frame *f, const figure *fig)
         camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * reach_of(fig) + 2, s.around);
     if (s.pixels[2] <= 0 || s.pixels[3] <= 0 || gpu_failed(f->g))
         return;
-    if (fig->reflects && !f->mirror_depth)
+    if (fig->reflects && !f->mirror)
         draw_reflection(f, &s);
     if (fig->direct && !f->maps) {
         raster_direct(f, &s);

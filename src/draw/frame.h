@@ -27,10 +27,8 @@ typedef struct frame {
     bool             profile;         /* finish after each pass and keep its time */
     frame_maps      *maps;            /* collects the figures' buffers when not NULL */
     gpu_texture     *page, *page_depth;
-    gpu_texture     *reflection;      /* while a mirror is drawn */
-    int              mirror_depth;    /* 1 while the reflected scene is drawn */
-    float            clip_plane[4];   /* eye space, while mirror_depth > 0 */
-    const figure    *mirror;
+    float            clip_plane[4];   /* eye space, while a mirror's view is drawn */
+    const figure    *mirror;          /* whose view is drawn; NULL: the scene itself */
     pass_time        times[PASS_TIMES_MAX];
     size_t           time_count;
 } frame;

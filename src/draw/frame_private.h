@@ -31,6 +31,8 @@ void lights_set(frame *f);
 /* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);
 void                 frame_set_common(frame *f, const figure_state *s);
+/* The program of these files with this prelude, which is used up; NULL after an error. */
+gpu_program         *program_of(frame *f, const char *vertex, const char *fragment, text *prelude);
 param_set            use_own_set(kind_id id, const technique_use *use);
 param_set            use_common_set(kind_id id, const technique_use *use);
 const technique_use *rule_inked_lines(const rule *r); /* the line technique that a composition inks, or NULL */

@@ -59,9 +59,9 @@ static light_list list_lights(const frame *f)
         key[2] = 1;
     /* The light goes with the viewer, but what a mirror shows is lit as the scene itself is. */
     double along = 0;
-    for (int k = 0; k < 3 && f->mirror_depth; k++)
+    for (int k = 0; k < 3 && f->mirror; k++)
         along += key[k] * (double)f->clip_plane[k];
-    for (int k = 0; k < 3 && f->mirror_depth; k++)
+    for (int k = 0; k < 3 && f->mirror; k++)
         key[k] -= 2 * along * (double)f->clip_plane[k];
     double fill[3] = {-key[0], -0.3 * key[1], fabs(key[2]) + 0.2};
     add_light(l.positions, l.colours, &l.count, key, 0, white, v->light_scale);

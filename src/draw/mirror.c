@@ -59,7 +59,6 @@ bool mirror_prepare(const frame *f, const figure *mirror, frame *inner)
     *inner = *f;
     inner->camera.view = mat4_multiply(&reflect, &f->camera.view);
     inner->mirror = mirror;
-    inner->mirror_depth = f->mirror_depth + 1;
     inner->maps = NULL;
     inner->profile = false;
     inner->ground = (colour){0, 0, 0, 0};

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
-
 typedef struct pass_params {
     param_set   sets[4];
     const pass *merged; /* line detection that this pass does too, or NULL */
@@ -28,12 +26,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
-    char *finished = text_take(&prelude);
-    gpu_program *program = finished ? gpu_program_of(f->g, "gpu/screen.vert", path, finished) : NULL;
-    if (!finished)
-        gpu_fail(f->g, LMN_MEMORY, "out of memory");
-    mem_free(finished);
-    return program;
+    return program_of(f, "gpu/screen.vert", path, &prelude);
 }
 
 /* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */

@@ -3,14 +3,8 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
+#include "base/clock.h"
 
 /* --- profiling ------------------------------------------------------------------------------------------------- */
 
@@ -19,7 +13,7 @@ stopwatch watch_start(frame *f)
     if (!f->profile)
         return (stopwatch){0};
     gpu_finish(f->g);
-    return (stopwatch){now_ms(), gpu_draw_count(f->g)};
+    return (stopwatch){clock_ms(), gpu_draw_count(f->g)};
 }
 
 void watch_stop(frame *f, stopwatch w, const char *group, const char *name)
@@ -40,6 +34,6 @@ void watch_stop(frame *f, stopwatch w, const char *group, const char *name)
         memset(t, 0, sizeof *t);
         memcpy(t->name, joined, sizeof joined);
     }
-    t->ms += now_ms() - w.start;
+    t->ms += clock_ms() - w.start;
     t->draws += gpu_draw_count(f->g) - w.draws;
 }

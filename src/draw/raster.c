@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
-
 static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
 {
     if (f->mirror && f->mirror->designated[item->part_index])
@@ -146,7 +144,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     text prelude = {0};
     declare_outputs(&prelude, o);
     declare_material(&prelude, item, m, t);
-    if (f->mirror_depth)
+    if (f->mirror)
         text_append(&prelude, "#define CLIPPED\n");
     char path[320] = "layer/raster.frag";
     if (o.shade >= 0) {
@@ -156,12 +154,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     }
     if (inking)
         declare_ink(&prelude, path, sizeof path, f, s, inking);
-    char *finished = text_take(&prelude);
-    gpu_program *p = finished ? gpu_program_of(f->g, "layer/raster.vert", path, finished) : NULL;
-    if (!finished)
-        gpu_fail(f->g, LMN_MEMORY, "out of memory");
-    mem_free(finished);
-    return p;
+    return program_of(f, "layer/raster.vert", path, &prelude);
 }
 
 static void set_ink(frame *f, const figure_state *s, const pass *inking)
@@ -197,7 +190,7 @@ static void draw_parts(frame *f, const figure_state *s, outputs o, const pass *i
                 uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
             if (inking)
                 set_ink(f, s, inking);
-            if (f->mirror_depth)
+            if (f->mirror)
                 gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
             if (s->targets[TARGET_REFLECTION])
                 gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
@@ -254,11 +247,10 @@ void raster_shade_deferred(frame *f, figure_state *s)
     text prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
-    char path[160], *finished = text_take(&prelude);
+    char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
-    gpu_program *p = finished ? gpu_program_of(f->g, "gpu/screen.vert", path, finished) : NULL;
-    mem_free(finished);
+    gpu_program *p = program_of(f, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true});
         gpu_use(f->g, p, (gpu_state){0});

@@ -33,7 +33,7 @@ struct gpu_mesh {
     GLuint   array, buffers[6];
     uint32_t index_count, vertex_count;
     size_t   bytes;
-    bool     has_normals, has_colours;
+    bool     has_colours;
 };
 
 /* A framebuffer object for one set of attachments. */

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/error.h"
 #include "base/memory.h"
 
 int32_t build_plain_material(lmn_scene *scene, bool has_colours)
@@ -56,4 +57,20 @@ int build_line(const char *from, const char *at)
     for (; from < at; from++)
         line += *from == '\n';
     return line;
+}
+
+lmn_status build_side_file(const import_job *job, const char *what, const char *name, file_data *out, lmn_error *error)
+{
+    *out = (file_data){0};
+    char *path = file_beside(job->path, name);
+    if (!path)
+        return error_memory(error);
+    lmn_error problem;
+    lmn_status status = file_load(out, path, &problem);
+    mem_free(path);
+    if (status == LMN_MEMORY)
+        return error_memory(error);
+    if (status != LMN_OK)
+        warnings_add(&job->scene->warnings, WARNING_MISSING_FILE, "%s \"%s\": %s", what, name, problem.message);
+    return LMN_OK;
 }

@@ -170,19 +170,10 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
 lmn_status build_image_file(const import_job *job, const char *name, int32_t *out, lmn_error *error)
 {
     *out = NONE;
-    char *path = file_beside(job->path, name);
-    if (!path)
-        return error_memory(error);
     file_data file;
-    lmn_error problem;
-    lmn_status status = file_load(&file, path, &problem);
-    mem_free(path);
-    if (status == LMN_MEMORY)
-        return error_memory(error);
-    if (status != LMN_OK) {
-        warnings_add(&job->scene->warnings, WARNING_MISSING_FILE, "texture \"%s\": %s", name, problem.message);
-        return LMN_OK;
-    }
+    lmn_status status = build_side_file(job, "texture", name, &file, error);
+    if (status != LMN_OK || !file.data)
+        return status;
     status = build_image_bytes(job, name, file.data, file.size, out, error);
     file_data_release(&file);
     return status;

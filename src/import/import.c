@@ -3,20 +3,13 @@
 #include "import/import.h"
 
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 /* Asked in this order; the last takes every other ending. */
 static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl, &import_obj, &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
 {
@@ -104,7 +97,7 @@ static lmn_status read_into(const import_job *job, const import_format *format, 
 lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *desc, lmn_error *error)
 {
     *out = NULL;
-    double start = now_ms();
+    double start = clock_ms();
     file_data file;
     lmn_status status = file_load(&file, path, error);
     if (status != LMN_OK)
@@ -125,7 +118,7 @@ lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *d
         scene_free(scene);
         return status;
     }
-    scene->load_ms = now_ms() - start;
+    scene->load_ms = clock_ms() - start;
     *out = scene;
     return LMN_OK;
 }

@@ -254,6 +254,7 @@ static lmn_status read_libraries(obj_reader *r)
         return error_memory(r->error);
     lmn_scene *s = r->job->scene;
     size_t first = s->material_count;
+    obj_slash_path(name);
     lmn_status status = obj_read_library(r->job, name, r->error);
     mem_free(name);
     for (size_t i = first; i < s->material_count && status == LMN_OK; i++) {

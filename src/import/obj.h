@@ -22,6 +22,9 @@ bool obj_number(obj_text *t, double *out);
 char *obj_rest(obj_text *t);
 bool  obj_is(const char *word, size_t length, const char *expected);
 
+/* Turns the backslashes of a path into slashes. */
+void obj_slash_path(char *path);
+
 /* Adds the library's materials to the scene. A missing one is a warning. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status obj_read_library(const import_job *job, const char *name, lmn_error *error);
 

@@ -48,9 +48,7 @@ static lmn_status read_texture(const import_job *job, obj_text *t, size_t materi
         char *blank = strrchr(rest, ' ');
         name = blank ? blank + 1 : rest;
     }
-    for (char *p = name; *p; p++)
-        if (*p == '\\')
-            *p = '/';
+    obj_slash_path(name);
     int32_t found = NONE;
     lmn_status status = LMN_OK;
     if (name[0] && !find_loaded(job->scene, name, &found))
@@ -131,22 +129,10 @@ static lmn_status read_lines(const import_job *job, obj_text *t, lmn_error *erro
 
 lmn_status obj_read_library(const import_job *job, const char *name, lmn_error *error)
 {
-    char *path = file_beside(job->path, name);
-    if (!path)
-        return error_memory(error);
-    for (char *p = path; *p; p++)
-        if (*p == '\\')
-            *p = '/';
     file_data file;
-    lmn_error problem;
-    lmn_status status = file_load(&file, path, &problem);
-    mem_free(path);
-    if (status == LMN_MEMORY)
-        return error_memory(error);
-    if (status != LMN_OK) {
-        warnings_add(&job->scene->warnings, WARNING_MISSING_FILE, "material library \"%s\": %s", name, problem.message);
-        return LMN_OK;
-    }
+    lmn_status status = build_side_file(job, "material library", name, &file, error);
+    if (status != LMN_OK || !file.data)
+        return status;
     const char *begin = (const char *)file.data;
     obj_text t = {begin, begin, begin + file.size};
     status = read_lines(job, &t, error);

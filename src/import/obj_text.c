@@ -77,3 +77,10 @@ char *obj_rest(obj_text *t)
         end--;
     return scene_clean_name(from, (size_t)(end - from));
 }
+
+void obj_slash_path(char *path)
+{
+    for (char *p = path; *p; p++)
+        if (*p == '\\')
+            *p = '/';
+}

@@ -51,8 +51,6 @@ typedef struct mesh {
     size_t     morph_weight_count;
 } mesh;
 
-typedef enum image_format { IMAGE_RGBA8 } image_format;
-
 typedef struct image {
     char    *name;
     uint32_t width, height;
