@@ -38,7 +38,7 @@ void uniforms_declare(text *prelude, param_set set)
 {
     static const char *const types[] = {
         [PARAM_INT] = "int",   [PARAM_FLOAT] = "float", [PARAM_BOOL] = "bool",    [PARAM_ENUM] = "int",
-        [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4",
+        [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4", [PARAM_TEXT] = "int",
     };
     for (size_t i = 0; i < set.count; i++) {
         const param *p = &set.params[i];
@@ -110,6 +110,7 @@ void uniforms_set(gpu *g, param_set set)
             break;
         case PARAM_DIRECTION: gpu_set_vec3(g, name, (const float *)field); break;
         case PARAM_PALETTE: set_palette(g, name, field); break;
+        case PARAM_TEXT: break;
         }
     }
 }
