@@ -5,6 +5,11 @@
 #endif
 layout(location = 0) out vec4 out_0;
 
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
+
 uniform int   u_layer; /* 0 = visible */
 uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
 uniform bool  u_filled; /* with the fill, not only the lines */
