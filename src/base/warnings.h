@@ -14,6 +14,7 @@
     X(WARNING_BAD_TEXTURE, "bad-texture")         /* an image that cannot be decoded */                               \
     X(WARNING_TRANSPARENCY, "transparency")       /* drawn as a cut-out */                                            \
     X(WARNING_NO_MATCH, "no-match")               /* a rule that selects nothing */                                   \
+    X(WARNING_LAYER_MEMORY, "layer-memory")       /* layers were made the slower way */                           \
     X(WARNING_UNUSED, "unused")                   /* a setting without effect */
 
 typedef enum warning_code {

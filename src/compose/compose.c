@@ -1,7 +1,8 @@
 /* The table of compositions. */
 #include "compose/compose.h"
 
-static const technique *const techniques[] = {&compose_opaque, &compose_superimpose, &compose_merged};
+static const technique *const techniques[] = {&compose_opaque, &compose_superimpose, &compose_merged,
+                                              &compose_blueprint, &compose_wire, &compose_xray};
 
 const kind kind_compose = {
     .id = KIND_COMPOSE, .name = "compose", .doc = "How a figure meets the page.",

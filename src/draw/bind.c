@@ -14,6 +14,10 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
     gpu_set_float(g, "u_near", (float)s->near);
     gpu_set_float(g, "u_far", (float)s->far);
+    gpu_set_int(g, "u_layer", s->layer);
+    gpu_set_int(g, "u_figure", s->index);
+    gpu_set_float(g, "u_rear", s->rear);
+    gpu_set_int(g, "u_filled", s->filled);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);
 }
@@ -45,6 +49,7 @@ gpu_texture *frame_acquire(frame *f, target t)
     static const gpu_format formats[TARGET_COUNT] = {
         [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,     [TARGET_ALBEDO] = GPU_RGBA16F,
         [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_FILTERED] = GPU_RGBA16F, [TARGET_EDGE] = GPU_RGBA16F,
+        [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_HALO_ROW] = GPU_RGBA16F, [TARGET_HALO] = GPU_RGBA16F, [TARGET_LAYERS] = GPU_RGBA16F,
         [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
     };
     return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
@@ -62,7 +67,7 @@ bool pass_applies(kind_id id, const pass *p, const technique_use *use)
     if (!p->when)
         return true;
     char key[32];
-    size_t length = strcspn(p->when, "=<>");
+    size_t length = strcspn(p->when, "=<>&");
     if (length >= sizeof key)
         return false;
     memcpy(key, p->when, length);
@@ -73,10 +78,21 @@ bool pass_applies(kind_id id, const pass *p, const technique_use *use)
     return params_condition(p->when, t->params, t->param_count, use->values);
 }
 
+bool rule_traces_lines(const rule *r)
+{
+    (void)r;
+    return false;
+}
+
+static bool use_condition(const technique_use *use, const char *condition)
+{
+    return params_condition(condition, use->technique->params, use->technique->param_count, use->values);
+}
+
 const pass *rule_merged_detection(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
-    if (!compose || !compose->technique->merges_when || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
+    if (!compose || !compose->technique->merges_when || (compose->technique->map_when && use_condition(compose, compose->technique->map_when)) || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
         !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
         return NULL;
     const pass *only = NULL;
@@ -91,10 +107,10 @@ const pass *rule_merged_detection(const rule *r)
     return only;
 }
 
-gpu_program *program_of(frame *f, const char *vertex, const char *fragment, text *prelude)
+gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     char *finished = text_take(prelude);
-    gpu_program *p = finished ? gpu_program_of(f->g, vertex, fragment, finished) : NULL;
+    gpu_program *p = finished ? gpu_program_of(f->g, dialect, vertex, fragment, finished) : NULL;
     if (!finished)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(finished);
@@ -125,6 +141,12 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
     for (int i = 0; i < count; i++)
         if (target_of(f, s, reads[i]))
             target_declare(prelude, reads[i]);
+    if (s->targets[TARGET_EDGE_BEFORE])
+        text_append(prelude, "#define MAP_OF_BEFORE\n");
+    if (s->targets[TARGET_HALO])
+        text_append(prelude, "#define HAS_HALO\n");
+    if (s->shared)
+        text_append(prelude, "#define SHARED_LAYERS\n");
     if (s->targets[TARGET_ID])
         text_append(prelude, "#define HAS_ID\n");
 }

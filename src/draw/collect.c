@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/colour.h"
 #include "base/memory.h"
+#include "layer/layer.h"
 
 lmn_status frame_maps_create(frame_maps *m, int width, int height, lmn_error *error)
 {
@@ -33,26 +35,70 @@ void frame_maps_release(frame_maps *m)
     mem_free(m->id);
     mem_free(m->edge);
     mem_free(m->shade);
+    for (size_t i = 0; i < m->layer_count; i++)
+        mem_free(m->layers[i]);
+    mem_free(m->layers);
     memset(m, 0, sizeof *m);
 }
 
+/* Does the pixel belong to this figure, and not to another one that is there for its edges or shares the layers? */
+static bool is_own(const figure_state *s, const uint32_t id[2])
+{
+    if (id[0] == 0 || id[1] & SURFACE_COMPLEMENT)
+        return false;
+    return !s->shared || (id[1] >> SURFACE_INDEX_BITS & FIGURES_TOGETHER_MAX) == (uint32_t)s->index;
+}
+
+/* What was read back of a figure or of one layer of it. */
+typedef struct readings {
+    float    *normal_depth, *shade, *edge; /* 4 a pixel */
+    uint32_t *id;                          /* 2 a pixel */
+} readings;
+
 /* Takes a figure's pixels where they are the nearest so far; ink outside its boundary darkens what is empty. */
-static void merge_maps(frame_maps *m, const float *normal_depth, const uint32_t *id, const float *edge, const float *shade)
+static void merge_maps(frame_maps *m, const figure_state *s, const readings *r)
 {
     size_t count = (size_t)m->width * (size_t)m->height;
     for (size_t i = 0; i < count; i++) {
-        bool own = id[2 * i] != 0 && !(id[2 * i + 1] & 0x80000000u);
-        bool nearer = own && normal_depth[4 * i + 3] <= m->depth[i];
+        bool own = is_own(s, &r->id[2 * i]);
+        bool nearer = own && r->normal_depth[4 * i + 3] <= m->depth[i];
         if (nearer) {
-            m->depth[i] = normal_depth[4 * i + 3];
-            m->id[i] = id[2 * i];
-            memcpy(&m->normal[3 * i], &normal_depth[4 * i], 3 * sizeof(float));
-            memcpy(&m->shade[4 * i], &shade[4 * i], 4 * sizeof(float));
-            memcpy(&m->edge[4 * i], &edge[4 * i], 4 * sizeof(float));
+            m->depth[i] = r->normal_depth[4 * i + 3];
+            m->id[i] = r->id[2 * i];
+            memcpy(&m->normal[3 * i], &r->normal_depth[4 * i], 3 * sizeof(float));
+            memcpy(&m->shade[4 * i], &r->shade[4 * i], 4 * sizeof(float));
+            memcpy(&m->edge[4 * i], &r->edge[4 * i], 4 * sizeof(float));
         } else if (!own && m->id[i] == 0) {
-            for (int k = 0; k < 4; k++)
-                m->edge[4 * i + (size_t)k] = fminf(m->edge[4 * i + (size_t)k], edge[4 * i + (size_t)k]);
+            for (size_t k = 0; k < 4; k++)
+                m->edge[4 * i + k] = fminf(m->edge[4 * i + k], r->edge[4 * i + k]);
         }
+    }
+}
+
+static uint8_t byte_of(float v)
+{
+    return v > 0 ? v < 1 ? (uint8_t)lroundf(v * 255) : 255 : 0;
+}
+
+/* The same for one layer. */
+static void merge_layer(layer_map *layer, size_t count, const figure_state *s, const readings *r)
+{
+    for (size_t i = 0; i < count; i++) {
+        layer_map *m = &layer[i];
+        bool own = is_own(s, &r->id[2 * i]);
+        for (size_t k = 0; k < 4; k++) {
+            uint8_t edge = byte_of(r->edge[4 * i + k]);
+            m->edge[k] = own || edge < m->edge[k] ? edge : m->edge[k];
+        }
+        if (!own)
+            continue;
+        m->depth = r->normal_depth[4 * i + 3];
+        m->id = r->id[2 * i];
+        memcpy(m->normal, &r->normal_depth[4 * i], sizeof m->normal);
+        const float *shade = &r->shade[4 * i];
+        for (size_t k = 0; k < 3; k++)
+            m->shade[k] = byte_of(colour_from_linear(shade[3] > 0 ? shade[k] / shade[3] : 0));
+        m->shade[3] = byte_of(shade[3]);
     }
 }
 
@@ -75,24 +121,59 @@ void collect_edges(frame *f, figure_state *s)
     mem_free(edge);
 }
 
-void collect_figure(frame *f, figure_state *s)
+static layer_map *layer_at(frame *f, size_t index)
+{
+    frame_maps *m = f->maps;
+    size_t count = (size_t)f->width * (size_t)f->height;
+    while (m->layer_count <= index && !gpu_failed(f->g)) {
+        layer_map *layer = mem_calloc(count, sizeof *layer);
+        if (!layer || !mem_grow((void **)&m->layers, &m->layer_capacity, m->layer_count + 1, sizeof *m->layers)) {
+            mem_free(layer);
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+            return NULL;
+        }
+        for (size_t i = 0; i < count; i++) {
+            layer[i].depth = INFINITY;
+            memset(layer[i].edge, 255, sizeof layer[i].edge);
+        }
+        m->layers[m->layer_count++] = layer;
+    }
+    return gpu_failed(f->g) ? NULL : m->layers[index];
+}
+
+/* Reads the figure's pictures and merges them, into a layer's map too when the figure has several. */
+static void collect(frame *f, figure_state *s, bool layered)
 {
     size_t count = (size_t)f->width * (size_t)f->height;
-    float *normal_depth = mem_alloc(count * 16), *shade = mem_alloc(count * 16);
-    uint32_t *id = mem_alloc(count * 8);
-    if (!s->edges && (s->edges = mem_alloc(count * 16)))
+    readings r = {mem_alloc(count * 16), mem_alloc(count * 16), s->edges, mem_alloc(count * 8)};
+    if (!r.edge && (r.edge = s->edges = mem_alloc(count * 16)))
         for (size_t i = 0; i < count * 4; i++)
-            s->edges[i] = 1;
-    if (normal_depth && s->edges && shade && id) {
-        gpu_read(f->g, s->targets[TARGET_NORMAL_DEPTH], normal_depth);
-        gpu_read(f->g, s->targets[TARGET_ID], id);
-        gpu_read(f->g, s->targets[TARGET_SHADE], shade);
-        if (!gpu_failed(f->g))
-            merge_maps(f->maps, normal_depth, id, s->edges, shade);
+            r.edge[i] = 1;
+    if (r.normal_depth && r.edge && r.shade && r.id) {
+        gpu_read(f->g, s->targets[TARGET_NORMAL_DEPTH], r.normal_depth);
+        gpu_read(f->g, s->targets[TARGET_ID], r.id);
+        gpu_read(f->g, s->targets[TARGET_SHADE], r.shade);
+        if (!gpu_failed(f->g) && (!layered || s->layer == 0))
+            merge_maps(f->maps, s, &r);
+        layer_map *layer = layered ? layer_at(f, (size_t)s->layer) : NULL;
+        if (layer)
+            merge_layer(layer, count, s, &r);
     } else {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     }
-    mem_free(normal_depth);
-    mem_free(shade);
-    mem_free(id);
+    mem_free(r.normal_depth);
+    mem_free(r.shade);
+    mem_free(r.id);
+}
+
+void collect_figure(frame *f, figure_state *s)
+{
+    collect(f, s, false);
+}
+
+void collect_layer(frame *f, figure_state *s)
+{
+    collect(f, s, true);
+    mem_free(s->edges);
+    s->edges = NULL;
 }

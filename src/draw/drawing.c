@@ -161,7 +161,6 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     d->triangles = r->up.triangles;
     d->bounds = s->plan.box;
     d->load_ms = scene->load_ms;
-    d->layers = 1;
     d->part_names = mem_calloc(scene->part_count, sizeof *d->part_names);
     if (!d->part_names || !d->look || !d->vendor || !d->renderer || !d->version)
         return error_memory(error);
@@ -219,6 +218,10 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
     d->frame_ms = clock_ms() - start;
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
+    d->layers = s->frame.layers > 1 ? s->frame.layers : 1;
+    d->producer = s->frame.producer;
+    if (s->frame.lists_full)
+        warnings_add(&d->warnings, WARNING_LAYER_MEMORY, "layers did not fit into layers.memory and were peeled instead, which takes longer");
     if (status == LMN_OK)
         status = read_pixels(d, s, error);
     if (status != LMN_OK || !desc->profile)

@@ -32,6 +32,7 @@ struct lmn_drawing {
     pass_time   times[PASS_TIMES_MAX];
     size_t      time_count;
     int         layers;
+    const char *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
     size_t      programs; /* compiled by the renderer so far */
 };
 

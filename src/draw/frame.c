@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layer/layer.h"
 
 static void release_targets(frame *f, figure_state *s)
 {
@@ -12,16 +13,24 @@ static void release_targets(frame *f, figure_state *s)
         gpu_target_release(f->g, s->targets[i]);
 }
 
-static int reach_of(const figure *fig)
+static float lengths_of(const param *params, size_t count, const void *values)
+{
+    float sum = 0;
+    for (size_t p = 0; p < count; p++)
+        if (params[p].unit == UNIT_PX && params[p].type == PARAM_FLOAT && !param_is_auto(&params[p], values))
+            sum += fabsf(*(const float *)param_field(&params[p], values));
+    return sum;
+}
+
+int figure_reach(const figure *fig)
 {
     const rule *r = fig->rule;
     float widest = 0;
-    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
-        const kind *k = kinds[KIND_LINES];
-        for (size_t p = 0; p < k->common_count; p++)
-            if (k->common[p].unit == UNIT_PX && k->common[p].type == PARAM_FLOAT)
-                widest += fabsf(*(const float *)param_field(&k->common[p], r->uses[KIND_LINES][i].values));
-    }
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
+        widest += lengths_of(kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, r->uses[KIND_LINES][i].values);
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    if (compose && fig->layered)
+        widest += lengths_of(compose->technique->params, compose->technique->param_count, compose->values);
     return (int)ceilf(widest) + 2;
 }
 
@@ -54,21 +63,27 @@ static void draw_reflection(frame *f, figure_state *s)
     watch_stop(f, w, "surface", "reflection");
 }
 
-static void draw_figure(frame *f, const figure *fig)
+bool figure_open(frame *f, figure_state *s, const figure *fig)
 {
-    figure_state s = {.figure = fig, .near = f->camera.near, .far = f->camera.far};
+    *s = (figure_state){.figure = fig, .near = f->camera.near, .far = f->camera.far};
     double nearest = INFINITY, farthest = -INFINITY;
     box3 box = fig->complement ? f->plan->box : fig->box;
     camera_depth_range(&f->camera, box, &nearest, &farthest);
     double margin = fmax((farthest - nearest) * 1e-3, farthest * 1e-6);
-    s.near = fmax(nearest - margin, f->camera.near);
-    s.far = fmin(farthest + margin, f->camera.far);
-    if (!(s.far > s.near))
-        s.far = s.near + 1;
-    camera_pixels(&f->camera, fig->box, f->width, f->height, reach_of(fig), s.pixels);
+    s->near = fmax(nearest - margin, f->camera.near);
+    s->far = fmin(farthest + margin, f->camera.far);
+    if (!(s->far > s->near))
+        s->far = s->near + 1;
+    camera_pixels(&f->camera, fig->box, f->width, f->height, figure_reach(fig), s->pixels);
     if (!f->maps) /* maps are read back whole */
-        camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * reach_of(fig) + 2, s.around);
-    if (s.pixels[2] <= 0 || s.pixels[3] <= 0 || gpu_failed(f->g))
+        camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * figure_reach(fig) + 2, s->around);
+    return s->pixels[2] > 0 && s->pixels[3] > 0 && !gpu_failed(f->g);
+}
+
+static void draw_figure(frame *f, const figure *fig)
+{
+    figure_state s;
+    if (!figure_open(f, &s, fig))
         return;
     if (fig->reflects && !f->mirror)
         draw_reflection(f, &s);
@@ -91,15 +106,24 @@ static void draw_figure(frame *f, const figure *fig)
 
 static void draw_figures(frame *f)
 {
-    for (size_t i = 0; i < f->plan->figure_count; i++)
-        if (&f->plan->figures[i] != f->mirror)
-            draw_figure(f, &f->plan->figures[i]);
+    const plan *p = f->plan;
+    for (size_t i = 0, next; i < p->figure_count; i = next) {
+        next = i + 1;
+        if (!p->figures[i].layered) {
+            if (&p->figures[i] != f->mirror)
+                draw_figure(f, &p->figures[i]);
+            continue;
+        }
+        while (next < p->figure_count && p->figures[next].layered && next - i < FIGURES_TOGETHER_MAX)
+            next++;
+        layered_draw(f, &p->figures[i], (int)(next - i));
+    }
 }
 
 static void encode(frame *f, gpu_texture *out)
 {
     stopwatch w = watch_start(f);
-    gpu_program *p = gpu_program_of(f->g, "gpu/screen.vert", "finish/encode.frag", "");
+    gpu_program *p = gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "finish/encode.frag", "");
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {out}, .colour_count = 1});
         gpu_use(f->g, p, (gpu_state){0});

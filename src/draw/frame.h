@@ -28,6 +28,9 @@ typedef struct frame {
     frame_maps      *maps;            /* collects the figures' buffers when not NULL */
     gpu_texture     *page, *page_depth;
     float            clip_plane[4];   /* eye space, while a mirror's view is drawn */
+    int              layers;          /* drawn by the deepest stack */
+    const char      *producer;        /* of layers; NULL: there were none */
+    bool             lists_full;      /* lists had no room, so that layers were peeled instead */
     const figure    *mirror;          /* whose view is drawn; NULL: the scene itself */
     pass_time        times[PASS_TIMES_MAX];
     size_t           time_count;
@@ -35,6 +38,14 @@ typedef struct frame {
 
 /* Draws the page and encodes it into `out` (RGBA8, width/samples wide). Errors stick to the GPU. */
 void frame_draw(frame *f, gpu_texture *out);
+
+/* What one layer was made of: 28 bytes a pixel. */
+typedef struct layer_map {
+    float     depth;     /* eye depth, INFINITY where empty */
+    float     normal[3];
+    uint32_t  id;
+    uint8_t   edge[4], shade[4]; /* shade: sRGB, straight alpha */
+} layer_map;
 
 /* What the figures were made of, merged by nearest depth; row 0 at the bottom. */
 struct frame_maps {
@@ -44,6 +55,8 @@ struct frame_maps {
     uint32_t *id;
     float    *edge;    /* 4 */
     float    *shade;   /* 4, linear premultiplied */
+    layer_map **layers; /* of figures that are seen through, nearest first */
+    size_t     layer_count, layer_capacity;
 };
 lmn_status frame_maps_create(frame_maps *out, int width, int height, lmn_error *error);
 void       frame_maps_release(frame_maps *m);

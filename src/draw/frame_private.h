@@ -13,8 +13,39 @@ typedef struct figure_state {
     float        *edges;     /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
     int           pixels[4]; /* where the figure and its lines can be: scissor */
     int           around[4]; /* what passes there can look at: cleared */
+    int           band[4];   /* layered: what is composed now, a part of `pixels` */
+    int           layer;     /* layered: 0 = visible */
+    int           index;     /* layered: of the figure among those that share their layers */
+    bool          shared;    /* layered: other figures' surfaces are in the layers too */
+    float         rear;      /* layered: opacity */
+    bool          filled;    /* layered: the fill is drawn with these lines */
     double        near, far;
 } figure_state;
+
+/* What the figures share that are seen through together: the pictures of one layer at a time. */
+typedef struct layer_stack {
+    figure_state *states;       /* one a figure; they borrow the pictures below and own their edge maps */
+    figure       *hidden;       /* the figures with the rules of hidden layers */
+    int           count;
+    unsigned      channels;
+    int           limit;        /* layers at most */
+    int           reach;        /* of the widest lines, pixels */
+    int           box[4];       /* all that is drawn */
+    int           band[4];      /* that is drawn now */
+    int           around[4];    /* the band and what passes there look at */
+    gpu_texture  *targets[TARGET_COUNT]; /* of the current layer */
+    gpu_texture  *before_depth, *before_id; /* of the layer in front */
+    gpu_texture  *mask;         /* depth of what is to be uncovered, or NULL */
+    gpu_texture  *nodes[2];     /* lists: nodes of up to eight layers */
+    gpu_buffer   *heads, *list, *counter;
+    int           node_words;
+} layer_stack;
+
+/* --- frame.c --- */
+/* Sets range and pixels; false when nothing of it is on the page. */
+bool figure_open(frame *f, figure_state *s, const figure *fig);
+/* How far the figure's lines reach beyond it, pixels. */
+int  figure_reach(const figure *fig);
 
 /* --- profile.c: times of passes --- */
 typedef struct stopwatch {
@@ -32,7 +63,7 @@ void lights_set(frame *f);
 gpu_texture         *frame_acquire(frame *f, target t);
 void                 frame_set_common(frame *f, const figure_state *s);
 /* The program of these files with this prelude, which is used up; NULL after an error. */
-gpu_program         *program_of(frame *f, const char *vertex, const char *fragment, text *prelude);
+gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
 param_set            use_own_set(kind_id id, const technique_use *use);
 param_set            use_common_set(kind_id id, const technique_use *use);
 const technique_use *rule_inked_lines(const rule *r); /* the line technique that a composition inks, or NULL */
@@ -40,6 +71,8 @@ const pass          *rule_merged_detection(const rule *r); /* the pass that the 
 /* Declares, or sets, the pictures that these passes read and that are there; either pass may be NULL. */
 void                 reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
 void                 reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
+/* Does some line technique of the rule work on whole lines? */
+bool                 rule_traces_lines(const rule *r);
 bool                 pass_applies(kind_id id, const pass *p, const technique_use *use);
 gpu_texture         *target_of(const frame *f, const figure_state *s, target t);
 
@@ -48,6 +81,29 @@ void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless de
 void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
 void raster_shade_deferred(frame *f, figure_state *s);
+/* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
+void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
+/* The next layer by peeling: what lies behind the stack's last one. */
+void raster_layer(frame *f, layer_stack *stack, bool first);
+/* Every fragment into the pixels' lists. */
+void raster_lists(frame *f, layer_stack *stack, int node_words, unsigned node_limit);
+/* The depth of some parts alone. */
+void raster_mask(frame *f, layer_stack *stack, const bool *parts);
+
+/* --- layered.c: figures that are seen through --- */
+/* Draws `count` figures whose layers interleave. */
+void layered_draw(frame *f, const figure *figures, int count);
+/* The figure among those of the stack that draws a part; NULL: none. */
+figure_state *layer_owner(const layer_stack *stack, size_t part_index);
+
+/* --- lists.c: all layers from one geometry pass --- */
+bool lists_possible(const frame *f);
+/* Gathers every fragment inside the stack's `around` box. Returns the number of pieces the box must be cut into so that each
+ * fits into memory: 1 when everything did. */
+int  lists_build(frame *f, layer_stack *stack, size_t room);
+/* Draws layer `index` into the stack's pictures. Layers are asked for in order. */
+void lists_layer(frame *f, layer_stack *stack, int index);
+void lists_release(frame *f, layer_stack *stack);
 
 /* --- passes.c: declared passes --- */
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
@@ -59,5 +115,6 @@ bool mirror_prepare(const frame *f, const figure *mirror, frame *inner);
 /* --- collect.c: maps --- */
 void collect_edges(frame *f, figure_state *s);
 void collect_figure(frame *f, figure_state *s);
+void collect_layer(frame *f, figure_state *s); /* of layer s->layer */
 
 #endif

@@ -26,7 +26,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
-    return program_of(f, "gpu/screen.vert", path, &prelude);
+    return program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
 }
 
 /* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
@@ -52,17 +52,18 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
 {
     stopwatch w = watch_start(f);
     gpu_program *program = pass_program(f, s, p, params);
-    bool page = p->writes == TARGET_PAGE;
-    gpu_texture *written = page ? f->page : frame_acquire(f, p->writes);
+    bool layers = p->writes == TARGET_LAYERS, page = p->writes == TARGET_PAGE || layers; /* pictures that are added to */
+    gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire(f, p->writes);
     if (program && written && !gpu_failed(f->g)) {
         gpu_pass target = {.colours = {written}, .colour_count = 1, .depth = p->depth ? f->page_depth : NULL,
                            .clear = !page, .keep_depth = true};
         set_outside(s, p, target.clear_values[0]);
-        memcpy(target.scissor, s->pixels, sizeof target.scissor);
+        memcpy(target.scissor, layers ? s->band : s->pixels, sizeof target.scissor);
         memcpy(target.clear_box, s->around, sizeof target.clear_box);
         gpu_pass_begin(f->g, &target);
-        gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth,
+        gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth && !layers,
                                            .blend = p->blend == BLEND_OVER ? GPU_BLEND_OVER
+                                                    : p->blend == BLEND_UNDER ? GPU_BLEND_UNDER
                                                     : p->blend == BLEND_MIN ? GPU_BLEND_MIN : GPU_BLEND_NONE});
         frame_set_common(f, s);
         gpu_set_int(f->g, "u_iteration", iteration);

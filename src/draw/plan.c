@@ -2,8 +2,12 @@
 
 #include <string.h>
 
+#include <math.h>
+
 #include "base/memory.h"
+#include "compose/compose.h"
 #include "layer/layer.h"
+#include "lines/lines.h"
 
 const technique_use *rule_use(const rule *r, kind_id id)
 {
@@ -58,6 +62,15 @@ static unsigned channels_of(const rule *r, bool several_parts)
     return channels;
 }
 
+/* Contrast-aware lines look at the picture they are drawn on. */
+static bool lines_read_shade(const rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
+        if (((const lines_common *)r->uses[KIND_LINES][i].values)->contrast > 0)
+            return true;
+    return false;
+}
+
 static bool has_active_pass(const technique_use *use)
 {
     const technique *t = use->technique;
@@ -67,11 +80,30 @@ static bool has_active_pass(const technique_use *use)
     return false;
 }
 
+static void settle_layers(figure *f, bool as_sprites)
+{
+    const rule *r = f->rule;
+    const technique_use *layers = rule_use(r, KIND_LAYERS);
+    const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
+    f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
+    /* Part id and facing order coincident surfaces. */
+    f->channels = channels_of(r, f->part_count > 1) | CHANNEL_ID;
+    if (as_sprites || lines_read_shade(r))
+        f->channels |= CHANNEL_SHADE;
+    if (as_sprites)
+        f->channels |= CHANNEL_NORMAL_DEPTH;
+}
+
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
-    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
-    const front_values *front = layers ? layers->values : NULL;
+    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS), *compose = rule_use(r, KIND_COMPOSE);
+    f->layered = compose && compose->technique->layered;
+    if (f->layered) {
+        settle_layers(f, as_sprites);
+        return;
+    }
+    const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
     f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
     f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->selected_count;
     f->reflects = surface && surface->technique->reflects;
@@ -88,10 +120,10 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
 
 static int figure_rank(const figure *f)
 {
-    return f->direct ? 0 : f->reflects ? 2 : 1;
+    return f->direct ? 0 : f->layered ? 3 : f->reflects ? 2 : 1;
 }
 
-/* A stable insertion sort: opaque plain figures first, mirrors last. */
+/* A stable insertion sort: opaque plain figures first, then mirrors, and last what is seen through. */
 static void order_figures(plan *p)
 {
     for (size_t i = 1; i < p->figure_count; i++) {
@@ -167,7 +199,8 @@ static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
     p->figures = grown;
     for (size_t i = 0; i < before; i++) {
         const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
-        if (!surface || !surface->technique->reflects)
+        const technique_use *compose = rule_use(p->figures[i].rule, KIND_COMPOSE);
+        if (!surface || !surface->technique->reflects || (compose && compose->technique->layered))
             continue;
         for (size_t part = 0; part < p->scene->part_count && p->figures[i].part_count > 1; part++) {
             if (!p->figures[i].designated[part])
@@ -189,6 +222,122 @@ static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
     return LMN_OK;
 }
 
+/* A variant of a rule, owned by the plan; NULL when memory is gone. */
+static rule *add_rule(plan *p, const rule *from)
+{
+    rule *r = &p->rules[p->rule_count++]; /* there is room for two variants of each */
+    return copy_rule(r, from, 1) ? r : NULL;
+}
+
+/* The same lines as hidden layers have them. */
+static bool add_hidden_rule(plan *p, figure *f)
+{
+    const layer_style *style = rule_use(f->rule, KIND_COMPOSE)->values;
+    rule *r = add_rule(p, f->rule);
+    for (size_t i = 0; r && i < r->use_counts[KIND_LINES]; i++) {
+        lines_common *lines = r->uses[KIND_LINES][i].values;
+        if (!isnan(style->hidden_colour.r))
+            lines->colour = lines->inner_colour = lines->id_colour = style->hidden_colour;
+        if (!isnan(style->hidden_width))
+            lines->width = style->hidden_width;
+    }
+    f->hidden = r;
+    return r != NULL;
+}
+
+/* The figure's parts that are its own focus become an opaque figure in front of which the layers lie. */
+static lmn_status split_focus(plan *p, size_t index, const upload *up, const peel_values *peel, lmn_error *error)
+{
+    figure *f = &p->figures[index];
+    figure opaque = {.box = box3_empty(), .highlight = peel->focus_colour.a > 0 ? &peel->focus_colour : NULL};
+    opaque.designated = mem_calloc(p->scene->part_count, sizeof *opaque.designated);
+    rule *r = opaque.designated ? add_rule(p, f->rule) : NULL;
+    if (!r) {
+        mem_free(opaque.designated);
+        return error_memory(error);
+    }
+    opaque.rule = r;
+    static const struct {
+        kind_id          id;
+        const technique *technique;
+    } replaced[] = {{KIND_LAYERS, &layers_front}, {KIND_COMPOSE, &compose_opaque}};
+    for (size_t i = 0; i < 2; i++) {
+        technique_use *use = &r->uses[replaced[i].id][0], fresh;
+        if (!use_create(&fresh, kinds[replaced[i].id], replaced[i].technique)) {
+            mem_free(opaque.designated);
+            return error_memory(error);
+        }
+        use_release(use);
+        *use = fresh;
+    }
+    box3 left = box3_empty();
+    for (size_t i = 0; i < p->scene->part_count; i++) {
+        if (f->designated[i] && f->focus[i]) {
+            f->designated[i] = false;
+            opaque.designated[i] = true;
+            opaque.part_count++;
+            opaque.box = box3_union(opaque.box, up->part_boxes[i]);
+        } else if (f->designated[i]) {
+            left = box3_union(left, up->part_boxes[i]);
+        }
+    }
+    f->part_count -= opaque.part_count;
+    f->box = left;
+    figure *grown = mem_realloc(p->figures, (p->figure_count + 1) * sizeof *grown);
+    if (!grown) {
+        mem_free(opaque.designated);
+        return error_memory(error);
+    }
+    p->figures = grown;
+    p->figures[p->figure_count++] = opaque;
+    return LMN_OK;
+}
+
+static lmn_status find_focus(plan *p, size_t index, const upload *up, warnings *notes, lmn_error *error)
+{
+    figure *f = &p->figures[index];
+    const technique_use *layers = rule_use(f->rule, KIND_LAYERS), *compose = rule_use(f->rule, KIND_COMPOSE);
+    const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
+    if (!peel || !peel->focus.text[0] || !compose || !compose->technique->layered)
+        return LMN_OK;
+    selector *wanted = NULL;
+    lmn_status status = selector_parse(&wanted, peel->focus.text, error);
+    if (status != LMN_OK)
+        return status;
+    f->focus = mem_calloc(p->scene->part_count, sizeof *f->focus);
+    size_t found = 0, own = 0;
+    for (size_t i = 0; f->focus && i < p->scene->part_count; i++) {
+        f->focus[i] = p->selected[i] && selector_matches(wanted, p->scene, i);
+        found += f->focus[i];
+        own += f->focus[i] && f->designated[i];
+    }
+    selector_destroy(&wanted);
+    if (!f->focus)
+        return error_memory(error);
+    if (found == 0) {
+        warnings_add(notes, WARNING_NO_MATCH, "layers.focus '%s' selects no part that is drawn", peel->focus.text);
+        mem_free(f->focus);
+        f->focus = NULL;
+    }
+    return own ? split_focus(p, index, up, peel, error) : LMN_OK;
+}
+
+/* Layered figures: what is to be uncovered, and the lines of hidden layers. */
+static lmn_status prepare_layers(plan *p, const upload *up, warnings *notes, lmn_error *error)
+{
+    for (size_t i = 0, count = p->figure_count; i < count; i++) {
+        const technique_use *compose = rule_use(p->figures[i].rule, KIND_COMPOSE);
+        if (!compose || !compose->technique->layered)
+            continue;
+        lmn_status status = find_focus(p, i, up, notes, error);
+        if (status != LMN_OK)
+            return status;
+        if (!add_hidden_rule(p, &p->figures[i]))
+            return error_memory(error);
+    }
+    return LMN_OK;
+}
+
 lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
                        int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error)
 {
@@ -198,7 +347,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     out->box = box3_empty();
     out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
-    out->rules = mem_calloc(look->rule_count, sizeof *out->rules);
+    out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
     bool good = out->selected && out->figures && out->rules;
     for (size_t r = 0; good && r < look->rule_count; r++) {
         out->rule_count++;
@@ -216,6 +365,8 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
         return status;
     share_parts(out, up, notes);
     status = split_mirrors(out, up, error);
+    if (status == LMN_OK)
+        status = prepare_layers(out, up, notes, error);
     if (status != LMN_OK)
         return status;
     for (size_t i = 0; i < out->figure_count; i++)
@@ -226,8 +377,10 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
 
 void plan_release(plan *p)
 {
-    for (size_t i = 0; i < p->figure_count; i++)
+    for (size_t i = 0; i < p->figure_count; i++) {
         mem_free(p->figures[i].designated);
+        mem_free(p->figures[i].focus);
+    }
     for (size_t i = 0; i < p->rule_count; i++)
         release_rule(&p->rules[i]);
     mem_free(p->rules);

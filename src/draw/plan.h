@@ -8,6 +8,9 @@
 /* The parts that one rule draws. */
 typedef struct figure {
     const rule *rule;
+    const rule *hidden;     /* layered: the rule with its lines as hidden layers have them */
+    bool       *focus;      /* layered, per part: to be uncovered; NULL: nothing */
+    const colour *highlight; /* drawn in this colour instead of its own; NULL: as it is */
     bool       *designated; /* per part: drawn by this figure */
     size_t      part_count; /* designated ones */
     box3        box;        /* of the designated parts, world axes */
@@ -16,12 +19,14 @@ typedef struct figure {
     bool        deferred;
     bool        direct;     /* drawn straight onto the page */
     bool        reflects;
+    bool        layered;    /* composed layer by layer */
+    int         layer_count; /* layers at most */
 } figure;
 
 typedef struct plan {
     const lmn_scene *scene;
     const lmn_look  *look;
-    rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted) */
+    rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t           rule_count;
     bool            *selected; /* per part: drawn by some figure */
     size_t           selected_count;

@@ -1,5 +1,6 @@
 /* The geometry pass: a figure's parts into its G-buffer or onto the page. */
 #include "draw/frame_private.h"
+#include "layer/layer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,12 +13,21 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
     return fig->designated[item->part_index] || (fig->complement && f->plan->selected[item->part_index]);
 }
 
-static const material *material_of(const frame *f, const draw_item *item)
+/* The item's material; `room` holds it when it is painted in the figure's highlight. */
+static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *room)
 {
     /* Formats without materials: a light neutral grey. */
     static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1}, .base_texture = TEXTURE_USE_NONE,
                                       .normal_texture = TEXTURE_USE_NONE, .normal_scale = 1, .alpha_cutoff = 0.5f};
-    return item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
+    const material *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
+    if (!fig->highlight)
+        return own;
+    float linear[4];
+    uniforms_linear(*fig->highlight, linear);
+    *room = *own;
+    room->base_texture = standard.base_texture;
+    room->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
+    return room;
 }
 
 typedef struct item_textures {
@@ -55,12 +65,12 @@ static void set_texture_matrix(gpu *g, const char *matrix, const char *offset, c
     gpu_set_vec4(g, offset, (float[]){use->offset[0], use->offset[1], (float)use->uv_set, strength});
 }
 
-static void set_material(gpu *g, const material *m, item_textures t)
+static void set_material(gpu *g, const material *m, item_textures t, bool layered)
 {
     const vec4 *c = &m->base_colour;
     gpu_set_vec4(g, "u_base_colour", (float[]){c->x, c->y, c->z, c->w});
-    /* Blended surfaces are drawn as cut-outs: what is mostly there is there. */
-    gpu_set_float(g, "u_alpha_cutoff", m->alpha == ALPHA_BLEND ? 0.1f : m->alpha_cutoff);
+    /* Where nothing is seen through, blended surfaces are cut-outs: what is mostly there is there. */
+    gpu_set_float(g, "u_alpha_cutoff", m->alpha != ALPHA_BLEND ? m->alpha_cutoff : layered ? 0.004f : 0.1f);
     gpu_set_int(g, "u_unlit", m->unlit);
     if (t.base) {
         gpu_set_texture(g, "t_base", t.base, true);
@@ -108,18 +118,37 @@ typedef struct outputs {
     int normal_depth, id, albedo, shade; /* attachment, −1 = not */
 } outputs;
 
-static void declare_outputs(text *prelude, outputs o)
+static const outputs no_outputs = {-1, -1, -1, -1};
+
+/* One run over the parts. */
+typedef struct raster_job {
+    const figure_state *state;  /* of the only figure; NULL: whose part it is in the stack */
+    const layer_stack  *stack;
+    outputs             at;
+    const pass         *inking; /* lines on top and no complement */
+    const bool         *only;   /* per part: all others are left out */
+    bool                peeled; /* nothing that the layer before had */
+    int                 node_words; /* not 0: into lists, nodes of this size */
+    unsigned            node_limit;
+} raster_job;
+
+static void declare_outputs(text *prelude, const raster_job *job)
 {
-    if (o.normal_depth >= 0)
-        text_append(prelude, "#define AT_NORMAL_DEPTH %d\n", o.normal_depth);
-    if (o.id >= 0)
-        text_append(prelude, "#define AT_ID %d\n", o.id);
-    if (o.albedo >= 0)
-        text_append(prelude, "#define AT_ALBEDO %d\n", o.albedo);
-    if (o.shade >= 0)
-        text_append(prelude, "#define AT_SHADE %d\n", o.shade);
-    else
+    const struct {
+        const char *name;
+        int         at;
+    } rows[] = {{"NORMAL_DEPTH", job->at.normal_depth}, {"ID", job->at.id}, {"ALBEDO", job->at.albedo}, {"SHADE", job->at.shade}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].at >= 0)
+            text_append(prelude, "#define AT_%s %d\n", rows[i].name, rows[i].at);
+    if (job->at.shade < 0 && !job->stack)
         text_append(prelude, "#define DEFERRED\n");
+    if (job->stack)
+        text_append(prelude, "#define LAYERED\n");
+    if (job->peeled)
+        text_append(prelude, "#define PEELED\n");
+    if (job->node_words)
+        text_append(prelude, "#define INTO_LISTS\n#define NODE_WORDS %d\n", job->node_words);
 }
 
 /* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */
@@ -137,24 +166,24 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     snprintf(path, size, "%s", joined);
 }
 
-static gpu_program *raster_program(frame *f, const figure_state *s, const draw_item *item, const material *m, item_textures t, outputs o,
-                                   const pass *inking)
+static gpu_program *raster_program(frame *f, const figure_state *s, const draw_item *item, const material *m, item_textures t,
+                                   const raster_job *job)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     text prelude = {0};
-    declare_outputs(&prelude, o);
+    declare_outputs(&prelude, job);
     declare_material(&prelude, item, m, t);
     if (f->mirror)
         text_append(&prelude, "#define CLIPPED\n");
     char path[320] = "layer/raster.frag";
-    if (o.shade >= 0) {
+    if (job->at.shade >= 0) {
         lights_declare(&prelude, f);
         uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
         snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface);
     }
-    if (inking)
-        declare_ink(&prelude, path, sizeof path, f, s, inking);
-    return program_of(f, "layer/raster.vert", path, &prelude);
+    if (job->inking)
+        declare_ink(&prelude, path, sizeof path, f, s, job->inking);
+    return program_of(f, job->node_words ? GPU_FAST : GPU_FLOOR, "layer/raster.vert", path, &prelude);
 }
 
 static void set_ink(frame *f, const figure_state *s, const pass *inking)
@@ -165,77 +194,142 @@ static void set_ink(frame *f, const figure_state *s, const pass *inking)
     reads_set(f, s, inking, rule_merged_detection(s->figure->rule));
 }
 
-/* Draws the figure's parts (and its complement) into the current pass; with `inking`, lines on top and no complement. */
-static void draw_parts(frame *f, const figure_state *s, outputs o, const pass *inking)
+static void set_layers(frame *f, const raster_job *job)
 {
-    const figure *fig = s->figure;
-    const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
-    int32_t last_material = -2;
-    bool last_uvs = false, last_colours = false;
-    gpu_program *program = NULL;
-    for (size_t i = 0; i < f->up->item_count && !gpu_failed(f->g); i++) {
-        const draw_item *item = &f->up->items[i];
-        if (!is_drawn(f, fig, item) || (inking && !fig->designated[item->part_index]))
-            continue;
-        const material *m = material_of(f, item);
-        if (!program || item->material != last_material || item->has_uvs != last_uvs || item->has_colours != last_colours) {
-            item_textures t = textures_of(f, item, m);
-            program = raster_program(f, s, item, m, t, o, inking);
-            gpu_use(f->g, program, (gpu_state){.depth_test = true, .depth_write = true});
-            if (gpu_failed(f->g))
-                return;
-            frame_set_common(f, s);
-            set_projection(f);
-            if (o.shade >= 0)
-                uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
-            if (inking)
-                set_ink(f, s, inking);
-            if (f->mirror)
-                gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
-            if (s->targets[TARGET_REFLECTION])
-                gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
-            set_material(f->g, m, t);
-            last_material = item->material;
-            last_uvs = item->has_uvs;
-            last_colours = item->has_colours;
-        }
-        set_transform(f, &item->world);
-        gpu_set_uint(f->g, "u_part_id", item->part_id);
-        bool other = !fig->designated[item->part_index];
-        gpu_set_uint(f->g, "u_surface_id", item->surface_id | (other ? 0x80000000u : 0));
-        gpu_draw_mesh(f->g, item->mesh);
+    if (job->peeled) {
+        gpu_set_texture(f->g, "t_before_depth", job->stack->before_depth, false);
+        gpu_set_texture(f->g, "t_before_id", job->stack->before_id, false);
+    }
+    if (job->node_words) {
+        const int *box = job->stack->around;
+        gpu_set_vec4(f->g, "u_list_box", (float[]){(float)box[0], (float)box[1], (float)box[2], (float)box[3]});
+        gpu_set_uint(f->g, "u_node_limit", job->node_limit);
     }
 }
 
-/* Adds a channel to the geometry pass; background is depth "far", normal to the viewer, id 0, and no colour. */
-static int add_output(frame *f, figure_state *s, gpu_pass *pass, target t, const float clear[4])
+/* What the last drawn item needed; most items in a row need the same. */
+typedef struct raster_setup {
+    const figure_state *owner;
+    int32_t             material;
+    bool                has_uvs, has_colours, ready;
+    uint32_t            triangles; /* drawn so far: orders what coincides */
+} raster_setup;
+
+static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
-    s->targets[t] = frame_acquire(f, t);
+    if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
+        item->has_colours == last->has_colours)
+        return;
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    material tinted;
+    const material *m = material_of(f, s->figure, item, &tinted);
+    item_textures t = textures_of(f, item, m);
+    gpu_program *program = raster_program(f, s, item, m, t, job);
+    gpu_use(f->g, program, (gpu_state){.depth_test = !job->node_words, .depth_write = !job->node_words, .depth_less = job->stack != NULL});
+    if (gpu_failed(f->g))
+        return;
+    frame_set_common(f, s);
+    set_projection(f);
+    if (job->at.shade >= 0)
+        uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+    if (job->inking)
+        set_ink(f, s, job->inking);
+    set_layers(f, job);
+    if (f->mirror)
+        gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
+    if (s->targets[TARGET_REFLECTION])
+        gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
+    set_material(f->g, m, t, job->stack != NULL);
+    *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, true, last->triangles};
+}
+
+/* Whose item it is in this run; NULL: nobody's, it is not drawn. */
+static const figure_state *owner_of(const frame *f, const raster_job *job, const draw_item *item)
+{
+    if (job->only && !job->only[item->part_index])
+        return NULL;
+    if (!job->state)
+        return f->mirror && f->mirror->designated[item->part_index] ? NULL : layer_owner(job->stack, item->part_index);
+    if (job->only)
+        return job->state;
+    if (!is_drawn(f, job->state->figure, item) || (job->inking && !job->state->figure->designated[item->part_index]))
+        return NULL;
+    return job->state;
+}
+
+static void draw_item_of(frame *f, const raster_job *job, const draw_item *item, raster_setup *last)
+{
+    const figure_state *s = owner_of(f, job, item);
+    if (!s)
+        return;
+    set_up(f, job, s, item, last);
+    if (gpu_failed(f->g))
+        return;
+    set_transform(f, &item->world);
+    gpu_set_uint(f->g, "u_part_id", item->part_id);
+    bool other = job->state && !job->only && !s->figure->designated[item->part_index];
+    gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
+    gpu_set_uint(f->g, "u_order", last->triangles);
+    gpu_draw_mesh(f->g, item->mesh);
+    last->triangles += gpu_mesh_triangles(item->mesh);
+}
+
+/* Draws parts into the current pass. Layers order what coincides by part and then by facing; whatever is drawn first stays, so parts
+ * come in that order, front faces before back faces. */
+static void draw_parts(frame *f, const raster_job *job)
+{
+    raster_setup last = {0};
+    const upload *up = f->up;
+    for (size_t first = 0, end; first < up->item_count && !gpu_failed(f->g); first = end) {
+        end = first + 1;
+        while (end < up->item_count && up->items[end].part_index == up->items[first].part_index)
+            end++;
+        for (int round = 0; round < (job->stack ? 2 : 1); round++) {
+            gpu_cull_faces(f->g, !job->stack ? GPU_CULL_NONE : round ? GPU_CULL_FRONT : GPU_CULL_BACK);
+            for (size_t i = first; i < end && !gpu_failed(f->g); i++)
+                draw_item_of(f, job, &up->items[i], &last);
+        }
+    }
+    gpu_cull_faces(f->g, GPU_CULL_NONE);
+}
+
+/* Adds a channel to the geometry pass; background is depth "far", normal to the viewer, id 0, and no colour. */
+static int add_output(frame *f, gpu_texture *targets[TARGET_COUNT], gpu_pass *pass, target t, const float clear[4])
+{
+    targets[t] = frame_acquire(f, t);
     memcpy(pass->clear_values[pass->colour_count], clear, 4 * sizeof(float));
-    pass->colours[pass->colour_count] = s->targets[t];
+    pass->colours[pass->colour_count] = targets[t];
     return pass->colour_count++;
+}
+
+/* The pictures for these channels, cleared to emptiness, with a depth buffer. */
+static outputs open_outputs(frame *f, unsigned channels, gpu_texture *targets[TARGET_COUNT], gpu_pass *pass, double far)
+{
+    outputs o = no_outputs;
+    pass->clear = true;
+    if (channels & CHANNEL_NORMAL_DEPTH)
+        o.normal_depth = add_output(f, targets, pass, TARGET_NORMAL_DEPTH, (float[]){0, 0, 1, (float)far});
+    if (channels & CHANNEL_ID)
+        o.id = add_output(f, targets, pass, TARGET_ID, (float[]){0, 0, 0, 0});
+    if (channels & CHANNEL_ALBEDO)
+        o.albedo = add_output(f, targets, pass, TARGET_ALBEDO, (float[]){1, 1, 1, 0});
+    if (channels & CHANNEL_SHADE)
+        o.shade = add_output(f, targets, pass, TARGET_SHADE, (float[]){0, 0, 0, 0});
+    pass->depth = targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
+    return o;
 }
 
 void raster_figure(frame *f, figure_state *s)
 {
     const figure *fig = s->figure;
     stopwatch w = watch_start(f);
-    gpu_pass pass = {.clear = true};
+    gpu_pass pass = {0};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
-    outputs o = {-1, -1, -1, -1};
-    if (fig->channels & CHANNEL_NORMAL_DEPTH)
-        o.normal_depth = add_output(f, s, &pass, TARGET_NORMAL_DEPTH, (float[]){0, 0, 1, (float)s->far});
-    if (fig->channels & CHANNEL_ID)
-        o.id = add_output(f, s, &pass, TARGET_ID, (float[]){0, 0, 0, 0});
-    if (fig->channels & CHANNEL_ALBEDO)
-        o.albedo = add_output(f, s, &pass, TARGET_ALBEDO, (float[]){1, 1, 1, 0});
-    if (!fig->deferred)
-        o.shade = add_output(f, s, &pass, TARGET_SHADE, (float[]){0, 0, 0, 0});
-    pass.depth = s->targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
+    outputs o = open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
     if (!gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &pass);
-        draw_parts(f, s, o, NULL);
+        draw_parts(f, &(raster_job){.state = s, .at = o});
     }
     watch_stop(f, w, "", "geometry");
 }
@@ -250,7 +344,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
-    gpu_program *p = program_of(f, "gpu/screen.vert", path, &prelude);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true});
         gpu_use(f->g, p, (gpu_state){0});
@@ -270,7 +364,7 @@ void raster_direct(frame *f, figure_state *s)
     gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    draw_parts(f, s, (outputs){-1, -1, -1, 0}, NULL);
+    draw_parts(f, &(raster_job){.state = s, .at = {-1, -1, -1, 0}});
     watch_stop(f, w, "", "geometry");
 }
 
@@ -280,5 +374,51 @@ void raster_inked(frame *f, figure_state *s, const pass *inking)
     gpu_pass onto = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(onto.scissor, s->pixels, sizeof onto.scissor);
     gpu_pass_begin(f->g, &onto);
-    draw_parts(f, s, (outputs){-1, -1, -1, 0}, rule_inked_lines(s->figure->rule) ? inking : NULL);
+    draw_parts(f, &(raster_job){.state = s, .at = {-1, -1, -1, 0}, .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
+}
+
+void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude)
+{
+    memcpy(pass->scissor, stack->around, sizeof pass->scissor);
+    memcpy(pass->clear_box, stack->around, sizeof pass->clear_box);
+    outputs at = open_outputs(f, stack->channels, stack->targets, pass, f->camera.far);
+    declare_outputs(prelude, &(raster_job){.stack = stack, .at = at});
+}
+
+void raster_layer(frame *f, layer_stack *stack, bool first)
+{
+    stopwatch w = watch_start(f);
+    gpu_pass pass = {0};
+    memcpy(pass.scissor, stack->around, sizeof pass.scissor);
+    memcpy(pass.clear_box, stack->around, sizeof pass.clear_box);
+    outputs o = open_outputs(f, stack->channels, stack->targets, &pass, f->camera.far);
+    if (!gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &pass);
+        draw_parts(f, &(raster_job){.stack = stack, .at = o, .peeled = !first});
+    }
+    watch_stop(f, w, "layers", "peel");
+}
+
+void raster_lists(frame *f, layer_stack *stack, int node_words, unsigned node_limit)
+{
+    /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
+    gpu_pass pass = {.depth = f->page_depth};
+    memcpy(pass.scissor, stack->around, sizeof pass.scissor);
+    gpu_pass_begin(f->g, &pass);
+    outputs o = no_outputs;
+    if (stack->channels & CHANNEL_SHADE)
+        o.shade = 0;
+    draw_parts(f, &(raster_job){.stack = stack, .at = o, .node_words = node_words, .node_limit = node_limit});
+}
+
+void raster_mask(frame *f, layer_stack *stack, const bool *parts)
+{
+    stopwatch w = watch_start(f);
+    stack->mask = frame_acquire(f, TARGET_DEPTH);
+    gpu_pass pass = {.depth = stack->mask, .clear = true};
+    if (!gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &pass);
+        draw_parts(f, &(raster_job){.state = &stack->states[0], .at = no_outputs, .only = parts});
+    }
+    watch_stop(f, w, "layers", "mask");
 }

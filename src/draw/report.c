@@ -90,6 +90,8 @@ char *drawing_report_json(const lmn_drawing *d)
                                                  (json_int_t)d->triangles, "bounds", box_json(d->bounds)));
     json_object_set_new(root, "camera", camera_json(&d->camera));
     json_object_set_new(root, "layers", json_integer(d->layers));
+    if (d->producer)
+        json_object_set_new(root, "layer_producer", json_string(d->producer));
     json_object_set_new(root, "programs", json_integer((json_int_t)d->programs));
     json_object_set_new(root, "passes", passes_json(d->times, d->time_count));
     json_object_set_new(root, "load_ms", json_real(d->load_ms));

@@ -8,8 +8,8 @@
 static const char *const target_names[TARGET_COUNT] = {
     [TARGET_NONE] = "",          [TARGET_NORMAL_DEPTH] = "t_normal_depth", [TARGET_ID] = "t_id",
     [TARGET_ALBEDO] = "t_albedo", [TARGET_SHADE] = "t_shade",              [TARGET_DEPTH] = "t_depth",
-    [TARGET_FILTERED] = "t_filtered", [TARGET_EDGE] = "t_edge",    [TARGET_GROUND] = "t_ground",             [TARGET_REFLECTION] = "t_reflection",
-    [TARGET_PAGE] = "t_page",
+    [TARGET_FILTERED] = "t_filtered", [TARGET_EDGE] = "t_edge", [TARGET_EDGE_BEFORE] = "t_edge_before", [TARGET_HALO_ROW] = "t_halo_row", [TARGET_HALO] = "t_halo",    [TARGET_GROUND] = "t_ground",             [TARGET_REFLECTION] = "t_reflection",
+    [TARGET_LAYERS] = "t_layers", [TARGET_PAGE] = "t_page",
 };
 
 const char *target_name(target t)
@@ -38,7 +38,7 @@ void uniforms_declare(text *prelude, param_set set)
 {
     static const char *const types[] = {
         [PARAM_INT] = "int",   [PARAM_FLOAT] = "float", [PARAM_BOOL] = "bool",    [PARAM_ENUM] = "int",
-        [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4",
+        [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4", [PARAM_TEXT] = "int",
     };
     for (size_t i = 0; i < set.count; i++) {
         const param *p = &set.params[i];
@@ -110,6 +110,7 @@ void uniforms_set(gpu *g, param_set set)
             break;
         case PARAM_DIRECTION: gpu_set_vec3(g, name, (const float *)field); break;
         case PARAM_PALETTE: set_palette(g, name, field); break;
+        case PARAM_TEXT: break;
         }
     }
 }

@@ -75,6 +75,7 @@ static void read_facts(gpu *g, bool debug)
     const char *path = getenv("LIMNER_PATH");
     bool able = f->es ? version >= 31 : version >= 43;
     f->fast = able && !(path && strcmp(path, "floor") == 0);
+    f->lists = f->fast && !f->es;
     if (able) {
         GLint64 storage = 0;
         glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage);
@@ -152,6 +153,10 @@ static void release_objects(gpu *g)
         glDeleteTextures(1, &g->targets[i]->name);
         mem_free(g->targets[i]);
     }
+    for (size_t i = 0; i < g->buffer_count; i++) {
+        glDeleteBuffers(1, &g->buffers[i]->name);
+        mem_free(g->buffers[i]);
+    }
     glDeleteVertexArrays(1, &g->empty_array);
 }
 
@@ -165,6 +170,7 @@ void gpu_destroy(gpu **handle)
         release_objects(g);
         mem_free(g->programs);
         mem_free(g->targets);
+        mem_free(g->buffers);
         eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(g->display, g->context);
     }

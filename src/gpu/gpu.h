@@ -14,9 +14,13 @@ typedef struct gpu         gpu;
 typedef struct gpu_texture gpu_texture;
 typedef struct gpu_program gpu_program;
 typedef struct gpu_mesh    gpu_mesh;
+typedef struct gpu_buffer  gpu_buffer;
 
-typedef enum gpu_format { GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT } gpu_format;
-typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER } gpu_blend;
+typedef enum gpu_format { GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT } gpu_format;
+typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend; /* OVER, UNDER: premultiplied */
+typedef enum gpu_cull { GPU_CULL_NONE, GPU_CULL_BACK, GPU_CULL_FRONT } gpu_cull;
+/* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where gpu_facts.lists). */
+typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;
 typedef enum gpu_wrap { GPU_CLAMP, GPU_REPEAT, GPU_MIRROR } gpu_wrap;
 enum { GPU_COLOURS_MAX = 4 };
 
@@ -37,6 +41,7 @@ typedef struct gpu_facts {
     bool        es, debug, software; /* software: the driver runs on the CPU */
     int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
     bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
+    bool        lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
 } gpu_facts;
 const gpu_facts *gpu_facts_of(const gpu *g);
 
@@ -53,14 +58,14 @@ void         gpu_target_release(gpu *g, gpu_texture *t);
 void gpu_targets_trim(gpu *g);
 int  gpu_texture_width(const gpu_texture *t);
 int  gpu_texture_height(const gpu_texture *t);
-/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, DEPTH32F → 1 float. */
+/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, RGBA32UI → 4, DEPTH32F → 1 float. */
 void gpu_read(gpu *g, gpu_texture *t, void *out);
 
 /* --- programs ------------------------------------------------------------------------------------------------------ */
 
 /* Compiles (or finds) a program. Paths are below src/, several joined by '+' make one stage; `prelude` is GLSL put before both stages. `#include "path"` in shader
  * files is resolved below src/. NULL after an error; compile errors name file and line. */
-gpu_program *gpu_program_of(gpu *g, const char *vertex, const char *fragment, const char *prelude);
+gpu_program *gpu_program_of(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude);
 size_t       gpu_program_count(const gpu *g);
 
 /* --- meshes -------------------------------------------------------------------------------------------------------- */
@@ -74,6 +79,19 @@ typedef struct gpu_mesh_data {
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 size_t    gpu_mesh_bytes(const gpu_mesh *m);
+uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
+
+/* --- storage buffers (only where gpu_facts.lists) ------------------------------------------------------------------ */
+
+/* A buffer of at least this size from a pool; its content is undefined. NULL after an error. */
+gpu_buffer *gpu_buffer_acquire(gpu *g, size_t bytes);
+void        gpu_buffer_release(gpu *g, gpu_buffer *b);
+/* Sets the first `bytes` to copies of a word. */
+void        gpu_buffer_fill(gpu *g, gpu_buffer *b, uint32_t word, size_t bytes);
+void        gpu_buffer_bind(gpu *g, gpu_buffer *b, int binding);
+void        gpu_buffer_read(gpu *g, gpu_buffer *b, size_t bytes, void *out);
+/* What shaders wrote is seen by everything after. */
+void        gpu_buffer_barrier(gpu *g);
 
 /* --- drawing ------------------------------------------------------------------------------------------------------- */
 
@@ -83,7 +101,7 @@ typedef struct gpu_pass {
     gpu_texture *depth;
     bool         clear;                                /* all colours to clear_values, depth to 1 */
     bool         keep_depth;                           /* with clear: leave the depth as it is */
-    float        clear_values[GPU_COLOURS_MAX][4];     /* RG32UI takes them as integers */
+    float        clear_values[GPU_COLOURS_MAX][4];     /* integer formats take them as integers */
     int          scissor[4];                           /* drawing: x, y, width, height; width 0 = all */
     int          clear_box[4];                         /* clearing: the same */
 } gpu_pass;
@@ -91,10 +109,13 @@ void gpu_pass_begin(gpu *g, const gpu_pass *pass);
 
 typedef struct gpu_state {
     bool      depth_test, depth_write; /* test is "less or equal" */
+    bool      depth_less;              /* … is "less": of equal depths the first drawn stays */
     gpu_blend blend;
 } gpu_state;
 /* Selects program and state for what follows; textures of the last program are forgotten. */
 void gpu_use(gpu *g, gpu_program *p, gpu_state state);
+/* Changes which faces are left out; all else stays. */
+void gpu_cull_faces(gpu *g, gpu_cull cull);
 /* Uniforms of the program in use; names that it does not have are ignored. */
 void gpu_set_int(gpu *g, const char *name, int value);
 void gpu_set_uint(gpu *g, const char *name, unsigned value);
@@ -110,6 +131,7 @@ void gpu_set_texture(gpu *g, const char *name, gpu_texture *t, bool linear);
 bool gpu_has_uniform(gpu *g, const char *name);
 /* One triangle that covers the target. */
 void gpu_draw_screen(gpu *g);
+/* Sets the program's uniform u_first_primitive, if it has one, to what gl_PrimitiveID must be raised by. */
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
 /* Draw calls since the context was made. */
 uint64_t gpu_draw_count(const gpu *g);

@@ -22,6 +22,12 @@ typedef struct uniform_slot {
     GLint       location;
 } uniform_slot;
 
+struct gpu_buffer {
+    GLuint name;
+    size_t bytes;
+    bool   in_use;
+};
+
 struct gpu_program {
     GLuint       name;
     char        *key;
@@ -53,6 +59,8 @@ struct gpu {
     size_t        target_count, target_capacity;
     gpu_program **programs;
     size_t        program_count, program_capacity;
+    gpu_buffer  **buffers;
+    size_t        buffer_count, buffer_capacity;
     framebuffer   framebuffers[FRAMEBUFFERS_MAX];
     int           framebuffer_count;
     uint64_t      clock, draws;
@@ -62,6 +70,7 @@ struct gpu {
     int           next_unit;
 };
 
+void gpu_buffers_trim(gpu *g);
 void gpu_forget_framebuffers(gpu *g, const gpu_texture *t);
 
 #endif

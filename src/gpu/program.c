@@ -17,7 +17,7 @@ typedef struct source {
     int         file_count;
 } source;
 
-static const char desktop_head[] = "#version 330 core\n";
+static const char desktop_head[] = "#version 330 core\n", fast_head[] = "#version 430 core\n";
 static const char es_head[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
                               "precision highp usampler2D;\n";
 
@@ -144,11 +144,11 @@ static void explain(gpu *g, const source *s, const char *log)
     }
 }
 
-static GLuint compile(gpu *g, GLenum stage, const char *path, const char *prelude)
+static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *path, const char *prelude)
 {
     source s = {0};
     GLuint shader = 0;
-    text_append(&s.body, "%s%s", g->facts.es ? es_head : desktop_head, prelude);
+    text_append(&s.body, "%s%s", dialect == GPU_FAST ? fast_head : g->facts.es ? es_head : desktop_head, prelude);
     if (append_files(g, &s, path) && !s.body.failed) {
         shader = glCreateShader(stage);
         const char *body = s.body.data;
@@ -200,12 +200,12 @@ static gpu_program *add_program(gpu *g, GLuint name, char *key)
     return p;
 }
 
-gpu_program *gpu_program_of(gpu *g, const char *vertex, const char *fragment, const char *prelude)
+gpu_program *gpu_program_of(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude)
 {
     if (g->failed)
         return NULL;
     text joined = {0};
-    text_append(&joined, "%s|%s|%s", vertex, fragment, prelude);
+    text_append(&joined, "%d|%s|%s|%s", (int)dialect, vertex, fragment, prelude);
     char *key = text_take(&joined);
     if (!key) {
         gpu_fail(g, LMN_MEMORY, "out of memory");
@@ -216,8 +216,8 @@ gpu_program *gpu_program_of(gpu *g, const char *vertex, const char *fragment, co
             mem_free(key);
             return g->programs[i];
         }
-    GLuint vertex_shader = compile(g, GL_VERTEX_SHADER, vertex, prelude);
-    GLuint fragment_shader = vertex_shader ? compile(g, GL_FRAGMENT_SHADER, fragment, prelude) : 0;
+    GLuint vertex_shader = compile(g, dialect, GL_VERTEX_SHADER, vertex, prelude);
+    GLuint fragment_shader = vertex_shader ? compile(g, dialect, GL_FRAGMENT_SHADER, fragment, prelude) : 0;
     GLuint name = fragment_shader ? link_program(g, vertex_shader, fragment_shader, fragment) : 0;
     glDeleteShader(vertex_shader);
     glDeleteShader(fragment_shader);

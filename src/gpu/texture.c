@@ -15,6 +15,7 @@ static const format_row formats[GPU_FORMAT_COUNT] = {
     [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT},
     [GPU_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [GPU_RG32UI] = {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT},
+    [GPU_RGBA32UI] = {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT},
     [GPU_DEPTH32F] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
 };
 
@@ -131,6 +132,7 @@ void gpu_targets_trim(gpu *g)
         mem_free(t);
     }
     g->target_count = kept;
+    gpu_buffers_trim(g);
 }
 
 void gpu_set_texture(gpu *g, const char *name, gpu_texture *t, bool linear)
@@ -156,7 +158,7 @@ static void read_depth_by_copy(gpu *g, gpu_texture *t, float *out)
     float *wide = mem_alloc(sizeof(float) * 4 * (size_t)t->width * (size_t)t->height);
     if (copy && wide) {
         gpu_pass_begin(g, &(gpu_pass){.colours = {copy}, .colour_count = 1});
-        gpu_use(g, gpu_program_of(g, "gpu/screen.vert", "gpu/copy_depth.frag", ""), (gpu_state){0});
+        gpu_use(g, gpu_program_of(g, GPU_FLOOR, "gpu/screen.vert", "gpu/copy_depth.frag", ""), (gpu_state){0});
         gpu_set_texture(g, "t_depth", t, false);
         gpu_draw_screen(g);
         gpu_read(g, copy, wide);

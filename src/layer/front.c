@@ -10,15 +10,7 @@ static const param params[] = {
                    .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless the surface technique needs its geometry."),
 };
 
-static const technique front = {
+const technique layers_front = {
     .name = "front", .doc = "The visible surface.", .example = "{\"layers\": \"front\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(front_values),
-};
-
-static const technique *const techniques[] = {&front};
-
-const kind kind_layers = {
-    .id = KIND_LAYERS, .name = "layers", .doc = "Which surfaces of a figure are seen.",
-    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &front,
-    .selector_key = "technique",
 };

@@ -6,6 +6,8 @@
 
 extern const kind kind_layers;
 
+extern const technique layers_front, layers_peel;
+
 typedef enum layer_shading { SHADING_FORWARD, SHADING_DEFERRED } layer_shading;
 
 /* The parameters, read by src/draw when it plans the geometry pass. */
@@ -13,5 +15,24 @@ typedef struct front_values {
     bool    complement;
     int32_t shading;
 } front_values;
+
+typedef enum layer_producer { PRODUCER_AUTO, PRODUCER_PEELING, PRODUCER_LISTS } layer_producer;
+
+/* Layers that are drawn at most, however deep the model is. */
+enum { LAYERS_MAX = 256 };
+
+/* Bits of the surface id in the id buffer. */
+enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = (1 << SURFACE_FIGURE_BITS) - 1 };
+#define SURFACE_COMPLEMENT 0x80000000u /* a part that another figure draws */
+#define SURFACE_TURNED     0x40000000u /* seen from inside: the normal points away */
+#define SURFACE_BACK       0x10000000u /* back-facing by winding */
+
+typedef struct peel_values {
+    int32_t     count, producer, memory;
+    float       fraction;
+    param_words focus;
+    float       focus_share, rear;
+    colour      focus_colour;
+} peel_values;
 
 #endif

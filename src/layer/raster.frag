@@ -5,24 +5,60 @@
 #ifdef AT_NORMAL_DEPTH
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif
-#ifdef AT_ID
-layout(location = AT_ID) out uvec2 out_id;
+#if defined(AT_ID) || defined(INTO_LISTS)
 uniform uint u_part_id;
 uniform uint u_surface_id;
+#endif
+#ifdef AT_ID
+layout(location = AT_ID) out uvec2 out_id;
 #endif
 #ifdef AT_ALBEDO
 layout(location = AT_ALBEDO) out vec4 out_albedo;
 #endif
 #ifdef AT_SHADE
+#ifdef INTO_LISTS
+vec4 out_shade;
+#else
 layout(location = AT_SHADE) out vec4 out_shade;
+#endif
 uniform int u_unlit;
+#endif
+#ifdef PEELED
+uniform sampler2D  t_before_depth; /* of the layer in front, with its ids */
+uniform usampler2D t_before_id;
+#endif
+#ifdef INTO_LISTS
+#include "layer/lists.glsl"
 #endif
 #ifdef CLIPPED
 uniform vec4 u_clip_plane; /* eye space; what lies below is left out */
 #endif
 
+#ifdef LAYERED
+/* Orders what lies at the same depth: by part, then front faces before back faces. */
+uint order_of(uvec2 id)
+{
+    return id.r << 1 | (id.g >> 28 & 1u);
+}
+#endif
+
 void main()
 {
+#ifdef LAYERED
+    uvec2 id = uvec2(u_part_id, u_surface_id | (gl_FrontFacing ? 0u : 0x10000000u));
+#endif
+#ifdef PEELED
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    float before = texelFetch(t_before_depth, at, 0).r;
+    if (gl_FragCoord.z < before)
+        discard;
+    int same = gl_FragCoord.z == before ? 1 : 0;
+    bool had = false;
+    for (int once = 0; once < same; once++)
+        had = order_of(id) <= order_of(texelFetch(t_before_id, at, 0).rg);
+    if (had)
+        discard;
+#endif
 #ifdef CLIPPED
     if (dot(u_clip_plane.xyz, v_eye) + u_clip_plane.w < 0.0)
         discard;
@@ -37,6 +73,7 @@ void main()
     if (albedo.a < u_alpha_cutoff)
         discard;
 #endif
+    float alpha = albedo.a;
     albedo.a = 1.0;
     vec3 normal = model_normal();
 #if defined(AT_SHADE) || defined(DEFERRED)
@@ -49,7 +86,11 @@ void main()
     out_normal_depth = vec4(normal, -v_eye.z);
 #endif
 #ifdef AT_ID
+#ifdef LAYERED
+    out_id = id;
+#else
     out_id = uvec2(u_part_id, u_surface_id);
+#endif
 #ifdef DEFERRED
     if (turned)
         out_id.g |= 0x40000000u;
@@ -65,6 +106,16 @@ void main()
 #endif
 #ifdef INKED
     out_shade = over(ink_at(ivec2(gl_FragCoord.xy)), out_shade);
+#endif
+#ifdef LAYERED
+    out_shade *= alpha;
+#endif
+#endif
+#ifdef INTO_LISTS
+#ifdef AT_SHADE
+    list_add(id, -v_eye.z, normal, out_shade);
+#else
+    list_add(id, -v_eye.z, normal, vec4(0.0));
 #endif
 #endif
 }

@@ -9,6 +9,9 @@ uniform mat4 u_model_view;
 uniform mat3 u_normal_matrix;
 uniform mat4 u_projection;
 
+/* Every pass must find the same depth: layers are told apart by it. */
+invariant gl_Position;
+
 out vec3 v_eye;
 out vec3 v_normal;
 #ifdef HAS_UV

@@ -41,6 +41,7 @@ static const char *wanted_type(const param *p)
     case PARAM_COLOUR: return "a colour in quotes";
     case PARAM_DIRECTION: return "an array of three numbers";
     case PARAM_PALETTE: return "an array of colours";
+    case PARAM_TEXT: return "a text in quotes";
     }
     return "another type";
 }
@@ -53,6 +54,7 @@ static bool has_type(const param *p, const json_t *json)
     case PARAM_FLOAT: return json_is_number(json) || (p->can_auto && json_is_string(json));
     case PARAM_BOOL: return json_is_boolean(json);
     case PARAM_ENUM:
+    case PARAM_TEXT:
     case PARAM_COLOUR: return json_is_string(json);
     case PARAM_DIRECTION: return json_is_string(json) || json_array_size(json) == 3;
     case PARAM_PALETTE: return json_is_string(json) || json_is_array(json);
@@ -149,6 +151,7 @@ json_t *value_json(const param *p, const void *values)
     case PARAM_FLOAT: return number_of_text(printed);
     case PARAM_BOOL: return json_boolean(*(const bool *)param_field(p, values));
     case PARAM_ENUM:
+    case PARAM_TEXT:
     case PARAM_COLOUR: return json_string(printed);
     case PARAM_DIRECTION: return array_of_text(printed, true);
     case PARAM_PALETTE: return array_of_text(printed, false);

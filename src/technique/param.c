@@ -10,7 +10,7 @@ enum { NUMBER_SIZE = 32, RANGE_SIZE = 2 * NUMBER_SIZE + 32 };
 
 const char *param_type_text(param_type type)
 {
-    static const char *const names[] = {"int", "float", "bool", "enum", "colour", "direction", "palette"};
+    static const char *const names[] = {"int", "float", "bool", "enum", "colour", "direction", "palette", "text"};
     return (size_t)type < PARAM_COUNT(names) ? names[type] : "unknown";
 }
 
@@ -30,6 +30,7 @@ size_t param_size(param_type type)
     case PARAM_COLOUR: return sizeof(colour);
     case PARAM_DIRECTION: return sizeof(direction);
     case PARAM_PALETTE: return sizeof(palette);
+    case PARAM_TEXT: return sizeof(param_words);
     }
     return 0;
 }
@@ -105,6 +106,7 @@ static void set_default(const param *p, void *values)
             ((direction *)field)->x = NAN;
         break;
     case PARAM_PALETTE: *(palette *)field = p->def_palette; break;
+    case PARAM_TEXT: memset(field, 0, sizeof(param_words)); break;
     }
 }
 
@@ -136,6 +138,9 @@ static lmn_status wrong_value(const param *p, const char *given, lmn_error *erro
     case PARAM_PALETTE:
         return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed are 1 to %d colours with commas between them",
                          p->key, given, PALETTE_MAX);
+    case PARAM_TEXT:
+        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a text of up to %d bytes without control characters",
+                         p->key, given, PARAM_TEXT_MAX - 1);
     case PARAM_ENUM: break;
     }
     return error_set(error, LMN_USAGE, "%s is '%.60s'", p->key, given);
@@ -249,6 +254,19 @@ static bool parse_palette(const char *given, palette *out)
     return true;
 }
 
+static bool parse_words(const char *given, param_words *out)
+{
+    size_t length = strlen(given);
+    if (length >= sizeof out->text)
+        return false;
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)given[i] < ' ' || given[i] == 127)
+            return false;
+    memset(out, 0, sizeof *out);
+    memcpy(out->text, given, length);
+    return true;
+}
+
 /* Sets nothing when it returns false. */
 static bool parse_value(const param *p, const char *given, void *field)
 {
@@ -271,6 +289,7 @@ static bool parse_value(const param *p, const char *given, void *field)
         *(direction *)field = d;
         return true;
     case PARAM_PALETTE: return parse_palette(given, field);
+    case PARAM_TEXT: return parse_words(given, field);
     case PARAM_ENUM:
         for (int32_t i = 0; p->names[i]; i++)
             if (strcmp(p->names[i], given) == 0) {
@@ -342,6 +361,7 @@ void param_print(const param *p, const void *values, char *out, size_t size)
         break;
     case PARAM_DIRECTION: print_direction(*(const direction *)field, out, size); break;
     case PARAM_PALETTE: print_palette(field, out, size); break;
+    case PARAM_TEXT: snprintf(out, size, "%s", ((const param_words *)field)->text); break;
     }
 }
 
@@ -355,6 +375,7 @@ bool param_is_default(const param *p, const void *values)
         colour tint;
         direction axis;
         palette list;
+        param_words words;
     } standard;
     param alone = *p;
     char is[128], was[128];
@@ -374,7 +395,7 @@ static const param *find_row(const param *params, size_t count, const char *key,
     return NULL;
 }
 
-/* Anything but 0, false, "auto" and a transparent colour. */
+/* Anything but 0, false, "auto", a transparent colour and an empty text. */
 static bool is_set(const param *p, const void *values)
 {
     const void *field = param_field(p, values);
@@ -386,6 +407,7 @@ static bool is_set(const param *p, const void *values)
     case PARAM_COLOUR: return ((const colour *)field)->a != 0 && !param_is_auto(p, values);
     case PARAM_DIRECTION: return !param_is_auto(p, values);
     case PARAM_PALETTE: return ((const palette *)field)->count != 0;
+    case PARAM_TEXT: return ((const param_words *)field)->text[0] != '\0';
     }
     return false;
 }

@@ -9,7 +9,7 @@
 #include "base/colour.h"
 #include "base/error.h"
 
-enum { PALETTE_MAX = 8 };
+enum { PALETTE_MAX = 8, PARAM_TEXT_MAX = 128 };
 
 /* A short list of colours, darkest first. */
 typedef struct palette {
@@ -21,6 +21,11 @@ typedef struct direction {
     float x, y, z;
 } direction;
 
+/* A short text: a selector, a cut. Ends in 0; empty means nothing is said. */
+typedef struct param_words {
+    char text[PARAM_TEXT_MAX];
+} param_words;
+
 typedef enum param_type {
     PARAM_INT,       /* int32_t  → uniform int */
     PARAM_FLOAT,     /* float    → uniform float; NaN inside means "auto" where can_auto */
@@ -28,7 +33,8 @@ typedef enum param_type {
     PARAM_ENUM,      /* int32_t index into names → uniform int */
     PARAM_COLOUR,    /* colour   → uniform vec4, linear, straight alpha */
     PARAM_DIRECTION, /* direction → uniform vec3, as given (not normalised); text "x,y,z" or a JSON array */
-    PARAM_PALETTE    /* palette  → uniform vec4 u_KEY[8] and int u_KEY_count; text "#a,#b,…" or a JSON array */
+    PARAM_PALETTE,   /* palette  → uniform vec4 u_KEY[8] and int u_KEY_count; text "#a,#b,…" or a JSON array */
+    PARAM_TEXT       /* param_words; no uniform */
 } param_type;
 
 typedef enum param_unit { UNIT_NONE, UNIT_PX, UNIT_DEGREES, UNIT_COUNT, UNIT_SHARE } param_unit;
@@ -65,6 +71,7 @@ typedef struct param {
 #define PARAM_COLOUR_ROW(S, F, ...)    {.key = #F, .type = PARAM_COLOUR, .offset = PARAM_OFFSET(S, F, colour), __VA_ARGS__}
 #define PARAM_DIRECTION_ROW(S, F, ...) {.key = #F, .type = PARAM_DIRECTION, .offset = PARAM_OFFSET(S, F, direction), __VA_ARGS__}
 #define PARAM_PALETTE_ROW(S, F, ...)   {.key = #F, .type = PARAM_PALETTE, .offset = PARAM_OFFSET(S, F, palette), __VA_ARGS__}
+#define PARAM_TEXT_ROW(S, F, ...)      {.key = #F, .type = PARAM_TEXT, .offset = PARAM_OFFSET(S, F, param_words), .cpu_only = true, __VA_ARGS__}
 #define PARAM_COUNT(array) (sizeof(array) / sizeof *(array))
 
 const char *param_type_text(param_type type); /* "int", "float", … */

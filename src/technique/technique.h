@@ -23,15 +23,19 @@ typedef enum target {
     TARGET_DEPTH,      /* the figure's depth buffer */
     TARGET_FILTERED,   /* RGBA16F: normal and normalised depth, which may be sampled with a filter */
     TARGET_EDGE,       /* RGBA16F edge map: R profile, G inner, B combined, A id; 1 = no edge */
+    TARGET_EDGE_BEFORE, /* edge map of the layer in front of this one */
+    TARGET_HALO_ROW,   /* RGBA16F: lines of one layer, widened across */
+    TARGET_HALO,       /* RGBA16F: r = ink of all nearer layers' lines, widened */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
+    TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back, premultiplied */
     TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 6 };
+enum { PASS_READS_MAX = 8 };
 
-typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER } pass_blend;
+typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
 /* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
 typedef struct pass {
@@ -40,7 +44,7 @@ typedef struct pass {
     target      reads[PASS_READS_MAX];
     target      writes;
     pass_blend  blend;
-    bool        depth;  /* test and write gl_FragDepth against the page (a depth sprite) */
+    bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
     bool        geometry; /* draws the figure's parts again, shaded and inked by the shader file's ink_at, instead of a full screen */
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
@@ -60,6 +64,8 @@ typedef struct technique {
     size_t       pass_count;
     const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
                                * technique's `detect` itself instead of reading its map; NULL: never */
+    const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same */
+    bool         layered;     /* layers: gives several, nearest first; compose: takes them one by one */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */

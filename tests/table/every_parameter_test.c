@@ -119,6 +119,10 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
         for (size_t i = 0; i < 3; i++)
             snprintf(values[count++], TEXT_SIZE, "%s", p->type == PARAM_COLOUR ? colours[i] : axes[i]);
         break;
+    case PARAM_TEXT: /* rooms with texts have tests of their own; these are words that several of them understand */
+        snprintf(values[count++], TEXT_SIZE, "%s", "other*");
+        snprintf(values[count++], TEXT_SIZE, "%s", "x");
+        break;
     case PARAM_PALETTE:
         for (size_t i = 0; i < 2; i++)
             snprintf(values[count++], TEXT_SIZE, "%s", palettes[i]);

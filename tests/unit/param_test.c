@@ -17,6 +17,7 @@ typedef struct values {
     colour    ink, light;
     direction axis;
     palette   tones;
+    param_words words;
 } values;
 
 static const char *const modes[] = {"none", "double", "adaptive", NULL};
@@ -31,8 +32,9 @@ static const param rows[] = {
     PARAM_COLOUR_ROW(values, light, .can_auto = true, .def_auto = true, .doc = "."),
     PARAM_DIRECTION_ROW(values, axis, .def_direction = {0, 1, 0}, .doc = "."),
     PARAM_PALETTE_ROW(values, tones, .def_palette = {2, {{0, 0, 0, 1}, {1, 1, 1, 1}}}, .doc = "."),
+    PARAM_TEXT_ROW(values, words, .doc = "."),
 };
-enum { BANDS, WIDTH, BIAS, SOFT, MODE, INK, LIGHT, AXIS, TONES };
+enum { BANDS, WIDTH, BIAS, SOFT, MODE, INK, LIGHT, AXIS, TONES, WORDS };
 
 static values defaults(void)
 {
@@ -76,6 +78,7 @@ static void test_set_and_print(void **state)
         {LIGHT, "auto", "auto"},     {LIGHT, "#fff", "#ffffff"},
         {AXIS, "-1, 0.5,2", "-1,0.5,2"},
         {TONES, "#000, red ,#fff8", "#000000,#ff0000,#ffffff88"},
+        {WORDS, "name=Räder, x", "name=Räder, x"}, {WORDS, "", ""},
     };
     for (size_t i = 0; i < PARAM_COUNT(cases); i++) {
         values v = defaults(), again = v;
@@ -107,6 +110,7 @@ static void test_refused(void **state)
         {AXIS, "0,0,0", "not all 0"},    {AXIS, "1,2", "three numbers"},
         {AXIS, "1,2,3,4", "three"},      {AXIS, "1,nan,0", "three"},
         {TONES, "", "1 to 8"},           {TONES, "red,", "1 to 8"},
+        {WORDS, "two\nlines", "control"},
         {TONES, "#000,#000,#000,#000,#000,#000,#000,#000,#000", "1 to 8"},
     };
     for (size_t i = 0; i < PARAM_COUNT(cases); i++) {

@@ -1,0 +1,84 @@
+/* One layer of a figure, put under those in front of it: fill, and ink over it. The composition's own file says what the fill is
+ * and what becomes of the ink. */
+#ifdef HAS_LINES
+#include "lines/ink.glsl"
+#endif
+layout(location = 0) out vec4 out_0;
+
+uniform int   u_layer; /* 0 = visible */
+uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
+uniform bool  u_filled; /* with the fill, not only the lines */
+#ifdef SHARED_LAYERS
+uniform int   u_figure;
+#endif
+
+/* Several figures share their layers, so that they interleave; each draws its own pixels. */
+bool is_own(ivec2 at)
+{
+#ifdef SHARED_LAYERS
+    return int((texelFetch(t_id, at, 0).g >> 20) & 0xFFu) == u_figure;
+#else
+    return true;
+#endif
+}
+
+vec4 layer_fill(ivec2 pixel);
+
+#ifdef HAS_LINES
+#include "compose/reach.glsl"
+
+vec4 layer_ink(vec4 ink);
+
+#ifdef MAP_OF_BEFORE
+float ink_before(ivec2 at)
+{
+    vec4 edge = texelFetch(t_edge_before, clamp(at, ivec2(0), ivec2(u_size) - 1), 0);
+    return 1.0 - min(edge.b, edge.a);
+}
+#endif
+
+/* Ink of this layer as its place in the stack leaves it. */
+vec4 stacked_ink(ivec2 pixel)
+{
+    vec4 ink = layer_ink(ink_at(pixel));
+    int hidden = u_layer > 0 && ink.a > 0.0 ? 1 : 0;
+    for (int once = 0; once < hidden; once++) {
+        ink *= u_hidden_opacity * pow(u_fade, float(u_layer - 1));
+        /* Outlines and borders of parts carry the shape, creases the detail: those go first. */
+        vec4 edge = edge_at(pixel);
+        float important = max(1.0 - edge.r, 1.0 - edge.a);
+        ink *= pow(1.0 - u_clutter * mix(0.75, 0.3, important), float(u_layer));
+#ifdef MAP_OF_BEFORE
+        float before = max(max(ink_before(pixel), max(ink_before(pixel + ivec2(1, 0)), ink_before(pixel - ivec2(1, 0)))),
+                           max(ink_before(pixel + ivec2(0, 1)), ink_before(pixel - ivec2(0, 1))));
+        ink *= 1.0 - before;
+#endif
+#ifdef HAS_HALO
+        ink *= 1.0 - texelFetch(t_halo, pixel, 0).r;
+#endif
+    }
+    return ink;
+}
+#endif
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(t_depth, pixel, 0).r;
+    if (!is_own(pixel))
+        depth = 1.0;
+    vec4 colour = depth < 1.0 && u_filled ? layer_fill(pixel) : vec4(0.0);
+#ifdef HAS_LINES
+#ifdef MERGED
+    detect_edges();
+#endif
+    colour = over(stacked_ink(pixel), colour);
+    int search = depth >= 1.0 && colour.a > 0.0 ? 1 : 0;
+    for (int once = 0; once < search; once++)
+        depth = neighbour_depth(pixel);
+#endif
+    if (colour.a <= 0.0 || depth >= 1.0)
+        discard;
+    out_0 = colour * u_rear;
+    gl_FragDepth = depth;
+}

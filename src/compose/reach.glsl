@@ -1,0 +1,22 @@
+/* Ink outside a figure's boundary belongs to the surface it surrounds: the nearest one within the line's reach. */
+bool is_own(ivec2 at);
+
+float neighbour_depth(ivec2 pixel)
+{
+    ivec2 last = ivec2(u_size) - 1;
+    float extent = 0.5 * u_line_width;
+#if CONTRAST == 1
+    extent += max(abs(u_line_offset_x), abs(u_line_offset_y));
+#elif CONTRAST == 3
+    extent += max(u_line_width, 1.0);
+#endif
+    int reach = max(int(ceil(extent)), 1);
+    float least = 1.0;
+    for (int y = -reach; y <= reach; y++)
+        for (int x = -reach; x <= reach; x++) {
+            ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);
+            if (is_own(at))
+                least = min(least, texelFetch(t_depth, at, 0).r);
+        }
+    return least;
+}

@@ -1,0 +1,14 @@
+#include "compose/layered.glsl"
+
+vec4 layer_fill(ivec2 pixel)
+{
+    return vec4(0.0);
+}
+
+#ifdef HAS_LINES
+vec4 layer_ink(vec4 ink)
+{
+    float share = u_softness > 0.0 ? clamp((ink.a - u_threshold) / u_softness + 0.5, 0.0, 1.0) : step(u_threshold, ink.a) * step(1e-6, ink.a);
+    return ink.a > 0.0 ? ink * (share / ink.a) : ink;
+}
+#endif

@@ -1,0 +1,23 @@
+#include "light/point.glsl"
+#include "compose/layered.glsl"
+
+uniform vec2 u_unproject;
+
+vec4 layer_fill(ivec2 pixel)
+{
+    float opacity = u_opacity;
+    int slanted = u_rim > 0.0 ? 1 : 0;
+    for (int once = 0; once < slanted; once++) {
+        vec3 ray = normalize(vec3((2.0 * gl_FragCoord.xy / u_size - 1.0) * u_unproject * u_perspective, -1.0));
+        float facing = abs(dot(texelFetch(t_normal_depth, pixel, 0).xyz, ray));
+        opacity = mix(opacity, 1.0, u_rim * (1.0 - facing) * (1.0 - facing));
+    }
+    return texelFetch(t_shade, pixel, 0) * opacity;
+}
+
+#ifdef HAS_LINES
+vec4 layer_ink(vec4 ink)
+{
+    return ink;
+}
+#endif

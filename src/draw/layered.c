@@ -1,0 +1,371 @@
+/* Figures that are seen through: layer after layer, nearest first, each with its lines, put under those before. Several figures
+ * share the layers, so that they interleave per pixel. Seed 000, chapter 5; rows B01–B13. */
+#include "draw/frame_private.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "layer/layer.h"
+
+/* From this many layers on, one pass into lists is faster than a pass for each. */
+enum { LISTS_PAY_FROM = 3, COVERAGE_SIDE = 64 };
+
+figure_state *layer_owner(const layer_stack *stack, size_t part_index)
+{
+    for (int i = 0; i < stack->count; i++)
+        if (stack->states[i].figure->designated[part_index])
+            return &stack->states[i];
+    return NULL;
+}
+
+static const peel_values *peel_of(const figure *fig)
+{
+    const technique_use *layers = rule_use(fig->rule, KIND_LAYERS);
+    return layers && layers->technique == &layers_peel ? layers->values : NULL;
+}
+
+static void widen(int box[4], const int other[4])
+{
+    for (int k = 0; k < 2; k++) {
+        int low = other[k] < box[k] ? other[k] : box[k], high = other[k] + other[2 + k], own = box[k] + box[2 + k];
+        box[2 + k] = (high > own ? high : own) - low;
+        box[k] = low;
+    }
+}
+
+static void stack_open(frame *f, layer_stack *stack, const figure *figures, int count)
+{
+    *stack = (layer_stack){.states = mem_calloc((size_t)count, sizeof *stack->states),
+                           .hidden = mem_calloc((size_t)count, sizeof *stack->hidden)};
+    if (!stack->states || !stack->hidden) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const figure *fig = &figures[i];
+        figure_state *s = &stack->states[stack->count];
+        if (!fig->part_count || !figure_open(f, s, fig))
+            continue;
+        s->index = stack->count;
+        s->rear = 1;
+        stack->hidden[stack->count] = *fig;
+        stack->hidden[stack->count].rule = fig->hidden;
+        stack->channels |= fig->channels;
+        stack->limit = fig->layer_count > stack->limit ? fig->layer_count : stack->limit;
+        int reach = figure_reach(fig);
+        stack->reach = reach > stack->reach ? reach : stack->reach;
+        if (stack->count == 0)
+            memcpy(stack->box, s->pixels, sizeof stack->box);
+        widen(stack->box, s->pixels);
+        stack->count++;
+    }
+    for (int i = 0; i < stack->count; i++)
+        stack->states[i].shared = stack->count > 1;
+    if (f->maps) /* are read back whole */
+        memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
+}
+
+static void stack_close(frame *f, layer_stack *stack)
+{
+    for (int i = 0; i < stack->count; i++) {
+        figure_state *s = &stack->states[i];
+        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_HALO, TARGET_HALO_ROW, TARGET_FILTERED, TARGET_GROUND};
+        for (size_t k = 0; k < sizeof own / sizeof *own; k++)
+            gpu_target_release(f->g, s->targets[own[k]]);
+        mem_free(s->edges);
+    }
+    for (int t = 0; t < TARGET_COUNT; t++)
+        gpu_target_release(f->g, stack->targets[t]);
+    gpu_target_release(f->g, stack->before_depth);
+    gpu_target_release(f->g, stack->before_id);
+    gpu_target_release(f->g, stack->mask);
+    lists_release(f, stack);
+    mem_free(stack->states);
+    mem_free(stack->hidden);
+}
+
+/* Gives the pictures of a layer back; by peeling, its depth and ids tell the next one where to go on. */
+static void forget_layer(frame *f, layer_stack *stack, bool keep_order)
+{
+    gpu_target_release(f->g, stack->before_depth);
+    gpu_target_release(f->g, stack->before_id);
+    stack->before_depth = stack->before_id = NULL;
+    if (keep_order) {
+        stack->before_depth = stack->targets[TARGET_DEPTH];
+        stack->before_id = stack->targets[TARGET_ID];
+        stack->targets[TARGET_DEPTH] = stack->targets[TARGET_ID] = NULL;
+    }
+    for (int t = 0; t < TARGET_COUNT; t++) {
+        if (t == TARGET_LAYERS)
+            continue;
+        gpu_target_release(f->g, stack->targets[t]);
+        stack->targets[t] = NULL;
+    }
+}
+
+typedef struct coverage {
+    double covered, uncovered, mask; /* pixels: of the layer; of the focus, not behind it any more; of the focus */
+} coverage;
+
+/* Counted by a shader and read back as a small picture, which every driver can, WebGL too. */
+static coverage count_coverage(frame *f, const layer_stack *stack)
+{
+    const int *box = stack->band;
+    coverage out = {0};
+    stopwatch w = watch_start(f);
+    text prelude = {0};
+    if (stack->mask)
+        text_append(&prelude, "#define HAS_MASK\n");
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "layer/coverage.frag", &prelude);
+    gpu_texture *sums = gpu_target_acquire(f->g, COVERAGE_SIDE, COVERAGE_SIDE, GPU_RGBA32F);
+    float *values = mem_alloc(sizeof(float) * 4 * COVERAGE_SIDE * COVERAGE_SIDE);
+    if (p && sums && values && !gpu_failed(f->g)) {
+        int longest = box[2] > box[3] ? box[2] : box[3];
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {sums}, .colour_count = 1});
+        gpu_use(f->g, p, (gpu_state){0});
+        gpu_set_texture(f->g, "t_depth", stack->targets[TARGET_DEPTH], false);
+        if (stack->mask)
+            gpu_set_texture(f->g, "t_mask", stack->mask, false);
+        gpu_set_vec2(f->g, "u_first", (float)box[0], (float)box[1]);
+        gpu_set_vec2(f->g, "u_end", (float)(box[0] + box[2]), (float)(box[1] + box[3]));
+        gpu_set_float(f->g, "u_block", (float)((longest + COVERAGE_SIDE - 1) / COVERAGE_SIDE));
+        gpu_draw_screen(f->g);
+        gpu_read(f->g, sums, values);
+        for (size_t i = 0; i < COVERAGE_SIDE * COVERAGE_SIDE && !gpu_failed(f->g); i++) {
+            out.covered += values[4 * i];
+            out.uncovered += values[4 * i + 1];
+            out.mask += values[4 * i + 2];
+        }
+    } else if (!values) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    }
+    mem_free(values);
+    gpu_target_release(f->g, sums);
+    watch_stop(f, w, "layers", "count");
+    return out;
+}
+
+/* A figure's lines and colour of the current layer: the last line technique's ink, under it those before, under all the fill. */
+static void compose_passes(frame *f, figure_state *s)
+{
+    const figure *whole = s->figure;
+    const rule *r = whole->rule;
+    size_t lines = r->use_counts[KIND_LINES];
+    for (size_t i = lines > 1 ? lines : 1; i-- > 0;) {
+        rule single = *r;
+        figure alone = *whole;
+        alone.rule = &single;
+        if (lines)
+            single.uses[KIND_LINES] = &r->uses[KIND_LINES][i];
+        single.use_counts[KIND_LINES] = lines > 0;
+        s->figure = &alone;
+        s->filled = i == 0;
+        passes_run_kind(f, s, KIND_LINES);
+        passes_run_kind(f, s, KIND_COMPOSE);
+        gpu_target_release(f->g, s->targets[TARGET_EDGE_BEFORE]);
+        s->targets[TARGET_EDGE_BEFORE] = NULL;
+        if (lines == 1)
+            s->targets[TARGET_EDGE_BEFORE] = s->targets[TARGET_EDGE];
+        else
+            gpu_target_release(f->g, s->targets[TARGET_EDGE]);
+        s->targets[TARGET_EDGE] = NULL;
+    }
+    s->figure = whole;
+}
+
+static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
+{
+    static const target borrowed[] = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_SHADE, TARGET_DEPTH, TARGET_LAYERS};
+    figure_state *s = &stack->states[which];
+    const figure *visible = s->figure;
+    if (layer > 0)
+        s->figure = &stack->hidden[which];
+    s->layer = layer;
+    for (size_t k = 0; k < sizeof borrowed / sizeof *borrowed; k++)
+        s->targets[borrowed[k]] = stack->targets[borrowed[k]];
+    s->geometry = s->targets[TARGET_NORMAL_DEPTH];
+    if (f->maps) {
+        passes_run_kind(f, s, KIND_LINES);
+        collect_layer(f, s);
+    } else {
+        compose_passes(f, s);
+    }
+    for (size_t k = 0; k < sizeof borrowed / sizeof *borrowed; k++)
+        s->targets[borrowed[k]] = NULL;
+    s->figure = visible;
+}
+
+static bool is_behind(const figure_state *s, int layer)
+{
+    return layer >= s->figure->layer_count;
+}
+
+/* Has the figure had its last layer? */
+static bool is_finished(const frame *f, figure_state *s, coverage c)
+{
+    const peel_values *peel = peel_of(s->figure);
+    if (!peel)
+        return true;
+    if (peel->fraction > 0 && c.covered < (double)peel->fraction * f->width * f->height)
+        return true;
+    if (s->figure->focus && c.uncovered >= (double)peel->focus_share * c.mask) {
+        s->rear = peel->rear;
+        return peel->rear <= 0;
+    }
+    return false;
+}
+
+/* Draws the layers inside the current band; returns how many there were. */
+static int draw_layers(frame *f, layer_stack *stack, bool lists)
+{
+    int drawn = 0;
+    bool finished[FIGURES_TOGETHER_MAX] = {false};
+    for (int layer = 0; layer < stack->limit && !gpu_failed(f->g); layer++) {
+        if (lists)
+            lists_layer(f, stack, layer);
+        else
+            raster_layer(f, stack, layer == 0);
+        coverage c = count_coverage(f, stack);
+        if (c.covered == 0)
+            break;
+        drawn++;
+        bool open = false;
+        for (int i = 0; i < stack->count; i++) {
+            figure_state *s = &stack->states[i];
+            if (finished[i] || is_behind(s, layer))
+                continue;
+            compose_figure(f, stack, i, layer);
+            finished[i] = is_finished(f, s, c);
+            open = open || !finished[i];
+        }
+        forget_layer(f, stack, !lists);
+        if (!open)
+            break;
+    }
+    forget_layer(f, stack, false);
+    return drawn;
+}
+
+/* Puts what the band's layers add up to onto the page. */
+static void put_on_page(frame *f, const layer_stack *stack, const int band[4])
+{
+    stopwatch w = watch_start(f);
+    text prelude = {0};
+    target_declare(&prelude, TARGET_LAYERS);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "compose/stack.frag", &prelude);
+    if (p && !gpu_failed(f->g)) {
+        gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
+        memcpy(pass.scissor, band, sizeof pass.scissor);
+        gpu_pass_begin(f->g, &pass);
+        gpu_use(f->g, p, (gpu_state){.blend = GPU_BLEND_OVER});
+        gpu_set_texture(f->g, target_name(TARGET_LAYERS), stack->targets[TARGET_LAYERS], false);
+        gpu_draw_screen(f->g);
+    }
+    watch_stop(f, w, "layers", "page");
+}
+
+static void clear_sum(frame *f, layer_stack *stack)
+{
+    stack->targets[TARGET_LAYERS] = frame_acquire(f, TARGET_LAYERS);
+    if (gpu_failed(f->g))
+        return;
+    gpu_pass pass = {.colours = {stack->targets[TARGET_LAYERS]}, .colour_count = 1, .clear = true};
+    memcpy(pass.clear_box, stack->box, sizeof pass.clear_box);
+    gpu_pass_begin(f->g, &pass);
+}
+
+/* The band number `index` of `count`, and what is looked at around it. */
+static void set_band(const frame *f, layer_stack *stack, int index, int count)
+{
+    int band[4], limits[2] = {f->width, f->height};
+    memcpy(band, stack->box, sizeof band);
+    band[1] = stack->box[1] + stack->box[3] * index / count;
+    band[3] = stack->box[1] + stack->box[3] * (index + 1) / count - band[1];
+    for (int k = 0; k < 2; k++) {
+        int low = band[k] - 2 * stack->reach, high = band[k] + band[2 + k] + 2 * stack->reach;
+        low = low < 0 ? 0 : low;
+        high = high > limits[k] ? limits[k] : high;
+        stack->around[k] = low;
+        stack->around[2 + k] = high - low;
+    }
+    for (int i = 0; i < stack->count; i++) {
+        figure_state *s = &stack->states[i];
+        memcpy(s->band, band, sizeof band);
+        memcpy(s->pixels, count > 1 ? stack->around : band, sizeof band);
+        memcpy(s->around, stack->around, sizeof band);
+    }
+    memcpy(stack->band, band, sizeof band);
+}
+
+/* What all figures of the stack ask for. */
+typedef struct stack_wishes {
+    bool lists;  /* from one pass, where that can be done */
+    bool whole;  /* pieces will not do: something depends on all of the picture */
+    size_t bytes; /* that lists may take */
+} stack_wishes;
+
+static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
+{
+    stack_wishes out = {.lists = lists_possible(f), .whole = f->maps != NULL, .bytes = SIZE_MAX};
+    for (int i = 0; i < stack->count; i++) {
+        const rule *r = stack->states[i].figure->rule;
+        const peel_values *peel = peel_of(stack->states[i].figure);
+        if (!peel)
+            continue;
+        if (peel->producer == PRODUCER_PEELING || (peel->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
+            out.lists = false;
+        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r);
+        size_t bytes = (size_t)peel->memory << 20;
+        out.bytes = bytes < out.bytes ? bytes : out.bytes;
+    }
+    return out;
+}
+
+static void draw_band(frame *f, layer_stack *stack, bool lists)
+{
+    int drawn = draw_layers(f, stack, lists);
+    for (int i = 0; i < stack->count; i++)
+        stack->states[i].rear = 1;
+    if (!f->maps)
+        put_on_page(f, stack, stack->band);
+    if (drawn > f->layers)
+        f->layers = drawn;
+}
+
+/* All at once where lists have room, else in bands; a band that is too full even so is peeled. */
+static void draw_bands(frame *f, layer_stack *stack)
+{
+    stack_wishes wishes = wishes_of(f, stack);
+    set_band(f, stack, 0, 1);
+    int pieces = wishes.lists ? lists_build(f, stack, wishes.bytes) : 1;
+    bool peel_all = !wishes.lists || (pieces > 1 && wishes.whole);
+    f->producer = peel_all ? "peeling" : "lists";
+    f->lists_full = f->lists_full || (wishes.lists && peel_all);
+    if (pieces == 1 || peel_all) {
+        if (peel_all)
+            lists_release(f, stack);
+        draw_band(f, stack, !peel_all);
+        return;
+    }
+    for (int i = 0; i < pieces && !gpu_failed(f->g); i++) {
+        lists_release(f, stack);
+        set_band(f, stack, i, pieces);
+        bool fits = lists_build(f, stack, wishes.bytes) == 1;
+        f->lists_full = f->lists_full || !fits;
+        draw_band(f, stack, fits);
+    }
+}
+
+void layered_draw(frame *f, const figure *figures, int count)
+{
+    layer_stack stack;
+    stack_open(f, &stack, figures, count);
+    if (stack.count && !gpu_failed(f->g)) {
+        for (int i = 0; i < stack.count && !stack.mask; i++)
+            if (stack.states[i].figure->focus)
+                raster_mask(f, &stack, stack.states[i].figure->focus);
+        clear_sum(f, &stack);
+        draw_bands(f, &stack);
+    }
+    stack_close(f, &stack);
+}
