@@ -177,7 +177,8 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
     uint32_t stack[STACK];
     int      depth = 0;
     bool     found = false;
-    stack[depth++] = 0;
+    if (t->count)
+        stack[depth++] = 0;
     while (depth > 0) {
         const bvh_node *node = &t->nodes[stack[--depth]];
         if (!hit_box(&node->bounds, o, inverse, low, high))
@@ -215,7 +216,8 @@ size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, dou
     uint32_t stack[STACK];
     int      depth = 0;
     size_t   found = 0;
-    stack[depth++] = 0;
+    if (t->count)
+        stack[depth++] = 0;
     while (depth > 0) {
         const bvh_node *node = &t->nodes[stack[--depth]];
         if (!hit_box(&node->bounds, o, inverse, low, high))
