@@ -353,23 +353,6 @@ static void fractions(void)
 
 /* --- depth mask -------------------------------------------------------------------------------------------------- */
 
-/* Parts that the selector does not name, and the others, with their numbers kept: the indices of the rest are taken away. */
-static tracer *tracer_of_some(shape *s, const char *prefix, bool with)
-{
-    uint32_t *counts = check_alloc(s->count, sizeof *counts);
-    for (size_t i = 0; i < s->count; i++) {
-        bool named = strncmp(s->parts[i].name, prefix, strlen(prefix)) == 0;
-        counts[i] = s->parts[i].index_count;
-        if (named != with)
-            s->parts[i].index_count = 0;
-    }
-    tracer *t = tracer_create(s);
-    for (size_t i = 0; i < s->count; i++)
-        s->parts[i].index_count = counts[i];
-    free(counts);
-    return t;
-}
-
 /* Of the mask's pixels, the share at which layer k − 1 does not hide it. */
 static double uncovered_by(const trace_map *mask, const stack_map *rest, size_t k)
 {
@@ -401,7 +384,7 @@ static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const sh
     shape s = {0};
     shot  drawing;
     scene_make(&s, kind, seed);
-    tracer   *rest = tracer_of_some(&s, prefix, false), *named = tracer_of_some(&s, prefix, true);
+    tracer   *rest = tracer_of_parts(&s, prefix, false), *named = tracer_of_parts(&s, prefix, true);
     stack_map map = {0};
     trace_map mask = {0};
     int       last = 0;
