@@ -155,7 +155,7 @@ static void collect(frame *f, figure_state *s, bool layered)
         gpu_read(f->g, s->targets[TARGET_SHADE], r.shade);
         if (!gpu_failed(f->g) && (!layered || s->layer == 0))
             merge_maps(f->maps, s, &r);
-        layer_map *layer = layered ? layer_at(f, (size_t)s->layer) : NULL;
+        layer_map *layer = layered && f->maps->layered ? layer_at(f, (size_t)s->layer) : NULL;
         if (layer)
             merge_layer(layer, count, s, &r);
     } else {

@@ -55,6 +55,7 @@ struct frame_maps {
     uint32_t *id;
     float    *edge;    /* 4 */
     float    *shade;   /* 4, linear premultiplied */
+    bool       layered; /* layers are kept too, not only what is nearest */
     layer_map **layers; /* of figures that are seen through, nearest first */
     size_t     layer_count, layer_capacity;
 };

@@ -118,8 +118,8 @@ figure_state *layer_owner(const layer_stack *stack, size_t part_index);
 
 /* --- lists.c: all layers from one geometry pass --- */
 bool lists_possible(const frame *f);
-/* Gathers every fragment inside the stack's `around` box. Returns the number of pieces the box must be cut into so that each
- * fits into memory: 1 when everything did. */
+/* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room is needed: 1 when
+ * everything is there; otherwise the lists are not whole. */
 int  lists_build(frame *f, layer_stack *stack, size_t room);
 /* Draws layer `index` into the stack's pictures. Layers are asked for in order. */
 void lists_layer(frame *f, layer_stack *stack, int index);

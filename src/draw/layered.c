@@ -62,6 +62,8 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
     }
     for (int i = 0; i < stack->count; i++)
         stack->states[i].shared = stack->count > 1;
+    if (f->maps && !f->maps->layered)
+        stack->limit = 1;
     if (f->maps) /* are read back whole */
         memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
 }
@@ -312,13 +314,12 @@ static void clear_sum(frame *f, layer_stack *stack)
     gpu_pass_begin(f->g, &pass);
 }
 
-/* The band number `index` of `count`, and what is looked at around it. */
-static void set_band(const frame *f, layer_stack *stack, int index, int count)
+/* Selects a band of the stack's box, and what is looked at around it. */
+static void set_band(const frame *f, layer_stack *stack, const int band[4])
 {
-    int band[4], limits[2] = {f->width, f->height};
-    memcpy(band, stack->box, sizeof band);
-    band[1] = stack->box[1] + stack->box[3] * index / count;
-    band[3] = stack->box[1] + stack->box[3] * (index + 1) / count - band[1];
+    bool whole = memcmp(band, stack->box, sizeof stack->box) == 0;
+    const int limits[2] = {f->width, f->height};
+    memcpy(stack->band, band, sizeof stack->band);
     for (int k = 0; k < 2; k++) {
         int low = band[k] - 2 * stack->reach, high = band[k] + band[2 + k] + 2 * stack->reach;
         low = low < 0 ? 0 : low;
@@ -328,11 +329,10 @@ static void set_band(const frame *f, layer_stack *stack, int index, int count)
     }
     for (int i = 0; i < stack->count; i++) {
         figure_state *s = &stack->states[i];
-        memcpy(s->band, band, sizeof band);
-        memcpy(s->pixels, count > 1 ? stack->around : band, sizeof band);
-        memcpy(s->around, stack->around, sizeof band);
+        memcpy(s->band, stack->band, sizeof s->band);
+        memcpy(s->pixels, whole ? stack->band : stack->around, sizeof s->pixels);
+        memcpy(s->around, stack->around, sizeof s->around);
     }
-    memcpy(stack->band, band, sizeof band);
 }
 
 /* What all figures of the stack ask for. */
@@ -362,6 +362,8 @@ static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
 static void draw_band(frame *f, layer_stack *stack, bool lists)
 {
     int drawn = draw_layers(f, stack, lists);
+    if (lists || !f->producer)
+        f->producer = lists ? "lists" : "peeling";
     for (int i = 0; i < stack->count; i++)
         stack->states[i].rear = 1;
     if (!f->maps)
@@ -370,27 +372,47 @@ static void draw_band(frame *f, layer_stack *stack, bool lists)
         f->layers = drawn;
 }
 
-/* All at once where lists have room, else in bands; a band that is too full even so is peeled. */
-static void draw_bands(frame *f, layer_stack *stack)
+static void peel_band(frame *f, layer_stack *stack)
 {
-    stack_wishes wishes = wishes_of(f, stack);
-    set_band(f, stack, 0, 1);
-    int pieces = wishes.lists ? lists_build(f, stack, wishes.bytes) : 1;
-    bool peel_all = !wishes.lists || (pieces > 1 && wishes.whole);
-    f->producer = peel_all ? "peeling" : "lists";
-    f->lists_full = f->lists_full || (wishes.lists && peel_all);
-    if (pieces == 1 || peel_all) {
-        if (peel_all)
-            lists_release(f, stack);
-        draw_band(f, stack, !peel_all);
+    lists_release(f, stack);
+    draw_band(f, stack, false);
+}
+
+/* At once where lists have room; else in pieces, and a piece that is too full even when it is small is peeled. */
+static void list_band(frame *f, layer_stack *stack, const stack_wishes *wishes, const int region[4], int depth)
+{
+    enum { DEPTH_MAX = 2, PIECES_MAX = 8, PIECE_SIDE_MIN = 64 };
+    int band[4];
+    memcpy(band, region, sizeof band);
+    lists_release(f, stack);
+    set_band(f, stack, band);
+    int pieces = lists_build(f, stack, wishes->bytes), axis = band[2] > band[3] ? 0 : 1;
+    if (pieces == 1) {
+        draw_band(f, stack, true);
+        return;
+    }
+    if (wishes->whole || depth == DEPTH_MAX || pieces > PIECES_MAX || band[2 + axis] / pieces < PIECE_SIDE_MIN) {
+        f->lists_full = true;
+        peel_band(f, stack);
         return;
     }
     for (int i = 0; i < pieces && !gpu_failed(f->g); i++) {
-        lists_release(f, stack);
-        set_band(f, stack, i, pieces);
-        bool fits = lists_build(f, stack, wishes.bytes) == 1;
-        f->lists_full = f->lists_full || !fits;
-        draw_band(f, stack, fits);
+        int piece[4];
+        memcpy(piece, band, sizeof piece);
+        piece[axis] = band[axis] + band[2 + axis] * i / pieces;
+        piece[2 + axis] = band[axis] + band[2 + axis] * (i + 1) / pieces - piece[axis];
+        list_band(f, stack, wishes, piece, depth + 1);
+    }
+}
+
+static void draw_bands(frame *f, layer_stack *stack)
+{
+    stack_wishes wishes = wishes_of(f, stack);
+    if (wishes.lists) {
+        list_band(f, stack, &wishes, stack->box, 0);
+    } else {
+        set_band(f, stack, stack->box);
+        peel_band(f, stack);
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { KEPT_MAX = 8, NODE_WORDS_BARE = 8, NODE_WORDS_SHADED = 10, PIECES_MAX = 64 };
+enum { KEPT_MAX = 8, NODE_WORDS_BARE = 8, NODE_WORDS_SHADED = 10 };
 
 bool lists_possible(const frame *f)
 {
@@ -50,11 +50,7 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
     uint32_t wanted = 0;
     gpu_buffer_read(f->g, stack->counter, sizeof wanted, &wanted);
     watch_stop(f, w, "layers", "lists");
-    if (wanted <= limit || gpu_failed(f->g))
-        return 1;
-    /* Fragments are not spread evenly: half as many pieces more than would do if they were. */
-    uint64_t pieces = ((uint64_t)wanted * 3 / 2 + limit - 1) / limit;
-    return pieces > PIECES_MAX ? PIECES_MAX : (int)pieces;
+    return wanted <= limit || gpu_failed(f->g) ? 1 : (int)((wanted + (limit - 1)) / limit);
 }
 
 static int kept_of(const layer_stack *stack)

@@ -11,7 +11,7 @@ uniform uint u_order;           /* triangles drawn before: of what coincides in 
 uniform uint u_first_primitive;
 uniform vec4 u_list_box;
 
-void list_add(uvec2 id, float eye_depth, vec3 normal, vec4 shade)
+void list_add(uvec2 id, float depth, float eye_depth, vec3 normal, vec4 shade)
 {
     uint i = atomicAdd(node_count, 1u);
     if (i >= u_node_limit)
@@ -21,7 +21,7 @@ void list_add(uvec2 id, float eye_depth, vec3 normal, vec4 shade)
         flat_normal = (1.0 - abs(flat_normal.yx)) * vec2(flat_normal.x < 0.0 ? -1.0 : 1.0, flat_normal.y < 0.0 ? -1.0 : 1.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(u_list_box.xy);
     uint at = i * uint(NODE_WORDS);
-    nodes[at + 1u] = floatBitsToUint(gl_FragCoord.z);
+    nodes[at + 1u] = floatBitsToUint(depth);
     nodes[at + 2u] = u_order + u_first_primitive + uint(gl_PrimitiveID);
     nodes[at + 3u] = id.r;
     nodes[at + 4u] = id.g;
