@@ -326,13 +326,13 @@ static void fractions(void)
         scene_make(&s, (scene_kind)kind, 11);
         tracer   *t = tracer_create(&s);
         stack_map map = {0};
-        if (shot_of_shape(&all, &s, "fraction.glb", layered_look("\"count\":0", NULL), NULL, &views[kind])) {
+        if (shot_of_shape(&all, &s, "fraction.glb", layered_look(kind % 2 ? "\"count\":0,\"producer\":\"lists\"" : "\"count\":0,\"producer\":\"peeling\"", NULL), NULL, &views[kind])) {
             stack_map_make(&map, t, &all);
             for (size_t f = 0; f < sizeof tried / sizeof *tried; f++) {
                 char   layers[80];
                 int    wanted = layers_of_fraction(&map, tried[f]);
                 double share;
-                snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"fraction\":%g", f % 2 ? "lists" : "peeling", tried[f]);
+                snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"fraction\":%g", kind % 2 ? "lists" : "peeling", tried[f]);
                 if (!wanted || !shot_of_shape(&some, &s, "fraction.glb", layered_look(layers, NULL), NULL, &views[kind]))
                     continue;
                 judged++;
@@ -352,23 +352,6 @@ static void fractions(void)
 }
 
 /* --- depth mask -------------------------------------------------------------------------------------------------- */
-
-/* Parts that the selector does not name, and the others, with their numbers kept: the indices of the rest are taken away. */
-static tracer *tracer_of_some(shape *s, const char *prefix, bool with)
-{
-    uint32_t *counts = check_alloc(s->count, sizeof *counts);
-    for (size_t i = 0; i < s->count; i++) {
-        bool named = strncmp(s->parts[i].name, prefix, strlen(prefix)) == 0;
-        counts[i] = s->parts[i].index_count;
-        if (named != with)
-            s->parts[i].index_count = 0;
-    }
-    tracer *t = tracer_create(s);
-    for (size_t i = 0; i < s->count; i++)
-        s->parts[i].index_count = counts[i];
-    free(counts);
-    return t;
-}
 
 /* Of the mask's pixels, the share at which layer k − 1 does not hide it. */
 static double uncovered_by(const trace_map *mask, const stack_map *rest, size_t k)
@@ -401,7 +384,7 @@ static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const sh
     shape s = {0};
     shot  drawing;
     scene_make(&s, kind, seed);
-    tracer   *rest = tracer_of_some(&s, prefix, false), *named = tracer_of_some(&s, prefix, true);
+    tracer   *rest = tracer_of_parts(&s, prefix, false), *named = tracer_of_parts(&s, prefix, true);
     stack_map map = {0};
     trace_map mask = {0};
     int       last = 0;
@@ -540,7 +523,7 @@ static size_t differing_edges(const uint8_t *a, const uint8_t *b, int count)
     return differ;
 }
 
-static const char *const layer_lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\"}", "{\"operator\":\"sobel\"}",
+static const char *const layer_lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\",\"gain\":20}", "{\"operator\":\"sobel\",\"gain\":5}",
                                           "{\"operator\":\"saito-normalised\"}", "{\"operator\":\"id\"}"};
 
 /* A layer against the drawing of a model that is only this layer. */
@@ -634,7 +617,7 @@ static void check_repeated(const char *title, const shot *s, const dvec (*edges)
     int samples = 0, found[2] = {0, 0}, ink = 0, apart = 0;
     for (int e = 0; e < count; e++)
         for (int k = 0; k <= 100; k++) {
-            dvec p = shot_project(s, dvec_mix(edges[e][0], edges[e][1], 0.08 + 0.84 * k / 100));
+            dvec p = shot_project(s, dvec_mix(edges[e][0], edges[e][1], 0.2 + 0.6 * k / 100));
             samples++;
             for (int layer = 0; layer < 2; layer++) {
                 found[layer] += layer_ink_near(s, layer, p.x, p.y, 1);
@@ -656,7 +639,9 @@ static void repeated_edges(void)
 {
     static const dvec outline[6][2] = {{{1, 1, -1}, {1, -1, -1}}, {{1, -1, -1}, {1, -1, 1}}, {{1, -1, 1}, {-1, -1, 1}},
                                        {{-1, -1, 1}, {-1, 1, 1}}, {{-1, 1, 1}, {-1, 1, -1}}, {{-1, 1, -1}, {1, 1, -1}}};
-    static const char *const lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\",\"gain\":20}"};
+    /* On its own, four-tap has little ink for a step between far surfaces and nothing. */
+    static const char *const lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\"}"};
+    static const char *const plate_lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\",\"gain\":20}"};
     for (int l = 0; l < 2; l++)
         for (int v = 0; v < 2; v++) {
             shape s = {0};
@@ -680,7 +665,7 @@ static void repeated_edges(void)
                 rim[k][1] = shape_point(&s.parts[1], (k + 1) % 4);
             }
             view.eye = dvec_of(0.5, 0.4, 8);
-            if (shot_of_shape(&drawing, &s, "quads.glb", layered_look("\"count\":0", lines[l]), NULL, &view)) {
+            if (shot_of_shape(&drawing, &s, "quads.glb", layered_look("\"count\":0", plate_lines[l]), NULL, &view)) {
                 check_near("B13", drawing.layer_count, 2, 0, "layers of a plate before a plate");
                 if (drawing.layer_count == 2)
                     check_repeated("a plate that partly hides another", &drawing, (const dvec(*)[2])rim, 4);

@@ -1,6 +1,7 @@
 #include "trace.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "check.h"
 
@@ -109,6 +110,18 @@ tracer *tracer_create(const shape *s)
     t->nodes = check_alloc(2 * t->count + 1, sizeof *t->nodes);
     t->node_count = 1;
     split(t, 0, 0, (uint32_t)t->count);
+    return t;
+}
+
+tracer *tracer_of_parts(const shape *s, const char *prefix, bool with)
+{
+    shape some = {.parts = check_alloc(s->count, sizeof *some.parts), .count = s->count};
+    memcpy(some.parts, s->parts, s->count * sizeof *some.parts);
+    for (size_t i = 0; i < s->count; i++)
+        if ((strncmp(s->parts[i].name, prefix, strlen(prefix)) == 0) != with)
+            some.parts[i].index_count = 0;
+    tracer *t = tracer_create(&some);
+    free(some.parts);
     return t;
 }
 

@@ -22,6 +22,8 @@ typedef struct trace_hit {
 enum { TRACE_NONE = -1 };
 
 tracer *tracer_create(const shape *s);
+/* Only the parts whose names begin with the prefix, or only the others; they keep their numbers. */
+tracer *tracer_of_parts(const shape *s, const char *prefix, bool with);
 void    tracer_destroy(tracer *t);
 const trace_triangle *tracer_triangles(const tracer *t, size_t *count);
 
