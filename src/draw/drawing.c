@@ -192,9 +192,8 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
         gpu_targets_trim(r->g);
     lmn_status status = session_open(&s, r, scene, look, desc, true, &ignored, error);
     if (status == LMN_OK)
-        status = frame_maps_create(&d->maps, desc->width, desc->height, error);
+        status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
     if (status == LMN_OK) {
-        d->maps.layered = desc->maps;
         s.frame.maps = &d->maps;
         frame_draw(&s.frame, NULL);
         status = gpu_check(r->g, error);

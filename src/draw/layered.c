@@ -62,7 +62,7 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
     }
     for (int i = 0; i < stack->count; i++)
         stack->states[i].shared = stack->count > 1;
-    if (f->maps && !f->maps->layered)
+    if (f->maps && !f->maps->whole)
         stack->limit = 1;
     if (f->maps) /* are read back whole */
         memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
@@ -72,7 +72,7 @@ static void stack_close(frame *f, layer_stack *stack)
 {
     for (int i = 0; i < stack->count; i++) {
         figure_state *s = &stack->states[i];
-        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_HALO, TARGET_HALO_ROW, TARGET_FILTERED, TARGET_GROUND};
+        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND};
         for (size_t k = 0; k < sizeof own / sizeof *own; k++)
             gpu_target_release(f->g, s->targets[own[k]]);
         mem_free(s->edges);
@@ -211,7 +211,8 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
         s->targets[borrowed[k]] = stack->targets[borrowed[k]];
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
     if (f->maps) {
-        passes_run_kind(f, s, KIND_LINES);
+        if (f->maps->whole)
+            passes_run_kind(f, s, KIND_LINES);
         collect_layer(f, s);
     } else {
         compose_passes(f, s);
