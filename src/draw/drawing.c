@@ -221,7 +221,7 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
     d->frame_ms = clock_ms() - start;
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
-    d->layers = s->frame.layers > 1 ? s->frame.layers : 1;
+    d->layers = s->frame.producer ? s->frame.layers : 1;
     d->producer = s->frame.producer;
     if (s->frame.lists_full)
         warnings_add(&d->warnings, WARNING_LAYER_MEMORY, "layers did not fit into layers.memory and were peeled instead, which takes longer");
