@@ -34,7 +34,7 @@ vec4 layer_fill(ivec2 pixel);
 
 vec4 layer_ink(vec4 ink);
 
-#ifdef MAP_OF_BEFORE
+#if defined(MAP_OF_BEFORE) && ONCE
 float ink_before(ivec2 at)
 {
     vec4 edge = texelFetch(t_edge_before, clamp(at, ivec2(0), ivec2(u_size) - 1), 0);
@@ -53,9 +53,13 @@ vec4 stacked_ink(ivec2 pixel)
         vec4 edge = edge_at(pixel);
         float important = max(1.0 - edge.r, 1.0 - edge.a);
         ink *= pow(1.0 - u_clutter * mix(0.5, 0.15, important), float(u_layer));
-#ifdef MAP_OF_BEFORE
-        float before = max(max(ink_before(pixel), max(ink_before(pixel + ivec2(1, 0)), ink_before(pixel - ivec2(1, 0)))),
-                           max(ink_before(pixel + ivec2(0, 1)), ink_before(pixel - ivec2(0, 1))));
+#if defined(MAP_OF_BEFORE) && ONCE
+        /* A line lies on either side of its edge; the same edge in front is within half its width. */
+        float before = ink_before(pixel);
+        int reach = max(int(ceil(0.5 * u_line_width)), 1);
+        for (int i = 1; i <= reach; i++)
+            before = max(before, max(max(ink_before(pixel + ivec2(i, 0)), ink_before(pixel - ivec2(i, 0))),
+                                     max(ink_before(pixel + ivec2(0, i)), ink_before(pixel - ivec2(0, i)))));
         ink *= 1.0 - before;
 #endif
 #ifdef HAS_NEARER

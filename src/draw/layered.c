@@ -68,15 +68,22 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
         memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
 }
 
+/* Gives back what the figures keep of the lines in front. */
+static void forget_lines(frame *f, layer_stack *stack)
+{
+    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND};
+    for (int i = 0; i < stack->count; i++)
+        for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
+            gpu_target_release(f->g, stack->states[i].targets[own[k]]);
+            stack->states[i].targets[own[k]] = NULL;
+        }
+}
+
 static void stack_close(frame *f, layer_stack *stack)
 {
-    for (int i = 0; i < stack->count; i++) {
-        figure_state *s = &stack->states[i];
-        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND};
-        for (size_t k = 0; k < sizeof own / sizeof *own; k++)
-            gpu_target_release(f->g, s->targets[own[k]]);
-        mem_free(s->edges);
-    }
+    forget_lines(f, stack);
+    for (int i = 0; i < stack->count; i++)
+        mem_free(stack->states[i].edges);
     for (int t = 0; t < TARGET_COUNT; t++)
         gpu_target_release(f->g, stack->targets[t]);
     gpu_target_release(f->g, stack->before_depth);
@@ -260,6 +267,7 @@ static int draw_layers(frame *f, layer_stack *stack, bool lists)
     int drawn = 0;
     bool finished[FIGURES_TOGETHER_MAX] = {false};
     tiles_start(&stack->tiles, stack->band);
+    forget_lines(f, stack);
     for (int layer = 0; layer < stack->limit && !gpu_failed(f->g); layer++) {
         if (lists)
             lists_layer(f, stack, layer);
@@ -310,7 +318,8 @@ static void clear_sum(frame *f, layer_stack *stack)
     stack->targets[TARGET_LAYERS] = frame_acquire(f, TARGET_LAYERS);
     if (gpu_failed(f->g))
         return;
-    gpu_pass pass = {.colours = {stack->targets[TARGET_LAYERS]}, .colour_count = 1, .clear = true};
+    gpu_pass pass = {.colours = {stack->targets[TARGET_LAYERS]}, .colour_count = 1, .clear = true,
+                     .clear_values = {{0, 0, 0, 1}}};
     memcpy(pass.clear_box, stack->box, sizeof pass.clear_box);
     gpu_pass_begin(f->g, &pass);
 }

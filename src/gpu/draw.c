@@ -123,7 +123,7 @@ void gpu_use(gpu *g, gpu_program *p, gpu_state state)
     glEnable(GL_BLEND);
     glBlendEquation(state.blend == GPU_BLEND_MIN ? GL_MIN : GL_FUNC_ADD);
     if (state.blend == GPU_BLEND_UNDER)
-        glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+        glBlendFuncSeparate(GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     else
         glBlendFunc(GL_ONE, state.blend == GPU_BLEND_MIN ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
 }

@@ -17,7 +17,8 @@ typedef struct gpu_mesh    gpu_mesh;
 typedef struct gpu_buffer  gpu_buffer;
 
 typedef enum gpu_format { GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT } gpu_format;
-typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend; /* OVER, UNDER: premultiplied */
+typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend; /* source premultiplied; UNDER: the picture's alpha is what still shows
+ * through, 1 at first, which 16-bit floats hold better than what does not */
 typedef enum gpu_cull { GPU_CULL_NONE, GPU_CULL_BACK, GPU_CULL_FRONT } gpu_cull;
 /* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where gpu_facts.lists). */
 typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;

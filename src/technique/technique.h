@@ -28,7 +28,7 @@ typedef enum target {
     TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
-    TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back, premultiplied */
+    TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
     TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
     TARGET_COUNT
 } target;
