@@ -103,6 +103,8 @@ group_usage() {
     row 1 'lines.width is .99.; allowed is a number from .* px' '' draw "$gear" --set lines.width=99
     row 1 "did you mean 'width'" '' draw "$gear" --set lines.widht=9
     row 1 'allowed is KIND.PARAM=VALUE' '' draw "$gear" --set lines.width
+    row 1 'layers.count is .-1.; allowed is a whole number from 0 to 256' '' draw "$gear" --look blueprint --set layers.count=-1
+    row 1 'layers.count is .10000.; allowed' '' draw "$gear" --look blueprint --set layers.count=10000
     row 1 'has no lines' '' draw "$gear" --look plain --set lines.width=3
 }
 
@@ -188,6 +190,16 @@ group_report() {
     for map in depth.pfm normal.pfm id.png edge.png shade.png; do
         [ -s .maps/$map ] || complain "there is no $map"
     done
+    # Looks that are seen through: every layer's maps, and how the layers were made.
+    row 0 '' 'b-r.json b.png' draw "$gear" $small -o b.png --look blueprint --report b-r.json --aov .layers
+    cp b-r.json in-layers.json; documented in-layers.json report.md
+    grep -q '"layers": 5' b-r.json && grep -Eq '"layer_producer": "(lists|peeling)"' b-r.json || complain "the report does not tell the layers"
+    for map in 0.depth.pfm 4.normal.pfm 4.id.png 4.edge.png 4.shade.png; do
+        [ -s .layers/layer$map ] || complain "there is no layer$map"
+    done
+    [ -e .layers/layer5.depth.pfm ] && complain "there are more layers than were asked for"
+    row 0 'selects no part' 'x.png' draw "$gear" $small -o x.png --look xray --set layers.focus=nosuch
+    row 1 'selector .a,. is wrong' '' draw "$gear" $small -o x.png --look xray --set layers.focus=a,
     row 0 '' '' bench "$gear" --look edges --look toon $small --repeat 2 --json
     documented .stdout bench.md
     row 0 '' '' bench "$gear" --look edges $small --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
