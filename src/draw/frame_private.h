@@ -58,7 +58,7 @@ typedef struct layer_stack {
     gpu_texture  *mask;         /* depth of what is to be uncovered, or NULL */
     gpu_texture  *nodes[2];     /* lists: nodes of up to eight layers */
     gpu_buffer   *heads, *list, *counter;
-    int           node_words;
+    int           node_vectors;
 } layer_stack;
 
 /* --- frame.c --- */
@@ -106,7 +106,7 @@ void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prel
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */
-void raster_lists(frame *f, layer_stack *stack, int node_words, unsigned node_limit);
+void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 

@@ -1,10 +1,10 @@
 /* Layers from one geometry pass: every fragment goes into a list of its pixel (GL 4.3 storage blocks), and the nearest are sorted
- * out in rounds of up to eight. 32 bytes a fragment, 40 with shade, 4 a pixel; at most one storage block of nodes. */
+ * out in rounds of up to eight. 32 bytes a fragment, 48 with shade, 4 a pixel; at most one storage block of nodes. */
 #include "draw/frame_private.h"
 
 #include <string.h>
 
-enum { KEPT_MAX = 8, NODE_WORDS_BARE = 8, NODE_WORDS_SHADED = 10 };
+enum { KEPT_MAX = 8, NODE_VECTORS_BARE = 2, NODE_VECTORS_SHADED = 3 };
 
 bool lists_possible(const frame *f)
 {
@@ -36,8 +36,8 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
     size_t pixels = (size_t)stack->around[2] * (size_t)stack->around[3];
     size_t block = (size_t)gpu_facts_of(f->g)->max_storage_mib << 20;
     room = room < block ? room : block;
-    stack->node_words = stack->channels & CHANNEL_SHADE ? NODE_WORDS_SHADED : NODE_WORDS_BARE;
-    unsigned limit = (unsigned)(room / (sizeof(uint32_t) * (size_t)stack->node_words));
+    stack->node_vectors = stack->channels & CHANNEL_SHADE ? NODE_VECTORS_SHADED : NODE_VECTORS_BARE;
+    unsigned limit = (unsigned)(room / (4 * sizeof(uint32_t) * (size_t)stack->node_vectors));
     stack->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
     stack->list = gpu_buffer_acquire(f->g, room);
     stack->counter = gpu_buffer_acquire(f->g, 64);
@@ -45,7 +45,7 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
     gpu_buffer_fill(f->g, stack->counter, 0, 64);
     bind_buffers(f, stack);
     if (!gpu_failed(f->g))
-        raster_lists(f, stack, stack->node_words, limit);
+        raster_lists(f, stack, stack->node_vectors, limit);
     gpu_buffer_barrier(f->g);
     uint32_t wanted = 0;
     gpu_buffer_read(f->g, stack->counter, sizeof wanted, &wanted);
@@ -64,7 +64,7 @@ static void sort_round(frame *f, layer_stack *stack, bool follows)
     stopwatch w = watch_start(f);
     int kept = kept_of(stack), pictures = kept > 4 ? 2 : 1;
     text prelude = {0};
-    text_append(&prelude, "#define NODE_WORDS %d\n#define KEPT %d\n#define LAST %c\n%s", stack->node_words, kept, "xyzw"[(kept - 1) % 4],
+    text_append(&prelude, "#define NODE_VECTORS %d\n#define KEPT %d\n#define LAST %c\n%s", stack->node_vectors, kept, "xyzw"[(kept - 1) % 4],
                 follows ? "#define FOLLOWS\n" : "");
     gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "layer/list_sort.frag", &prelude);
     gpu_texture *fresh[2] = {0};
@@ -96,7 +96,7 @@ void lists_layer(frame *f, layer_stack *stack, int index)
         sort_round(f, stack, index > 0);
     stopwatch w = watch_start(f);
     text prelude = {0};
-    text_append(&prelude, "#define NODE_WORDS %d\n", stack->node_words);
+    text_append(&prelude, "#define NODE_VECTORS %d\n", stack->node_vectors);
     gpu_pass pass = {0};
     layer_outputs_open(f, stack, &pass, &prelude);
     /* Lines look beyond the layer; every pixel that they can see is written, so that nothing needs to be cleared. */

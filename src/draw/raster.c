@@ -128,7 +128,7 @@ typedef struct raster_job {
     const pass         *inking; /* lines on top and no complement */
     const bool         *only;   /* per part: all others are left out */
     bool                peeled; /* nothing that the layer before had */
-    int                 node_words; /* not 0: into lists, nodes of this size */
+    int                 node_vectors; /* not 0: into lists, nodes of this size */
     unsigned            node_limit;
 } raster_job;
 
@@ -147,8 +147,8 @@ static void declare_outputs(text *prelude, const raster_job *job)
         text_append(prelude, "#define LAYERED\n");
     if (job->peeled)
         text_append(prelude, "#define PEELED\n");
-    if (job->node_words)
-        text_append(prelude, "#define INTO_LISTS\n#define NODE_WORDS %d\n", job->node_words);
+    if (job->node_vectors)
+        text_append(prelude, "#define INTO_LISTS\n#define NODE_VECTORS %d\n", job->node_vectors);
 }
 
 /* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */
@@ -185,7 +185,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     }
     if (job->inking)
         declare_ink(&prelude, path, sizeof path, f, s, job->inking);
-    return program_of(f, job->node_words ? GPU_FAST : GPU_FLOOR, "layer/raster.vert", path, &prelude);
+    return program_of(f, job->node_vectors ? GPU_FAST : GPU_FLOOR, "layer/raster.vert", path, &prelude);
 }
 
 static void set_ink(frame *f, const figure_state *s, const pass *inking)
@@ -202,7 +202,7 @@ static void set_layers(frame *f, const raster_job *job)
         gpu_set_texture(f->g, "t_before_depth", job->stack->before_depth, false);
         gpu_set_texture(f->g, "t_before_id", job->stack->before_id, false);
     }
-    if (job->node_words) {
+    if (job->node_vectors) {
         const int *box = job->stack->around;
         gpu_set_vec4(f->g, "u_list_box", (float[]){(float)box[0], (float)box[1], (float)box[2], (float)box[3]});
         gpu_set_uint(f->g, "u_node_limit", job->node_limit);
@@ -227,7 +227,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     const material *m = material_of(f, s->figure, item, &tinted);
     item_textures t = textures_of(f, item, m);
     gpu_program *program = raster_program(f, s, item, m, t, job);
-    gpu_use(f->g, program, (gpu_state){.depth_test = !job->node_words, .depth_write = !job->node_words, .depth_less = job->stack != NULL});
+    gpu_use(f->g, program, (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_less = job->stack != NULL});
     if (gpu_failed(f->g))
         return;
     frame_set_common(f, s);
@@ -276,18 +276,19 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     last->triangles += gpu_mesh_triangles(item->mesh);
 }
 
-/* Draws parts into the current pass. Layers order what coincides by part and then by facing; whatever is drawn first stays, so parts
- * come in that order, front faces before back faces. */
+/* Draws parts into the current pass. Layers order what coincides by part and then by facing; when peeling, whatever is drawn first
+ * stays, so parts come in that order, front faces before back faces. Lists are sorted later. */
 static void draw_parts(frame *f, const raster_job *job)
 {
     raster_setup last = {0};
     const upload *up = f->up;
+    bool by_facing = job->stack && !job->node_vectors;
     for (size_t first = 0, end; first < up->item_count && !gpu_failed(f->g); first = end) {
         end = first + 1;
         while (end < up->item_count && up->items[end].part_index == up->items[first].part_index)
             end++;
-        for (int round = 0; round < (job->stack ? 2 : 1); round++) {
-            gpu_cull_faces(f->g, !job->stack ? GPU_CULL_NONE : round ? GPU_CULL_FRONT : GPU_CULL_BACK);
+        for (int round = 0; round < (by_facing ? 2 : 1); round++) {
+            gpu_cull_faces(f->g, !by_facing ? GPU_CULL_NONE : round ? GPU_CULL_FRONT : GPU_CULL_BACK);
             for (size_t i = first; i < end && !gpu_failed(f->g); i++)
                 draw_item_of(f, job, &up->items[i], &last);
         }
@@ -401,7 +402,7 @@ void raster_layer(frame *f, layer_stack *stack, bool first)
     watch_stop(f, w, "layers", "peel");
 }
 
-void raster_lists(frame *f, layer_stack *stack, int node_words, unsigned node_limit)
+void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit)
 {
     /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
     gpu_pass pass = {.depth = f->page_depth};
@@ -410,7 +411,7 @@ void raster_lists(frame *f, layer_stack *stack, int node_words, unsigned node_li
     outputs o = no_outputs;
     if (stack->channels & CHANNEL_SHADE)
         o.shade = 0;
-    draw_parts(f, &(raster_job){.stack = stack, .at = o, .node_words = node_words, .node_limit = node_limit});
+    draw_parts(f, &(raster_job){.stack = stack, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
 }
 
 void raster_mask(frame *f, layer_stack *stack, const bool *parts)

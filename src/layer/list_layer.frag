@@ -1,5 +1,5 @@
 /* One layer out of the lists, as the geometry pass would have drawn it. */
-layout(std430, binding = 1) readonly buffer nodes_block { uint nodes[]; };
+layout(std430, binding = 1) readonly buffer nodes_block { uvec4 nodes[]; };
 
 uniform usampler2D t_nodes;
 uniform int u_slot;
@@ -29,21 +29,26 @@ void main()
 #endif
     int some = index != 0u ? 1 : 0;
     for (int once = 0; once < some; once++) {
-        uint node = (index - 1u) * uint(NODE_WORDS);
-        gl_FragDepth = uintBitsToFloat(nodes[node + 1u]);
+        uint node = (index - 1u) * uint(NODE_VECTORS);
+        uvec4 place = nodes[node];
+        gl_FragDepth = uintBitsToFloat(place.y);
+#if defined(AT_NORMAL_DEPTH) || defined(AT_ID)
+        uvec4 surface = nodes[node + 1u];
+#endif
 #ifdef AT_NORMAL_DEPTH
-        vec2 flat_normal = vec2(uintBitsToFloat(nodes[node + 6u]), uintBitsToFloat(nodes[node + 7u]));
+        vec2 flat_normal = uintBitsToFloat(surface.zw);
         vec3 normal = vec3(flat_normal, 1.0 - abs(flat_normal.x) - abs(flat_normal.y));
         float under = max(-normal.z, 0.0);
         normal.x += normal.x < 0.0 ? under : -under;
         normal.y += normal.y < 0.0 ? under : -under;
-        out_normal_depth = vec4(normalize(normal), uintBitsToFloat(nodes[node + 5u]));
+        out_normal_depth = vec4(normalize(normal), uintBitsToFloat(surface.y));
 #endif
 #ifdef AT_ID
-        out_id = uvec2(nodes[node + 3u], nodes[node + 4u]);
+        out_id = uvec2(place.w, surface.x);
 #endif
 #ifdef AT_SHADE
-        out_shade = vec4(unpackHalf2x16(nodes[node + 8u]), unpackHalf2x16(nodes[node + 9u]));
+        uvec4 shade = nodes[node + 2u];
+        out_shade = vec4(unpackHalf2x16(shade.x), unpackHalf2x16(shade.y));
 #endif
     }
 }

@@ -1,7 +1,7 @@
 /* The nearest of a pixel's fragments, in order: their nodes. Of fragments of one part at the same depth that face the same way the
  * first drawn stays. With FOLLOWS, those behind the last node of the round before. */
 layout(std430, binding = 0) readonly buffer heads_block { uint heads[]; };
-layout(std430, binding = 1) readonly buffer nodes_block { uint nodes[]; };
+layout(std430, binding = 1) readonly buffer nodes_block { uvec4 nodes[]; };
 
 uniform vec4 u_list_box;
 #ifdef FOLLOWS
@@ -16,7 +16,7 @@ const uint NONE = 0xFFFFFFFFu; /* deeper than any depth */
 
 uint order_at(uint node)
 {
-    return nodes[node + 3u] << 1 | (nodes[node + 4u] >> 28 & 1u);
+    return nodes[node].w << 1 | (nodes[node + 1u].x >> 28 & 1u);
 }
 
 /* First round only: is what the list has nearest told apart by depth alone? Then nothing else of the nodes is read. */
@@ -30,7 +30,8 @@ bool sort_by_depth(uint head, out uint kept[KEPT])
     }
     uint i = head;
     while (i != 0u) {
-        uint node = (i - 1u) * uint(NODE_WORDS), depth = nodes[node + 1u], mine = i;
+        uvec2 node = nodes[(i - 1u) * uint(NODE_VECTORS)].xy;
+        uint depth = node.y, mine = i;
         for (int k = 0; k < KEPT; k++) {
             ties = ties || (depth == depths[k] && depth != NONE);
             bool nearer = depth < depths[k];
@@ -40,7 +41,7 @@ bool sort_by_depth(uint head, out uint kept[KEPT])
             depth = nearer ? d : depth;
             mine = nearer ? n : mine;
         }
-        i = nodes[node];
+        i = node.x;
     }
     return !ties;
 }
@@ -57,7 +58,9 @@ void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEP
     }
     uint i = head;
     while (i != 0u) {
-        uint node = (i - 1u) * uint(NODE_WORDS), depth = nodes[node + 1u], age = nodes[node + 2u], order = order_at(node), mine = i;
+        uint at = (i - 1u) * uint(NODE_VECTORS);
+        uvec4 node = nodes[at];
+        uint depth = node.y, age = node.z, order = node.w << 1 | (nodes[at + 1u].x >> 28 & 1u), mine = i;
         bool behind = depth > least_depth || (depth == least_depth && order >= least_order);
         depth = behind ? depth : NONE;
         for (int k = 0; k < KEPT; k++) {
@@ -77,7 +80,7 @@ void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEP
             age = nearer ? g : age;
             mine = nearer ? n : mine;
         }
-        i = nodes[node];
+        i = node.x;
     }
 }
 
@@ -90,8 +93,8 @@ void main()
     uint last = texelFetch(t_last, ivec2(gl_FragCoord.xy), 0).LAST, least_depth = 0u, least_order = 0u;
     int some = last != 0u ? 1 : 0;
     for (int once = 0; once < some; once++) {
-        least_depth = nodes[(last - 1u) * uint(NODE_WORDS) + 1u];
-        least_order = order_at((last - 1u) * uint(NODE_WORDS)) + 1u;
+        least_depth = nodes[(last - 1u) * uint(NODE_VECTORS)].y;
+        least_order = order_at((last - 1u) * uint(NODE_VECTORS)) + 1u;
     }
     sort_fully(some == 1 ? head : 0u, least_depth, least_order, kept);
 #else
