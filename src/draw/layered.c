@@ -69,7 +69,7 @@ static void stack_close(frame *f, layer_stack *stack)
 {
     for (int i = 0; i < stack->count; i++) {
         figure_state *s = &stack->states[i];
-        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_HALO, TARGET_HALO_ROW, TARGET_FILTERED, TARGET_GROUND};
+        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_HALO, TARGET_HALO_ROW, TARGET_FILTERED, TARGET_DASH, TARGET_GROUND};
         for (size_t k = 0; k < sizeof own / sizeof *own; k++)
             gpu_target_release(f->g, s->targets[own[k]]);
         mem_free(s->edges);
@@ -314,7 +314,7 @@ static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
             continue;
         if (peel->producer == PRODUCER_PEELING || (peel->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
             out.lists = false;
-        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r);
+        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) || rule_traces_lines(stack->hidden[i].rule);
         size_t bytes = (size_t)peel->memory << 20;
         out.bytes = bytes < out.bytes ? bytes : out.bytes;
     }
