@@ -14,7 +14,8 @@ enum {
     CORNER_REACH = 6,  /* points on either side between which a corner is looked for … */
     CORNER_LEAST = 4,  /* … and at least, near ends */
     SMOOTH_REACH = 5,
-    SPUR_ROUNDS  = 2
+    SPUR_ROUNDS  = 2,
+    BROAD        = 4   /* ink this far on all sides is no line */
 };
 
 static const float corner_cosine = 0.6428f; /* 50 degrees */
@@ -330,6 +331,29 @@ static bool make_chains(chain_set *out, const tracing *t)
     return good;
 }
 
+static bool is_within_ink(const uint8_t *ink, int width, int height, uint32_t pixel)
+{
+    int x = (int)(pixel % (uint32_t)width), y = (int)(pixel / (uint32_t)width);
+    for (int k = 0; k < 9; k++) {
+        int reach = k % 2 ? BROAD : BROAD - 1; /* the even ones are the diagonals */
+        int nx = x + (k % 3 - 1) * reach, ny = y + (k / 3 - 1) * reach;
+        if (nx >= 0 && ny >= 0 && nx < width && ny < height && !ink[(size_t)ny * (size_t)width + (size_t)nx])
+            return false;
+    }
+    return true;
+}
+
+static void find_broad(chain_set *set, const uint8_t *ink, int width, int height)
+{
+    for (size_t i = 0; i < set->chain_count; i++) {
+        chain *c = &set->chains[i];
+        size_t within = 0;
+        for (size_t k = 0; k < c->count; k++)
+            within += is_within_ink(ink, width, height, set->points[c->first + k].pixel);
+        c->broad = 2 * within > c->count;
+    }
+}
+
 bool chains_trace(chain_set *out, const uint8_t *ink, int width, int height, float spur)
 {
     tracing t = {0};
@@ -347,7 +371,9 @@ bool chains_trace(chain_set *out, const uint8_t *ink, int width, int height, flo
     thin_release(&t.grid);
     mem_free(t.cells);
     mem_free(t.lines);
-    if (!good)
+    if (good)
+        find_broad(out, ink, width, height);
+    else
         chains_release(out);
     return good;
 }

@@ -18,6 +18,7 @@ typedef struct chain {
     size_t first, count; /* of its points */
     float  length;       /* of closed ones with the way back to the first point */
     bool   closed;
+    bool   broad;        /* runs through an area of ink rather than along a line */
     bool   joined[2];    /* does it begin, and end, at a junction or a corner? Else the line just stops there */
 } chain;
 

@@ -15,9 +15,12 @@ static const float DETECTED_REACH = 3.5f, LEAST_PERIOD = 0.75f, LEAST_DASHES = 1
 /* From this width on dots are round; below, a square is rounder. */
 static const float ROUND_FROM = 4;
 
+/* Dots smaller than this are faint: they fall between pixels. */
+static const float LEAST_DOT = 2;
+
 static float dash_length(const dash_style *s)
 {
-    return s->dash > s->width ? s->dash : s->width;
+    return fmaxf(s->dash, fmaxf(s->width, LEAST_DOT));
 }
 
 dash_pattern dash_pattern_of(const chain *c, const dash_style *style)
@@ -26,7 +29,7 @@ dash_pattern dash_pattern_of(const chain *c, const dash_style *style)
     /* What the gaps and the dashes between them leave over. */
     float ends = c->closed ? 0 : dash * (float)(2 - c->joined[0] - c->joined[1]) * 0.5f;
     float periods = (c->length - ends) / period;
-    if (c->length < LEAST_DASHES * dash || c->length < LEAST_PERIOD * period + ends)
+    if (c->broad || c->length < LEAST_DASHES * dash || c->length < LEAST_PERIOD * period + ends)
         return (dash_pattern){.stretch = 1, .dash = dash, .period = period};
     /* As many gaps as need the least stretching, or squeezing, by factors. */
     int gaps = (int)floorf(periods);

@@ -10,7 +10,7 @@ typedef struct dash_style {
 } dash_style;
 
 /* A chain's pattern: `gaps` gaps, dash and gap stretched by `stretch` so that it begins and ends with ink: half a dash where it
- * meets other lines, which have the other half, a whole one where it just stops. No gaps: the chain is too short, it stays whole. */
+ * meets other lines, which have the other half, a whole one where it just stops. No gaps: the chain is too short or no line, it stays whole. */
 typedef struct dash_pattern {
     int   gaps;
     float stretch;
