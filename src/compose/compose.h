@@ -31,20 +31,22 @@ typedef struct layer_style {
     PARAM_FLOAT_ROW(layer_style, fade, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                                          \
                     .doc = "Every layer's lines have this share of the opacity of those in front; 1 keeps all alike."),           \
     PARAM_FLOAT_ROW(layer_style, clutter, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                       \
-                    .doc = "How much what is behind fades by importance: creases before outlines, and first where many lines "    \
-                           "are already; nothing is cut off."),                                                                   \
+                    .doc = "How much what is behind fades by importance: creases before outlines, and more where many lines "     \
+                           "are in front; nothing is cut off."),                                                                   \
     PARAM_BOOL_ROW(layer_style, once, .def = 1, .variant = true,                                                                  \
                    .doc = "An edge that repeats in the next layer is drawn once."),                                               \
-    PARAM_FLOAT_ROW(layer_style, halo, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX, .only_if = "once",          \
+    PARAM_FLOAT_ROW(layer_style, halo, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,                             \
                     .doc = "Gap in farther lines beside nearer ones, as on drawings of crossing tubes; 0 leaves none.")
 
 /* What every composition of layers reads, and the passes behind it. */
 #define LAYER_READS                                                                                                               \
-    {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_HALO, TARGET_NORMAL_DEPTH}
-#define LAYER_PASSES_BEHIND                                                                                                       \
-    {.name = "halo across", .shader = "compose/halo_row.frag", .reads = {TARGET_EDGE}, .writes = TARGET_HALO_ROW,                 \
-     .when = "halo&once", .zero_outside = true},                                                                                  \
-    {.name = "halo", .shader = "compose/halo.frag", .reads = {TARGET_HALO_ROW, TARGET_HALO}, .writes = TARGET_HALO,               \
-     .when = "halo&once", .zero_outside = true}
+    {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NORMAL_DEPTH}
+/* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the place is. */
+#define NEARER_LINES_PASSES(condition)                                                                                            \
+    {.name = "nearer lines across", .shader = "compose/nearer_row.frag", .reads = {TARGET_EDGE}, .writes = TARGET_NEARER_ROW,     \
+     .when = condition, .zero_outside = true},                                                                                    \
+    {.name = "nearer lines", .shader = "compose/nearer.frag", .reads = {TARGET_NEARER_ROW, TARGET_NEARER},                        \
+     .writes = TARGET_NEARER, .when = condition, .zero_outside = true}
+#define LAYER_PASSES_BEHIND NEARER_LINES_PASSES("halo"), NEARER_LINES_PASSES("clutter&!halo")
 
 #endif

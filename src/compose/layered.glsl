@@ -5,6 +5,11 @@
 #endif
 layout(location = 0) out vec4 out_0;
 
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
+
 uniform int   u_layer; /* 0 = visible */
 uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
 uniform bool  u_filled; /* with the fill, not only the lines */
@@ -47,14 +52,16 @@ vec4 stacked_ink(ivec2 pixel)
         /* Outlines and borders of parts carry the shape, creases the detail: those go first. */
         vec4 edge = edge_at(pixel);
         float important = max(1.0 - edge.r, 1.0 - edge.a);
-        ink *= pow(1.0 - u_clutter * mix(0.75, 0.3, important), float(u_layer));
+        ink *= pow(1.0 - u_clutter * mix(0.5, 0.15, important), float(u_layer));
 #ifdef MAP_OF_BEFORE
         float before = max(max(ink_before(pixel), max(ink_before(pixel + ivec2(1, 0)), ink_before(pixel - ivec2(1, 0)))),
                            max(ink_before(pixel + ivec2(0, 1)), ink_before(pixel - ivec2(0, 1))));
         ink *= 1.0 - before;
 #endif
-#ifdef HAS_HALO
-        ink *= 1.0 - texelFetch(t_halo, pixel, 0).r;
+#ifdef HAS_NEARER
+        vec4 nearer = texelFetch(t_nearer, pixel, 0);
+        ink *= 1.0 - nearer.r;
+        ink *= 1.0 - u_clutter * smoothstep(0.03, 0.3, nearer.g) * mix(1.0, 0.5, important);
 #endif
     }
     return ink;

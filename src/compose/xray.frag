@@ -1,8 +1,6 @@
 #include "light/point.glsl"
 #include "compose/layered.glsl"
 
-uniform vec2 u_unproject;
-
 vec4 layer_fill(ivec2 pixel)
 {
     float opacity = u_opacity;

@@ -49,7 +49,7 @@ gpu_texture *frame_acquire(frame *f, target t)
     static const gpu_format formats[TARGET_COUNT] = {
         [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,     [TARGET_ALBEDO] = GPU_RGBA16F,
         [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_FILTERED] = GPU_RGBA16F, [TARGET_EDGE] = GPU_RGBA16F,
-        [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_HALO_ROW] = GPU_RGBA16F, [TARGET_HALO] = GPU_RGBA16F, [TARGET_LAYERS] = GPU_RGBA16F,
+        [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_NEARER_ROW] = GPU_RGBA16F, [TARGET_NEARER] = GPU_RGBA16F, [TARGET_LAYERS] = GPU_RGBA16F,
         [TARGET_DASH] = GPU_R8,              [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
     };
     return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
@@ -94,10 +94,26 @@ static bool use_condition(const technique_use *use, const char *condition)
     return params_condition(condition, use->technique->params, use->technique->param_count, use->values);
 }
 
+static bool needs_map(const technique_use *compose)
+{
+    const technique *t = compose->technique;
+    if (t->map_when && use_condition(compose, t->map_when))
+        return true;
+    for (size_t i = 0; i < t->pass_count; i++) {
+        const pass *p = &t->passes[i];
+        if (p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS || !pass_applies(KIND_COMPOSE, p, compose))
+            continue;
+        for (int k = 0; k < PASS_READS_MAX && p->reads[k]; k++)
+            if (p->reads[k] == TARGET_EDGE)
+                return true;
+    }
+    return false;
+}
+
 const pass *rule_merged_detection(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
-    if (!compose || !compose->technique->merges_when || (compose->technique->map_when && use_condition(compose, compose->technique->map_when)) || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
+    if (!compose || !compose->technique->merges_when || needs_map(compose) || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
         !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
         return NULL;
     const pass *only = NULL;
@@ -151,8 +167,8 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
             text_append(prelude, "#define HAS_DASHES\n");
     if (s->targets[TARGET_EDGE_BEFORE])
         text_append(prelude, "#define MAP_OF_BEFORE\n");
-    if (s->targets[TARGET_HALO])
-        text_append(prelude, "#define HAS_HALO\n");
+    if (s->targets[TARGET_NEARER])
+        text_append(prelude, "#define HAS_NEARER\n");
     if (s->shared)
         text_append(prelude, "#define SHARED_LAYERS\n");
     if (s->targets[TARGET_ID])

@@ -8,22 +8,24 @@
 #include "base/memory.h"
 #include "layer/layer.h"
 
-lmn_status frame_maps_create(frame_maps *m, int width, int height, lmn_error *error)
+lmn_status frame_maps_create(frame_maps *m, int width, int height, bool whole, lmn_error *error)
 {
     size_t count = (size_t)width * (size_t)height;
-    *m = (frame_maps){.width = width, .height = height};
+    *m = (frame_maps){.width = width, .height = height, .whole = whole};
     m->depth = mem_alloc(count * sizeof(float));
-    m->normal = mem_calloc(count, 3 * sizeof(float));
     m->id = mem_calloc(count, sizeof(uint32_t));
-    m->edge = mem_alloc(count * 4 * sizeof(float));
-    m->shade = mem_calloc(count, 4 * sizeof(float));
-    if (!m->depth || !m->normal || !m->id || !m->edge || !m->shade) {
+    if (whole) {
+        m->normal = mem_calloc(count, 3 * sizeof(float));
+        m->edge = mem_alloc(count * 4 * sizeof(float));
+        m->shade = mem_calloc(count, 4 * sizeof(float));
+    }
+    if (!m->depth || !m->id || (whole && (!m->normal || !m->edge || !m->shade))) {
         frame_maps_release(m);
         return error_memory(error);
     }
     for (size_t i = 0; i < count; i++)
         m->depth[i] = INFINITY;
-    for (size_t i = 0; i < count * 4; i++)
+    for (size_t i = 0; whole && i < count * 4; i++)
         m->edge[i] = 1;
     return LMN_OK;
 }
@@ -65,10 +67,12 @@ static void merge_maps(frame_maps *m, const figure_state *s, const readings *r)
         if (nearer) {
             m->depth[i] = r->normal_depth[4 * i + 3];
             m->id[i] = r->id[2 * i];
+            if (!m->whole)
+                continue;
             memcpy(&m->normal[3 * i], &r->normal_depth[4 * i], 3 * sizeof(float));
             memcpy(&m->shade[4 * i], &r->shade[4 * i], 4 * sizeof(float));
             memcpy(&m->edge[4 * i], &r->edge[4 * i], 4 * sizeof(float));
-        } else if (!own && m->id[i] == 0) {
+        } else if (m->whole && !own && m->id[i] == 0) {
             for (size_t k = 0; k < 4; k++)
                 m->edge[4 * i + k] = fminf(m->edge[4 * i + k], r->edge[4 * i + k]);
         }
@@ -145,17 +149,22 @@ static layer_map *layer_at(frame *f, size_t index)
 static void collect(frame *f, figure_state *s, bool layered)
 {
     size_t count = (size_t)f->width * (size_t)f->height;
-    readings r = {mem_alloc(count * 16), mem_alloc(count * 16), s->edges, mem_alloc(count * 8)};
-    if (!r.edge && (r.edge = s->edges = mem_alloc(count * 16)))
-        for (size_t i = 0; i < count * 4; i++)
-            r.edge[i] = 1;
-    if (r.normal_depth && r.edge && r.shade && r.id) {
+    bool whole = f->maps->whole;
+    readings r = {.normal_depth = mem_alloc(count * 16), .id = mem_alloc(count * 8), .edge = s->edges};
+    if (whole) {
+        r.shade = mem_alloc(count * 16);
+        if (!r.edge && (r.edge = s->edges = mem_alloc(count * 16)))
+            for (size_t i = 0; i < count * 4; i++)
+                r.edge[i] = 1;
+    }
+    if (r.normal_depth && r.id && (!whole || (r.edge && r.shade))) {
         gpu_read(f->g, s->targets[TARGET_NORMAL_DEPTH], r.normal_depth);
         gpu_read(f->g, s->targets[TARGET_ID], r.id);
-        gpu_read(f->g, s->targets[TARGET_SHADE], r.shade);
+        if (whole)
+            gpu_read(f->g, s->targets[TARGET_SHADE], r.shade);
         if (!gpu_failed(f->g) && (!layered || s->layer == 0))
             merge_maps(f->maps, s, &r);
-        layer_map *layer = layered ? layer_at(f, (size_t)s->layer) : NULL;
+        layer_map *layer = layered && whole ? layer_at(f, (size_t)s->layer) : NULL;
         if (layer)
             merge_layer(layer, count, s, &r);
     } else {

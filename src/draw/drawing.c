@@ -185,11 +185,14 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
 static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                             lmn_error *error)
 {
+    enum { LARGE = 1 << 21 }; /* pixels from which on the drawing's own pictures are not kept while maps are read */
     session s;
     warnings ignored = {0};
+    if ((int64_t)desc->width * desc->height >= LARGE)
+        gpu_targets_trim(r->g);
     lmn_status status = session_open(&s, r, scene, look, desc, true, &ignored, error);
     if (status == LMN_OK)
-        status = frame_maps_create(&d->maps, desc->width, desc->height, error);
+        status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
     if (status == LMN_OK) {
         s.frame.maps = &d->maps;
         frame_draw(&s.frame, NULL);

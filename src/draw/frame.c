@@ -95,7 +95,7 @@ static void draw_figure(frame *f, const figure *fig)
         if (fig->deferred)
             raster_shade_deferred(f, &s);
         for (int k = KIND_LAYERS; k < KIND_FINISH; k++)
-            if (k != KIND_COMPOSE || !f->maps)
+            if (!f->maps || (f->maps->whole && k != KIND_COMPOSE))
                 passes_run_kind(f, &s, (kind_id)k);
         if (f->maps)
             collect_figure(f, &s);

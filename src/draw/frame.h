@@ -55,10 +55,11 @@ struct frame_maps {
     uint32_t *id;
     float    *edge;    /* 4 */
     float    *shade;   /* 4, linear premultiplied */
+    bool       whole;   /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
     layer_map **layers; /* of figures that are seen through, nearest first */
     size_t     layer_count, layer_capacity;
 };
-lmn_status frame_maps_create(frame_maps *out, int width, int height, lmn_error *error);
+lmn_status frame_maps_create(frame_maps *out, int width, int height, bool whole, lmn_error *error);
 void       frame_maps_release(frame_maps *m);
 
 #endif

@@ -5,6 +5,21 @@
 #include "draw/frame.h"
 #include "draw/uniforms.h"
 
+enum { TILES_SIDE = 64, TILE_BOXES_MAX = TILES_SIDE * TILES_SIDE / 2 };
+
+/* The tiles of a band. */
+typedef struct tile_grid {
+    int      band[4], size, columns, rows; /* tile size in pixels */
+    bool     full[TILES_SIDE][TILES_SIDE]; /* has pixels of the layer */
+    uint32_t mask[TILES_SIDE][TILES_SIDE]; /* pixels of what is to be uncovered */
+} tile_grid;
+
+/* --- tiles.c --- */
+void   tiles_start(tile_grid *t, const int band[4]); /* all full */
+/* The full tiles and those within `margin` pixels of them as boxes, at most TILE_BOXES_MAX, inside `limits`. Tiles at the rim of the
+ * band reach `margin` beyond it. Returns how many. */
+size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4]);
+
 /* A figure while it is drawn: its pictures and its range of depth. */
 typedef struct figure_state {
     const figure *figure;
@@ -18,6 +33,8 @@ typedef struct figure_state {
     int           index;     /* layered: of the figure among those that share their layers */
     bool          shared;    /* layered: other figures' surfaces are in the layers too */
     float         rear;      /* layered: opacity */
+    int         (*boxes)[4]; /* layered: where passes are drawn; NULL: all of `pixels` */
+    size_t        box_count;
     bool          filled;    /* layered: the fill is drawn with these lines */
     double        near, far;
 } figure_state;
@@ -33,6 +50,9 @@ typedef struct layer_stack {
     int           box[4];       /* all that is drawn */
     int           band[4];      /* that is drawn now */
     int           around[4];    /* the band and what passes there look at */
+    tile_grid     tiles;        /* of the layer before, later of the current one */
+    int         (*boxes)[4];    /* room for TILE_BOXES_MAX */
+    size_t        box_count;
     gpu_texture  *targets[TARGET_COUNT]; /* of the current layer */
     gpu_texture  *before_depth, *before_id; /* of the layer in front */
     gpu_texture  *mask;         /* depth of what is to be uncovered, or NULL */
@@ -98,8 +118,8 @@ figure_state *layer_owner(const layer_stack *stack, size_t part_index);
 
 /* --- lists.c: all layers from one geometry pass --- */
 bool lists_possible(const frame *f);
-/* Gathers every fragment inside the stack's `around` box. Returns the number of pieces the box must be cut into so that each
- * fits into memory: 1 when everything did. */
+/* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room is needed: 1 when
+ * everything is there; otherwise the lists are not whole. */
 int  lists_build(frame *f, layer_stack *stack, size_t room);
 /* Draws layer `index` into the stack's pictures. Layers are asked for in order. */
 void lists_layer(frame *f, layer_stack *stack, int index);

@@ -8,7 +8,7 @@
 #include "layer/layer.h"
 
 /* From this many layers on, one pass into lists is faster than a pass for each. */
-enum { LISTS_PAY_FROM = 3, COVERAGE_SIDE = 64 };
+enum { LISTS_PAY_FROM = 3 };
 
 figure_state *layer_owner(const layer_stack *stack, size_t part_index)
 {
@@ -36,8 +36,9 @@ static void widen(int box[4], const int other[4])
 static void stack_open(frame *f, layer_stack *stack, const figure *figures, int count)
 {
     *stack = (layer_stack){.states = mem_calloc((size_t)count, sizeof *stack->states),
-                           .hidden = mem_calloc((size_t)count, sizeof *stack->hidden)};
-    if (!stack->states || !stack->hidden) {
+                           .hidden = mem_calloc((size_t)count, sizeof *stack->hidden),
+                           .boxes = mem_alloc(TILE_BOXES_MAX * sizeof *stack->boxes)};
+    if (!stack->states || !stack->hidden || !stack->boxes) {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
         return;
     }
@@ -61,6 +62,8 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
     }
     for (int i = 0; i < stack->count; i++)
         stack->states[i].shared = stack->count > 1;
+    if (f->maps && !f->maps->whole)
+        stack->limit = 1;
     if (f->maps) /* are read back whole */
         memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
 }
@@ -69,7 +72,7 @@ static void stack_close(frame *f, layer_stack *stack)
 {
     for (int i = 0; i < stack->count; i++) {
         figure_state *s = &stack->states[i];
-        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_HALO, TARGET_HALO_ROW, TARGET_FILTERED, TARGET_DASH, TARGET_GROUND};
+        static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_DASH, TARGET_GROUND};
         for (size_t k = 0; k < sizeof own / sizeof *own; k++)
             gpu_target_release(f->g, s->targets[own[k]]);
         mem_free(s->edges);
@@ -82,6 +85,7 @@ static void stack_close(frame *f, layer_stack *stack)
     lists_release(f, stack);
     mem_free(stack->states);
     mem_free(stack->hidden);
+    mem_free(stack->boxes);
 }
 
 /* Gives the pictures of a layer back; by peeling, its depth and ids tell the next one where to go on. */
@@ -107,37 +111,59 @@ typedef struct coverage {
     double covered, uncovered, mask; /* pixels: of the layer; of the focus, not behind it any more; of the focus */
 } coverage;
 
-/* Counted by a shader and read back as a small picture, which every driver can, WebGL too. */
-static coverage count_coverage(frame *f, const layer_stack *stack)
+/* Takes the counts of the tiles; tiles that the layer before had left empty were not counted again. */
+static coverage take_counts(layer_stack *stack, const float *values)
 {
-    const int *box = stack->band;
+    coverage out = {0};
+    tile_grid *t = &stack->tiles;
+    for (int y = 0; y < t->rows; y++)
+        for (int x = 0; x < t->columns; x++) {
+            const float *v = &values[4 * (y * TILES_SIDE + x)];
+            if (t->full[y][x]) {
+                t->full[y][x] = v[0] > 0;
+                t->mask[y][x] = (uint32_t)v[2];
+                out.covered += v[0];
+                out.uncovered += v[1];
+            } else {
+                out.uncovered += t->mask[y][x];
+            }
+            out.mask += t->mask[y][x];
+        }
+    return out;
+}
+
+/* Counted by a shader and read back as a small picture, which every driver can, WebGL too. */
+static coverage count_coverage(frame *f, layer_stack *stack)
+{
     coverage out = {0};
     stopwatch w = watch_start(f);
     text prelude = {0};
     if (stack->mask)
         text_append(&prelude, "#define HAS_MASK\n");
-    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "layer/coverage.frag", &prelude);
-    gpu_texture *sums = gpu_target_acquire(f->g, COVERAGE_SIDE, COVERAGE_SIDE, GPU_RGBA32F);
-    float *values = mem_alloc(sizeof(float) * 4 * COVERAGE_SIDE * COVERAGE_SIDE);
-    if (p && sums && values && !gpu_failed(f->g)) {
-        int longest = box[2] > box[3] ? box[2] : box[3];
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/boxes.vert", "layer/coverage.frag", &prelude);
+    gpu_texture *sums = gpu_target_acquire(f->g, TILES_SIDE, TILES_SIDE, GPU_RGBA32F);
+    float *values = mem_alloc(sizeof(float) * 4 * TILES_SIDE * TILES_SIDE);
+    if (!values)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    if (p && sums && !gpu_failed(f->g)) {
+        const int *band = stack->band;
+        tile_grid counted = stack->tiles;
+        counted.size = 1;
+        memcpy(counted.band, (int[]){0, 0, counted.columns, counted.rows}, sizeof counted.band);
+        stack->box_count = tiles_boxes(&counted, 0, counted.band, stack->boxes);
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {sums}, .colour_count = 1});
         gpu_use(f->g, p, (gpu_state){0});
         gpu_set_texture(f->g, "t_depth", stack->targets[TARGET_DEPTH], false);
         if (stack->mask)
             gpu_set_texture(f->g, "t_mask", stack->mask, false);
-        gpu_set_vec2(f->g, "u_first", (float)box[0], (float)box[1]);
-        gpu_set_vec2(f->g, "u_end", (float)(box[0] + box[2]), (float)(box[1] + box[3]));
-        gpu_set_float(f->g, "u_block", (float)((longest + COVERAGE_SIDE - 1) / COVERAGE_SIDE));
-        gpu_draw_screen(f->g);
+        gpu_set_vec2(f->g, "u_first", (float)band[0], (float)band[1]);
+        gpu_set_vec2(f->g, "u_end", (float)(band[0] + band[2]), (float)(band[1] + band[3]));
+        gpu_set_float(f->g, "u_block", (float)stack->tiles.size);
+        gpu_set_vec2(f->g, "u_target", TILES_SIDE, TILES_SIDE);
+        gpu_draw_boxes(f->g, stack->boxes, stack->box_count);
         gpu_read(f->g, sums, values);
-        for (size_t i = 0; i < COVERAGE_SIDE * COVERAGE_SIDE && !gpu_failed(f->g); i++) {
-            out.covered += values[4 * i];
-            out.uncovered += values[4 * i + 1];
-            out.mask += values[4 * i + 2];
-        }
-    } else if (!values) {
-        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        if (!gpu_failed(f->g))
+            out = take_counts(stack, values);
     }
     mem_free(values);
     gpu_target_release(f->g, sums);
@@ -185,7 +211,8 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
         s->targets[borrowed[k]] = stack->targets[borrowed[k]];
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
     if (f->maps) {
-        passes_run_kind(f, s, KIND_LINES);
+        if (f->maps->whole)
+            passes_run_kind(f, s, KIND_LINES);
         collect_layer(f, s);
     } else {
         compose_passes(f, s);
@@ -215,11 +242,24 @@ static bool is_finished(const frame *f, figure_state *s, coverage c)
     return false;
 }
 
+/* Passes over the layer's lines and colours go where it is, and as far around as lines reach. */
+static void set_boxes(const frame *f, layer_stack *stack)
+{
+    bool all = f->maps != NULL; /* are read back whole */
+    if (!all)
+        stack->box_count = tiles_boxes(&stack->tiles, stack->reach, stack->around, stack->boxes);
+    for (int i = 0; i < stack->count; i++) {
+        stack->states[i].boxes = all ? NULL : stack->boxes;
+        stack->states[i].box_count = stack->box_count;
+    }
+}
+
 /* Draws the layers inside the current band; returns how many there were. */
 static int draw_layers(frame *f, layer_stack *stack, bool lists)
 {
     int drawn = 0;
     bool finished[FIGURES_TOGETHER_MAX] = {false};
+    tiles_start(&stack->tiles, stack->band);
     for (int layer = 0; layer < stack->limit && !gpu_failed(f->g); layer++) {
         if (lists)
             lists_layer(f, stack, layer);
@@ -229,6 +269,7 @@ static int draw_layers(frame *f, layer_stack *stack, bool lists)
         if (c.covered == 0)
             break;
         drawn++;
+        set_boxes(f, stack);
         bool open = false;
         for (int i = 0; i < stack->count; i++) {
             figure_state *s = &stack->states[i];
@@ -274,13 +315,12 @@ static void clear_sum(frame *f, layer_stack *stack)
     gpu_pass_begin(f->g, &pass);
 }
 
-/* The band number `index` of `count`, and what is looked at around it. */
-static void set_band(const frame *f, layer_stack *stack, int index, int count)
+/* Selects a band of the stack's box, and what is looked at around it. */
+static void set_band(const frame *f, layer_stack *stack, const int band[4])
 {
-    int band[4], limits[2] = {f->width, f->height};
-    memcpy(band, stack->box, sizeof band);
-    band[1] = stack->box[1] + stack->box[3] * index / count;
-    band[3] = stack->box[1] + stack->box[3] * (index + 1) / count - band[1];
+    bool whole = memcmp(band, stack->box, sizeof stack->box) == 0;
+    const int limits[2] = {f->width, f->height};
+    memcpy(stack->band, band, sizeof stack->band);
     for (int k = 0; k < 2; k++) {
         int low = band[k] - 2 * stack->reach, high = band[k] + band[2 + k] + 2 * stack->reach;
         low = low < 0 ? 0 : low;
@@ -290,11 +330,10 @@ static void set_band(const frame *f, layer_stack *stack, int index, int count)
     }
     for (int i = 0; i < stack->count; i++) {
         figure_state *s = &stack->states[i];
-        memcpy(s->band, band, sizeof band);
-        memcpy(s->pixels, count > 1 ? stack->around : band, sizeof band);
-        memcpy(s->around, stack->around, sizeof band);
+        memcpy(s->band, stack->band, sizeof s->band);
+        memcpy(s->pixels, whole ? stack->band : stack->around, sizeof s->pixels);
+        memcpy(s->around, stack->around, sizeof s->around);
     }
-    memcpy(stack->band, band, sizeof band);
 }
 
 /* What all figures of the stack ask for. */
@@ -324,6 +363,8 @@ static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
 static void draw_band(frame *f, layer_stack *stack, bool lists)
 {
     int drawn = draw_layers(f, stack, lists);
+    if (lists || !f->producer)
+        f->producer = lists ? "lists" : "peeling";
     for (int i = 0; i < stack->count; i++)
         stack->states[i].rear = 1;
     if (!f->maps)
@@ -332,27 +373,47 @@ static void draw_band(frame *f, layer_stack *stack, bool lists)
         f->layers = drawn;
 }
 
-/* All at once where lists have room, else in bands; a band that is too full even so is peeled. */
-static void draw_bands(frame *f, layer_stack *stack)
+static void peel_band(frame *f, layer_stack *stack)
 {
-    stack_wishes wishes = wishes_of(f, stack);
-    set_band(f, stack, 0, 1);
-    int pieces = wishes.lists ? lists_build(f, stack, wishes.bytes) : 1;
-    bool peel_all = !wishes.lists || (pieces > 1 && wishes.whole);
-    f->producer = peel_all ? "peeling" : "lists";
-    f->lists_full = f->lists_full || (wishes.lists && peel_all);
-    if (pieces == 1 || peel_all) {
-        if (peel_all)
-            lists_release(f, stack);
-        draw_band(f, stack, !peel_all);
+    lists_release(f, stack);
+    draw_band(f, stack, false);
+}
+
+/* At once where lists have room; else in pieces, and a piece that is too full even when it is small is peeled. */
+static void list_band(frame *f, layer_stack *stack, const stack_wishes *wishes, const int region[4], int depth)
+{
+    enum { DEPTH_MAX = 2, PIECES_MAX = 8, PIECE_SIDE_MIN = 64 };
+    int band[4];
+    memcpy(band, region, sizeof band);
+    lists_release(f, stack);
+    set_band(f, stack, band);
+    int pieces = lists_build(f, stack, wishes->bytes), axis = band[2] > band[3] ? 0 : 1;
+    if (pieces == 1) {
+        draw_band(f, stack, true);
+        return;
+    }
+    if (wishes->whole || depth == DEPTH_MAX || pieces > PIECES_MAX || band[2 + axis] / pieces < PIECE_SIDE_MIN) {
+        f->lists_full = true;
+        peel_band(f, stack);
         return;
     }
     for (int i = 0; i < pieces && !gpu_failed(f->g); i++) {
-        lists_release(f, stack);
-        set_band(f, stack, i, pieces);
-        bool fits = lists_build(f, stack, wishes.bytes) == 1;
-        f->lists_full = f->lists_full || !fits;
-        draw_band(f, stack, fits);
+        int piece[4];
+        memcpy(piece, band, sizeof piece);
+        piece[axis] = band[axis] + band[2 + axis] * i / pieces;
+        piece[2 + axis] = band[axis] + band[2 + axis] * (i + 1) / pieces - piece[axis];
+        list_band(f, stack, wishes, piece, depth + 1);
+    }
+}
+
+static void draw_bands(frame *f, layer_stack *stack)
+{
+    stack_wishes wishes = wishes_of(f, stack);
+    if (wishes.lists) {
+        list_band(f, stack, &wishes, stack->box, 0);
+    } else {
+        set_band(f, stack, stack->box);
+        peel_band(f, stack);
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { KEPT_MAX = 8, NODE_WORDS_BARE = 8, NODE_WORDS_SHADED = 10, PIECES_MAX = 64 };
+enum { KEPT_MAX = 8, NODE_WORDS_BARE = 8, NODE_WORDS_SHADED = 10 };
 
 bool lists_possible(const frame *f)
 {
@@ -41,7 +41,7 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
     stack->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
     stack->list = gpu_buffer_acquire(f->g, room);
     stack->counter = gpu_buffer_acquire(f->g, 64);
-    gpu_buffer_fill(f->g, stack->heads, UINT32_MAX, pixels * sizeof(uint32_t));
+    gpu_buffer_fill(f->g, stack->heads, 0, pixels * sizeof(uint32_t));
     gpu_buffer_fill(f->g, stack->counter, 0, 64);
     bind_buffers(f, stack);
     if (!gpu_failed(f->g))
@@ -50,11 +50,7 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
     uint32_t wanted = 0;
     gpu_buffer_read(f->g, stack->counter, sizeof wanted, &wanted);
     watch_stop(f, w, "layers", "lists");
-    if (wanted <= limit || gpu_failed(f->g))
-        return 1;
-    /* Fragments are not spread evenly: half as many pieces more than would do if they were. */
-    uint64_t pieces = ((uint64_t)wanted * 3 / 2 + limit - 1) / limit;
-    return pieces > PIECES_MAX ? PIECES_MAX : (int)pieces;
+    return wanted <= limit || gpu_failed(f->g) ? 1 : (int)((wanted + (limit - 1)) / limit);
 }
 
 static int kept_of(const layer_stack *stack)
@@ -103,14 +99,19 @@ void lists_layer(frame *f, layer_stack *stack, int index)
     text_append(&prelude, "#define NODE_WORDS %d\n", stack->node_words);
     gpu_pass pass = {0};
     layer_outputs_open(f, stack, &pass, &prelude);
-    gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "layer/list_layer.frag", &prelude);
+    /* Lines look beyond the layer; every pixel that they can see is written, so that nothing needs to be cleared. */
+    pass.clear = f->maps != NULL;
+    stack->box_count = tiles_boxes(&stack->tiles, 2 * stack->reach, stack->around, stack->boxes);
+    gpu_program *p = program_of(f, GPU_FAST, "gpu/boxes.vert", "layer/list_layer.frag", &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &pass);
         gpu_use(f->g, p, (gpu_state){.depth_write = true});
         gpu_set_texture(f->g, "t_nodes", stack->nodes[slot / 4], false);
         gpu_set_int(f->g, "u_slot", slot % 4);
+        gpu_set_float(f->g, "u_far", (float)f->camera.far);
+        gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
         bind_buffers(f, stack);
-        gpu_draw_screen(f->g);
+        gpu_draw_boxes(f->g, stack->boxes, stack->box_count);
     }
     watch_stop(f, w, "layers", "fetch");
 }

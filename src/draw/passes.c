@@ -28,7 +28,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
-    return program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
+    return program_of(f, GPU_FLOOR, s->boxes ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
 }
 
 /* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
@@ -72,7 +72,11 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
-        gpu_draw_screen(f->g);
+        gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+        if (s->boxes)
+            gpu_draw_boxes(f->g, s->boxes, s->box_count);
+        else
+            gpu_draw_screen(f->g);
     }
     if (!page) {
         if (s->targets[p->writes] != s->geometry)

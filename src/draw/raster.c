@@ -175,6 +175,8 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     declare_material(&prelude, item, m, t);
     if (f->mirror)
         text_append(&prelude, "#define CLIPPED\n");
+    if (s->targets[TARGET_REFLECTION])
+        text_append(&prelude, "#define HAS_REFLECTION\n");
     char path[320] = "layer/raster.frag";
     if (job->at.shade >= 0) {
         lights_declare(&prelude, f);

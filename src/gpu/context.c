@@ -126,6 +126,13 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
         glDebugMessageCallback(on_message, g);
     }
     glGenVertexArrays(1, &g->empty_array);
+    glGenVertexArrays(1, &g->boxes_array);
+    glGenBuffers(1, &g->boxes_buffer);
+    glBindVertexArray(g->boxes_array);
+    glBindBuffer(GL_ARRAY_BUFFER, g->boxes_buffer);
+    glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray(0);
+    glBindVertexArray(0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     *out = g;
@@ -158,6 +165,8 @@ static void release_objects(gpu *g)
         mem_free(g->buffers[i]);
     }
     glDeleteVertexArrays(1, &g->empty_array);
+    glDeleteVertexArrays(1, &g->boxes_array);
+    glDeleteBuffers(1, &g->boxes_buffer);
 }
 
 void gpu_destroy(gpu **handle)

@@ -149,6 +149,27 @@ void gpu_draw_screen(gpu *g)
     g->draws++;
 }
 
+void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count)
+{
+    if (g->failed || !g->program || !count)
+        return;
+    float *corners = mem_alloc(count * 12 * sizeof *corners);
+    if (!corners) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        float x = (float)boxes[i][0], y = (float)boxes[i][1], right = x + (float)boxes[i][2], top = y + (float)boxes[i][3];
+        memcpy(&corners[12 * i], (float[]){x, y, right, y, right, top, x, y, right, top, x, top}, 12 * sizeof *corners);
+    }
+    glBindVertexArray(g->boxes_array);
+    glBindBuffer(GL_ARRAY_BUFFER, g->boxes_buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 12 * sizeof *corners), corners, GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)(count * 6));
+    mem_free(corners);
+    g->draws++;
+}
+
 static size_t add_attribute(gpu_mesh *m, GLuint index, int components, uint32_t count, const float *data)
 {
     if (!data)

@@ -137,6 +137,8 @@ bool gpu_has_uniform(gpu *g, const char *name);
 void gpu_draw_screen(gpu *g);
 /* Sets the program's uniform u_first_primitive, if it has one, to what gl_PrimitiveID must be raised by. */
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
+/* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
+void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
 /* Draw calls since the context was made. */
 uint64_t gpu_draw_count(const gpu *g);
 

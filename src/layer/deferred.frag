@@ -5,7 +5,6 @@ uniform sampler2D  t_normal_depth;
 uniform usampler2D t_id;
 uniform sampler2D  t_albedo;
 uniform vec2 u_size;
-uniform vec2 u_unproject; /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 layout(location = 0) out vec4 out_shade;
 
 void main()

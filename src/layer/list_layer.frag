@@ -3,6 +3,7 @@ layout(std430, binding = 1) readonly buffer nodes_block { uint nodes[]; };
 
 uniform usampler2D t_nodes;
 uniform int u_slot;
+uniform float u_far;
 #ifdef AT_NORMAL_DEPTH
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif
@@ -16,22 +17,33 @@ layout(location = AT_SHADE) out vec4 out_shade;
 void main()
 {
     uint index = texelFetch(t_nodes, ivec2(gl_FragCoord.xy), 0)[u_slot];
-    if (index == 0xFFFFFFFFu)
-        discard;
-    uint node = index * uint(NODE_WORDS);
-    gl_FragDepth = uintBitsToFloat(nodes[node + 1u]);
+    gl_FragDepth = 1.0;
 #ifdef AT_NORMAL_DEPTH
-    vec2 flat_normal = vec2(uintBitsToFloat(nodes[node + 6u]), uintBitsToFloat(nodes[node + 7u]));
-    vec3 normal = vec3(flat_normal, 1.0 - abs(flat_normal.x) - abs(flat_normal.y));
-    float under = max(-normal.z, 0.0);
-    normal.x += normal.x < 0.0 ? under : -under;
-    normal.y += normal.y < 0.0 ? under : -under;
-    out_normal_depth = vec4(normalize(normal), uintBitsToFloat(nodes[node + 5u]));
+    out_normal_depth = vec4(0.0, 0.0, 1.0, u_far);
 #endif
 #ifdef AT_ID
-    out_id = uvec2(nodes[node + 3u], nodes[node + 4u]);
+    out_id = uvec2(0u);
 #endif
 #ifdef AT_SHADE
-    out_shade = vec4(unpackHalf2x16(nodes[node + 8u]), unpackHalf2x16(nodes[node + 9u]));
+    out_shade = vec4(0.0);
 #endif
+    int some = index != 0u ? 1 : 0;
+    for (int once = 0; once < some; once++) {
+        uint node = (index - 1u) * uint(NODE_WORDS);
+        gl_FragDepth = uintBitsToFloat(nodes[node + 1u]);
+#ifdef AT_NORMAL_DEPTH
+        vec2 flat_normal = vec2(uintBitsToFloat(nodes[node + 6u]), uintBitsToFloat(nodes[node + 7u]));
+        vec3 normal = vec3(flat_normal, 1.0 - abs(flat_normal.x) - abs(flat_normal.y));
+        float under = max(-normal.z, 0.0);
+        normal.x += normal.x < 0.0 ? under : -under;
+        normal.y += normal.y < 0.0 ? under : -under;
+        out_normal_depth = vec4(normalize(normal), uintBitsToFloat(nodes[node + 5u]));
+#endif
+#ifdef AT_ID
+        out_id = uvec2(nodes[node + 3u], nodes[node + 4u]);
+#endif
+#ifdef AT_SHADE
+        out_shade = vec4(unpackHalf2x16(nodes[node + 8u]), unpackHalf2x16(nodes[node + 9u]));
+#endif
+    }
 }

@@ -12,60 +12,97 @@ layout(location = 0) out uvec4 out_nodes;
 layout(location = 1) out uvec4 out_more;
 #endif
 
-const uint NONE = 0xFFFFFFFFu;
+const uint NONE = 0xFFFFFFFFu; /* deeper than any depth */
 
 uint order_at(uint node)
 {
     return nodes[node + 3u] << 1 | (nodes[node + 4u] >> 28 & 1u);
 }
 
-void main()
+/* First round only: is what the list has nearest told apart by depth alone? Then nothing else of the nodes is read. */
+bool sort_by_depth(uint head, out uint kept[KEPT])
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(u_list_box.xy);
-    uint depths[KEPT], orders[KEPT], kept[KEPT];
+    uint depths[KEPT];
+    bool ties = false;
     for (int k = 0; k < KEPT; k++) {
         depths[k] = NONE;
-        orders[k] = NONE;
-        kept[k] = NONE;
+        kept[k] = 0u;
     }
-    uint i = heads[pixel.y * int(u_list_box.z) + pixel.x];
-    uint least_depth = 0u, least_order = 0u;
-#ifdef FOLLOWS
-    uint last = texelFetch(t_last, ivec2(gl_FragCoord.xy), 0).LAST;
-    if (last == NONE) {
-        i = NONE;
-    } else {
-        least_depth = nodes[last * uint(NODE_WORDS) + 1u];
-        least_order = order_at(last * uint(NODE_WORDS)) + 1u;
-    }
-#endif
-    /* The bound is never reached; without one, the software driver takes several times as long. */
-    for (int guard = 0; guard < 65536 && i != NONE; guard++) {
-        uint node = i * uint(NODE_WORDS), depth = nodes[node + 1u], order = order_at(node), mine = i;
-        bool behind = depth > least_depth || (depth == least_depth && order >= least_order);
-        depth = behind ? depth : NONE;
+    uint i = head;
+    while (i != 0u) {
+        uint node = (i - 1u) * uint(NODE_WORDS), depth = nodes[node + 1u], mine = i;
         for (int k = 0; k < KEPT; k++) {
-            bool same = depth == depths[k] && order == orders[k];
-            int twins = same && depth != NONE ? 1 : 0;
-            for (int once = 0; once < twins; once++) {
-                if (nodes[mine * uint(NODE_WORDS) + 2u] < nodes[kept[k] * uint(NODE_WORDS) + 2u])
-                    kept[k] = mine;
-                depth = NONE;
-            }
-            bool nearer = depth < depths[k] || (depth == depths[k] && order < orders[k] && depth != NONE);
-            uint d = depths[k], o = orders[k], n = kept[k];
+            ties = ties || (depth == depths[k] && depth != NONE);
+            bool nearer = depth < depths[k];
+            uint d = depths[k], n = kept[k];
             depths[k] = nearer ? depth : d;
-            orders[k] = nearer ? order : o;
             kept[k] = nearer ? mine : n;
             depth = nearer ? d : depth;
-            order = nearer ? o : order;
             mine = nearer ? n : mine;
         }
         i = nodes[node];
     }
-    out_nodes = uvec4(kept[0], kept[1], kept[2], kept[3]);
+    return !ties;
+}
+
+/* The full order, behind (least_depth, least_order). */
+void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEPT])
+{
+    uint depths[KEPT], orders[KEPT], ages[KEPT];
+    for (int k = 0; k < KEPT; k++) {
+        depths[k] = NONE;
+        orders[k] = NONE;
+        ages[k] = NONE;
+        kept[k] = 0u;
+    }
+    uint i = head;
+    while (i != 0u) {
+        uint node = (i - 1u) * uint(NODE_WORDS), depth = nodes[node + 1u], age = nodes[node + 2u], order = order_at(node), mine = i;
+        bool behind = depth > least_depth || (depth == least_depth && order >= least_order);
+        depth = behind ? depth : NONE;
+        for (int k = 0; k < KEPT; k++) {
+            bool twin = depth == depths[k] && order == orders[k];
+            bool older = twin && age < ages[k];
+            ages[k] = older ? age : ages[k];
+            kept[k] = older ? mine : kept[k];
+            depth = twin ? NONE : depth;
+            bool nearer = depth < depths[k] || (depth == depths[k] && order < orders[k] && depth != NONE);
+            uint d = depths[k], o = orders[k], g = ages[k], n = kept[k];
+            depths[k] = nearer ? depth : d;
+            orders[k] = nearer ? order : o;
+            ages[k] = nearer ? age : g;
+            kept[k] = nearer ? mine : n;
+            depth = nearer ? d : depth;
+            order = nearer ? o : order;
+            age = nearer ? g : age;
+            mine = nearer ? n : mine;
+        }
+        i = nodes[node];
+    }
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(u_list_box.xy);
+    uint head = heads[pixel.y * int(u_list_box.z) + pixel.x];
+    uint kept[KEPT];
+#ifdef FOLLOWS
+    uint last = texelFetch(t_last, ivec2(gl_FragCoord.xy), 0).LAST, least_depth = 0u, least_order = 0u;
+    int some = last != 0u ? 1 : 0;
+    for (int once = 0; once < some; once++) {
+        least_depth = nodes[(last - 1u) * uint(NODE_WORDS) + 1u];
+        least_order = order_at((last - 1u) * uint(NODE_WORDS)) + 1u;
+    }
+    sort_fully(some == 1 ? head : 0u, least_depth, least_order, kept);
+#else
+    int unsettled = sort_by_depth(head, kept) ? 0 : 1;
+    for (int once = 0; once < unsettled; once++)
+        sort_fully(head, 0u, 0u, kept);
+#endif
+    out_nodes = uvec4(kept[0], KEPT > 1 ? kept[KEPT > 1 ? 1 : 0] : 0u, KEPT > 2 ? kept[KEPT > 2 ? 2 : 0] : 0u,
+                      KEPT > 3 ? kept[KEPT > 3 ? 3 : 0] : 0u);
 #if KEPT > 4
-    out_more = uvec4(kept[4], KEPT > 5 ? kept[KEPT > 5 ? 5 : 0] : NONE, KEPT > 6 ? kept[KEPT > 6 ? 6 : 0] : NONE,
-                     KEPT > 7 ? kept[KEPT > 7 ? 7 : 0] : NONE);
+    out_more = uvec4(kept[4], KEPT > 5 ? kept[KEPT > 5 ? 5 : 0] : 0u, KEPT > 6 ? kept[KEPT > 6 ? 6 : 0] : 0u,
+                     KEPT > 7 ? kept[KEPT > 7 ? 7 : 0] : 0u);
 #endif
 }

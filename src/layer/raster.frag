@@ -35,6 +35,12 @@ uniform vec4 u_clip_plane; /* eye space; what lies below is left out */
 #endif
 
 #ifdef LAYERED
+/* The depth buffer's: at the near plane, rounding gives numbers below 0. */
+float stored_depth()
+{
+    return clamp(gl_FragCoord.z, 0.0, 1.0);
+}
+
 /* Orders what lies at the same depth: by part, then front faces before back faces. */
 uint order_of(uvec2 id)
 {
@@ -50,9 +56,10 @@ void main()
 #ifdef PEELED
     ivec2 at = ivec2(gl_FragCoord.xy);
     float before = texelFetch(t_before_depth, at, 0).r;
-    if (gl_FragCoord.z < before)
+    float depth = stored_depth();
+    if (depth < before)
         discard;
-    int same = gl_FragCoord.z == before ? 1 : 0;
+    int same = depth == before ? 1 : 0;
     bool had = false;
     for (int once = 0; once < same; once++)
         had = order_of(id) <= order_of(texelFetch(t_before_id, at, 0).rg);
@@ -113,9 +120,9 @@ void main()
 #endif
 #ifdef INTO_LISTS
 #ifdef AT_SHADE
-    list_add(id, -v_eye.z, normal, out_shade);
+    list_add(id, stored_depth(), -v_eye.z, normal, out_shade);
 #else
-    list_add(id, -v_eye.z, normal, vec4(0.0));
+    list_add(id, stored_depth(), -v_eye.z, normal, vec4(0.0));
 #endif
 #endif
 }

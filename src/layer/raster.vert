@@ -9,8 +9,10 @@ uniform mat4 u_model_view;
 uniform mat3 u_normal_matrix;
 uniform mat4 u_projection;
 
+#ifdef LAYERED
 /* Every pass must find the same depth: layers are told apart by it. */
 invariant gl_Position;
+#endif
 
 out vec3 v_eye;
 out vec3 v_normal;

@@ -7,6 +7,7 @@ struct surface_point {
 };
 
 uniform float u_perspective; /* 1, or 0 for parallel rays */
+uniform vec2  u_unproject;   /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 
 /* Unit vector from the place to the viewer. */
 vec3 towards_viewer(vec3 eye)

@@ -24,8 +24,8 @@ typedef enum target {
     TARGET_FILTERED,   /* RGBA16F: normal and normalised depth, which may be sampled with a filter */
     TARGET_EDGE,       /* RGBA16F edge map: R profile, G inner, B combined, A id; 1 = no edge */
     TARGET_EDGE_BEFORE, /* edge map of the layer in front of this one */
-    TARGET_HALO_ROW,   /* RGBA16F: lines of one layer, widened across */
-    TARGET_HALO,       /* RGBA16F: r = ink of all nearer layers' lines, widened */
+    TARGET_NEARER_ROW, /* RGBA16F: on the way to the next */
+    TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
@@ -74,7 +74,7 @@ typedef struct technique {
     size_t       pass_count;
     const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
                                * technique's `detect` itself instead of reading its map; NULL: never */
-    const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same */
+    const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */
     bool         layered;     /* layers: gives several, nearest first; compose: takes them one by one */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */

@@ -4,6 +4,8 @@
 
 #include "check.h"
 #include "feature.h"
+#include "scenes.h"
+#include "stack.h"
 #include "twin.h"
 
 static const double pi = 3.14159265358979323846;
@@ -214,6 +216,195 @@ static void score_can_fail(void)
     shape_release(&s);
 }
 
+/* --- stacks ------------------------------------------------------------------------------------------------------ */
+
+/* Rays through a ball leave it where the closed form says, on its far side. */
+static void stacks_of_a_sphere(void)
+{
+    shape s = {0};
+    shot  view;
+    stack_map map;
+    double worst = 0;
+    int    wrong = 0, through = 0;
+    for (int parallel = 0; parallel < 2; parallel++) {
+        shot_view how = iso(96);
+        how.orthographic = parallel;
+        shape_sphere(&s, "sphere", dvec_of(0, 0, 0), 1, 256, 512, true);
+        tracer *t = tracer_create(&s);
+        shot_blank(&view, &how, 5, 10);
+        stack_map_make(&map, t, &view);
+        for (int i = 0; i < 96 * 96; i++) {
+            dvec origin, direction;
+            shot_ray(&view, i % 96 + 0.5, i / 96 + 0.5, &origin, &direction);
+            double a = dvec_dot(direction, direction), b = dvec_dot(origin, direction), root = b * b - a * (dvec_dot(origin, origin) - 1);
+            if (root < 0.02)
+                continue;
+            const stack_hit *hit = stack_at(&map, i);
+            through++;
+            wrong += stack_count(&map, i) != 2 || !hit[0].front || hit[1].front;
+            for (int k = 0; k < 2 && stack_count(&map, i) == 2; k++) {
+                dvec p = dvec_add(origin, dvec_scale(direction, (-b + (k ? 1 : -1) * sqrt(root)) / a));
+                worst = fmax(worst, fabs(hit[k].depth + shot_to_eye(&view, p, 1).z));
+                worst = fmax(worst, dvec_length(dvec_sub(hit[k].normal, shot_to_eye(&view, p, 0))));
+            }
+        }
+        stack_map_release(&map);
+        shot_release(&view);
+        tracer_destroy(t);
+        shape_release(&s);
+    }
+    check_at_least("self", through, 1000, "rays through a ball");
+    check_at_most("self", wrong, 0, "of them without one front and one back");
+    check_at_most("self", worst, 5e-3, "depth and normal of both against the closed form");
+}
+
+/* All hits of the tree against a plain loop, sorted by hand. */
+static void stacks_equal_brute_force(void)
+{
+    for (int kind = 0; kind < SCENE_KINDS; kind++) {
+        shape s = {0};
+        shot  view;
+        shot_view how = iso(40);
+        int    differ = 0, uneven = 0;
+        size_t count, most = 0;
+        scene_make(&s, (scene_kind)kind, 3);
+        tracer *t = tracer_create(&s);
+        const trace_triangle *f = tracer_triangles(t, &count);
+        shot_blank(&view, &how, 1, 20);
+        for (int i = 0; i < 40 * 40; i++) {
+            dvec      origin, direction;
+            trace_hit hits[STACK_MAX];
+            stack_hit stack[STACK_MAX];
+            size_t    found = 0;
+            double    sum = 0, other = 0;
+            shot_ray(&view, i % 40 + 0.5, i / 40 + 0.5, &origin, &direction);
+            for (size_t k = 0; k < count; k++) {
+                double d = dvec_dot(f[k].flat, direction), at = dvec_dot(f[k].flat, dvec_sub(f[k].p[0], origin)) / d;
+                dvec   p = dvec_add(origin, dvec_scale(direction, at));
+                bool   inside = at > 0;
+                for (int c = 0; c < 3; c++)
+                    inside = inside && dvec_dot(f[k].flat, dvec_cross(dvec_sub(f[k].p[(c + 1) % 3], f[k].p[c]), dvec_sub(p, f[k].p[c]))) >= 0;
+                found += inside;
+                sum += inside ? at : 0;
+            }
+            size_t all = tracer_hits(t, origin, direction, 0, INFINITY, hits, STACK_MAX);
+            for (size_t k = 0; k < all; k++)
+                other += hits[k].t;
+            differ += all != found || fabs(sum - other) > 1e-9 * (1 + sum);
+            size_t settled = stack_trace(t, &view, i % 40 + 0.5, i / 40 + 0.5, stack);
+            uneven += kind != SCENE_OPEN && kind != SCENE_COINCIDENT && settled % 2;
+            most = settled > most ? settled : most;
+        }
+        check_at_most("self", differ, 0, "rays whose hits differ from a plain loop's, scene %s", scene_names[kind]);
+        check_at_most("self", uneven, 0, "rays that leave solids less often than they enter them");
+        check_at_least("self", (double)most, 6, "most surfaces on a ray");
+        shot_release(&view);
+        tracer_destroy(t);
+        shape_release(&s);
+    }
+}
+
+static size_t middle_stack(const shape *s, stack_hit out[STACK_MAX])
+{
+    shot      view;
+    shot_view how = {.width = 64, .height = 64, .eye = {0.13, 0.07, 9}, .target = {0.13, 0.07, 0}, .up = {0, 1, 0}, .orthographic = true};
+    tracer   *t = tracer_create(s);
+    shot_blank(&view, &how, 1, 20);
+    size_t count = stack_trace(t, &view, 32.3, 31.6, out);
+    shot_release(&view);
+    tracer_destroy(t);
+    return count;
+}
+
+/* What coincides: sorted by part, then front before back; once when part and facing are the same. */
+static void stacks_of_coincident_faces(void)
+{
+    shape s = {0};
+    stack_hit hit[STACK_MAX];
+    shape_box(&s, "behind", dvec_of(-1, -1, -1), dvec_of(1, 1, 0));
+    shape_box(&s, "before", dvec_of(-1, -1, 0), dvec_of(1, 1, 1));
+    bool four = middle_stack(&s, hit) == 4;
+    check_that("self", four && hit[0].id == 2 && hit[1].id == 1 && hit[1].front && hit[2].id == 2 && !hit[2].front && hit[3].id == 1,
+               "two boxes that share a face are four surfaces, the shared ones by part");
+    check_that("self", four && !hit[1].tied && hit[2].tied && !hit[3].tied, "and only the shared ones are tied");
+    shape_release(&s);
+    shape_box(&s, "once", dvec_of(-1, -1, -1), dvec_of(1, 1, 0));
+    scene_copy(&s, 0, "again");
+    check_that("self", middle_stack(&s, hit) == 4 && hit[0].id == 1 && hit[1].id == 2 && hit[2].id == 1 && hit[3].id == 2,
+               "a part twice at one place counts twice");
+    shape_release(&s);
+    shape_quad(&s, "sheet", 1, 0);
+    scene_double(&s, true);
+    check_that("self", middle_stack(&s, hit) == 2 && hit[0].front && !hit[1].front && hit[0].normal.z > 0 && hit[1].normal.z < 0,
+               "a sheet with two sides is two surfaces, the front first");
+    shape_release(&s);
+    shape_quad(&s, "sheet", 1, 0);
+    scene_double(&s, false);
+    check_that("self", middle_stack(&s, hit) == 1, "a sheet that lies there twice is one surface");
+    shape_release(&s);
+    scene_holed_sphere(&s, "holed", 1, 24, 36, 35);
+    check_that("self", middle_stack(&s, hit) <= 2, "a sphere with holes has at most two surfaces on a ray");
+    shape_release(&s);
+}
+
+/* Layers made from the stacks score full, and one changed value in them does not go unseen. */
+static void stacks_score_can_fail(void)
+{
+    shape s = {0};
+    shot  view;
+    shot_view how = iso(64);
+    stack_map map;
+    scene_make(&s, SCENE_CLOSED, 5);
+    tracer *t = tracer_create(&s);
+    shot_blank(&view, &how, 1, 20);
+    stack_map_make(&map, t, &view);
+    view.layers = check_alloc(map.most, sizeof *view.layers);
+    view.layer_count = (int)map.most;
+    int at = -1;
+    for (size_t k = 0; k < map.most; k++) {
+        shot_layer *l = &view.layers[k];
+        l->depth = check_alloc(64 * 64, sizeof *l->depth);
+        l->normal = check_alloc(64 * 64, sizeof *l->normal);
+        l->id = check_alloc(64 * 64, sizeof *l->id);
+        for (int i = 0; i < 64 * 64; i++) {
+            bool full = stack_count(&map, i) > k;
+            const stack_hit *hit = full ? stack_at(&map, i) + k : NULL;
+            l->depth[i] = full ? (float)hit->depth : INFINITY;
+            l->id[i] = full ? hit->id : 0;
+            for (int c = 0; full && c < 3; c++)
+                l->normal[i][c] = (float)(c == 0 ? hit->normal.x : c == 1 ? hit->normal.y : hit->normal.z);
+            if (map.sharp[i] && stack_count(&map, i) > 4)
+                at = i;
+        }
+    }
+    stack_score score = stack_compare(&map, t, &view, 0);
+    check_at_least("self", (double)score.sharp / (double)score.pixels, 0.9, "share of sharp pixels");
+    check_near("self", (double)score.right_sharp, (double)score.sharp, 0, "right pixels of layers that are the stacks");
+    check_near("self", (double)score.drawn, (double)score.hits, 0, "surfaces in them");
+    for (int what = 0; what < 5 && at >= 0; what++) {
+        shot_layer *l = &view.layers[2], before = {0};
+        float       depth = l->depth[at], x = l->normal[at][0];
+        uint16_t    id = l->id[at];
+        before = view.layers[3];
+        l->depth[at] *= what == 0 ? 1.002f : 1;
+        l->id[at] = (uint16_t)(id + (what == 1));
+        l->normal[at][0] += what == 2 ? 0.01f : 0;
+        view.layers[3] = what == 3 ? view.layers[2] : before;
+        if (what == 4)
+            l->depth[at] = INFINITY;
+        score = stack_compare(&map, t, &view, 0);
+        check_at_most("self", (double)score.right_sharp, (double)score.sharp - 1, "right pixels after change %d", what);
+        view.layers[3] = before;
+        l->depth[at] = depth;
+        l->id[at] = id;
+        l->normal[at][0] = x;
+    }
+    stack_map_release(&map);
+    shot_release(&view);
+    tracer_destroy(t);
+    shape_release(&s);
+}
+
 /* --- operators on made-up maps ----------------------------------------------------------------------------------- */
 
 static twin_map blank_map(void)
@@ -288,6 +479,8 @@ int main(int argc, char **argv)
     static const check_case cases[] = {
         {"shapes", shapes_are_solid},      {"sphere", caster_sees_a_sphere}, {"brute", caster_equals_brute_force},
         {"cube", cube_has_nine_edges},     {"boxes", boxes_cut_in_four_lines}, {"score", score_can_fail},
+        {"stacks", stacks_of_a_sphere},    {"all", stacks_equal_brute_force}, {"coincident", stacks_of_coincident_faces},
+        {"layers", stacks_score_can_fail},
         {"tables", tables_of_the_operators}, {"taps", few_taps_equal_many},
     };
     return check_main(argc, argv, "self", cases, sizeof cases / sizeof *cases);

@@ -163,7 +163,7 @@ static void put_material(glb *g, const shape_part *p)
             (double)p->colour[1], (double)p->colour[2], (double)p->colour[3]);
     if (texture >= 0)
         fprintf(g->materials, ",\"baseColorTexture\":{\"index\":%d}", texture);
-    fprintf(g->materials, "}");
+    fprintf(g->materials, "}%s", p->colour[3] < 1 ? ",\"alphaMode\":\"BLEND\"" : "");
     if (bumps >= 0)
         fprintf(g->materials, ",\"normalTexture\":{\"index\":%d}", bumps);
     fprintf(g->materials, "}");

@@ -54,6 +54,7 @@ static lmn_draw_desc desc_of(const shot_view *view)
     desc.width = view->width;
     desc.height = view->height;
     desc.eye_given = !view->bare;
+    desc.view = (lmn_view)view->named;
     memcpy(desc.eye, &view->eye, sizeof desc.eye);
     memcpy(desc.target, &view->target, sizeof desc.target);
     memcpy(desc.up, &view->up, sizeof desc.up);
@@ -87,10 +88,82 @@ static bool read_report(shot *out, const lmn_drawing *drawing)
     out->far_depth = json_number_value(json_object_get(camera, "far"));
     const char *kind = json_string_value(json_object_get(camera, "projection"));
     out->orthographic = kind && strcmp(kind, "orthographic") == 0;
+    const char *producer = json_string_value(json_object_get(report, "layer_producer"));
+    snprintf(out->layer_producer, sizeof out->layer_producer, "%s", producer ? producer : "");
+    out->layers_drawn = (int)json_integer_value(json_object_get(report, "layers"));
     out->report = text ? strdup(text) : NULL;
     lmn_text_free(text);
     json_decref(report);
     return ok || check_that("report", false, "the report is JSON with the camera's matrices");
+}
+
+bool shot_has_warning(const shot *s, const char *code)
+{
+    json_t *report = s->report ? json_loads(s->report, 0, NULL) : NULL, *warning;
+    size_t  i;
+    bool    found = false;
+    json_array_foreach(json_object_get(report, "warnings"), i, warning) {
+        const char *own = json_string_value(json_object_get(warning, "code"));
+        found = found || (own && strcmp(own, code) == 0);
+    }
+    json_decref(report);
+    return found;
+}
+
+static const char *const layer_maps[5] = {"depth.pfm", "normal.pfm", "id.png", "edge.png", "shade.png"};
+
+static bool file_exists(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    return file && fclose(file) == 0;
+}
+
+/* Folders are used again: a drawing of fewer layers must not be taken for one of more. */
+static void forget_layers(const char *folder)
+{
+    char path[576];
+    for (int k = 0, found = 5; found > 0; k++) {
+        found = 0;
+        for (int i = 0; i < 5; i++) {
+            snprintf(path, sizeof path, "%s/layer%d.%s", folder, k, layer_maps[i]);
+            found += remove(path) == 0;
+        }
+    }
+}
+
+static bool read_layer(shot *out, const char *folder, int index)
+{
+    char       path[5][576];
+    shot_layer layer = {0};
+    int        w[5] = {0}, h[5] = {0};
+    for (int i = 0; i < 5; i++)
+        snprintf(path[i], sizeof path[i], "%s/layer%d.%s", folder, index, layer_maps[i]);
+    layer.depth = picture_read_pfm(path[0], 1, &w[0], &h[0]);
+    layer.normal = (float(*)[3])picture_read_pfm(path[1], 3, &w[1], &h[1]);
+    layer.id = picture_read_grey16(path[2], &w[2], &h[2]);
+    layer.edge = picture_read_rgba(path[3], &w[3], &h[3]);
+    layer.shade = picture_read_rgba(path[4], &w[4], &h[4]);
+    shot_layer *grown = realloc(out->layers, (size_t)(index + 1) * sizeof *grown);
+    if (!grown)
+        abort();
+    out->layers = grown;
+    out->layers[out->layer_count++] = layer;
+    for (int i = 0; i < 5; i++)
+        if (w[i] != out->width || h[i] != out->height)
+            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path[i], w[i], h[i]);
+    return true;
+}
+
+static bool read_layers(shot *out, const char *folder)
+{
+    for (int k = 0;; k++) {
+        char path[576];
+        snprintf(path, sizeof path, "%s/layer%d.depth.pfm", folder, k);
+        if (!file_exists(path))
+            return true;
+        if (!read_layer(out, folder, k))
+            return false;
+    }
 }
 
 static bool read_maps(shot *out, const lmn_drawing *drawing)
@@ -101,6 +174,7 @@ static bool read_maps(shot *out, const lmn_drawing *drawing)
     char       path[5][512];
     lmn_error  error = {0};
     snprintf(folder, sizeof folder, "%s", check_path("maps%d", count++ % 4));
+    forget_layers(folder);
     if (!accepted(lmn_drawing_write_maps(drawing, folder, &error), &error, "maps"))
         return false;
     for (int i = 0; i < 5; i++)
@@ -114,7 +188,7 @@ static bool read_maps(shot *out, const lmn_drawing *drawing)
     for (int i = 0; i < 5; i++)
         if (w[i] != out->width || h[i] != out->height)
             return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", names[i], w[i], h[i]);
-    return true;
+    return read_layers(out, folder);
 }
 
 static bool draw(shot *out, lmn_scene *scene, const lmn_look *look, const shot_view *view)
@@ -202,6 +276,14 @@ void shot_release(shot *s)
     free(s->normal);
     free(s->id);
     free(s->report);
+    for (int k = 0; k < s->layer_count; k++) {
+        free(s->layers[k].depth);
+        free(s->layers[k].normal);
+        free(s->layers[k].id);
+        free(s->layers[k].edge);
+        free(s->layers[k].shade);
+    }
+    free(s->layers);
     memset(s, 0, sizeof *s);
 }
 

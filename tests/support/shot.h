@@ -17,9 +17,18 @@ typedef struct shot_view {
     int         samples; /* 0: 1 */
     bool        without_maps;
     bool        es;
-    bool        bare;    /* no eye: the named iso view */
+    bool        bare;    /* no eye: the named view */
+    int         named;   /* with bare: an lmn_view; 0 is iso */
     bool        profile; /* the report lists passes */
 } shot_view;
+
+/* The maps of one depth layer, as in shot. */
+typedef struct shot_layer {
+    float    *depth;
+    float   (*normal)[3];
+    uint16_t *id;
+    uint8_t  *edge, *shade;
+} shot_layer;
 
 typedef struct shot {
     int       width, height;
@@ -30,6 +39,10 @@ typedef struct shot {
     double    view[16], projection[16], near_depth, far_depth;
     bool      orthographic;
     char     *report;
+    shot_layer *layers;      /* those for which maps were written */
+    int         layer_count; /* how many */
+    int         layers_drawn;      /* what the report says */
+    char        layer_producer[16];
 } shot;
 
 /* Draws a model file with a look (JSON text, or the name of a look that ships when it does not begin with '{'). False, with
@@ -46,6 +59,9 @@ const char *shot_line_look(const char *lines);
 
 /* A shot that nobody drew: matrices of the view, an edge map without ink, the given depth range. For trying out references. */
 void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth);
+
+/* Does the report have a warning with this code? */
+bool shot_has_warning(const shot *s, const char *code);
 
 /* Ends the renderers; call before the program ends so that leak checkers stay quiet. */
 void shot_end(void);

@@ -1,6 +1,7 @@
 #include "trace.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "check.h"
 
@@ -112,6 +113,18 @@ tracer *tracer_create(const shape *s)
     return t;
 }
 
+tracer *tracer_of_parts(const shape *s, const char *prefix, bool with)
+{
+    shape some = {.parts = check_alloc(s->count, sizeof *some.parts), .count = s->count};
+    memcpy(some.parts, s->parts, s->count * sizeof *some.parts);
+    for (size_t i = 0; i < s->count; i++)
+        if ((strncmp(s->parts[i].name, prefix, strlen(prefix)) == 0) != with)
+            some.parts[i].index_count = 0;
+    tracer *t = tracer_create(&some);
+    free(some.parts);
+    return t;
+}
+
 void tracer_destroy(tracer *t)
 {
     if (!t)
@@ -177,7 +190,8 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
     uint32_t stack[STACK];
     int      depth = 0;
     bool     found = false;
-    stack[depth++] = 0;
+    if (t->count)
+        stack[depth++] = 0;
     while (depth > 0) {
         const bvh_node *node = &t->nodes[stack[--depth]];
         if (!hit_box(&node->bounds, o, inverse, low, high))
@@ -197,6 +211,44 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
             }
         }
     }
+    return found;
+}
+
+static int by_distance(const void *a, const void *b)
+{
+    const trace_hit *one = a, *other = b;
+    if (one->t < other->t || one->t > other->t)
+        return one->t < other->t ? -1 : 1;
+    return one->triangle < other->triangle ? -1 : one->triangle > other->triangle;
+}
+
+size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out, size_t room)
+{
+    double   o[3] = {origin.x, origin.y, origin.z};
+    double   inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
+    uint32_t stack[STACK];
+    int      depth = 0;
+    size_t   found = 0;
+    if (t->count)
+        stack[depth++] = 0;
+    while (depth > 0) {
+        const bvh_node *node = &t->nodes[stack[--depth]];
+        if (!hit_box(&node->bounds, o, inverse, low, high))
+            continue;
+        if (node->count == 0 && depth + 2 <= STACK) {
+            stack[depth++] = node->first;
+            stack[depth++] = node->first + 1;
+        }
+        for (uint32_t i = node->first; i < node->first + node->count; i++) {
+            trace_hit hit = {.triangle = t->order[i]};
+            if (!hit_triangle(&t->triangles[hit.triangle], origin, direction, low, high, &hit))
+                continue;
+            if (found < room)
+                out[found] = hit;
+            found++;
+        }
+    }
+    qsort(out, found < room ? found : room, sizeof *out, by_distance);
     return found;
 }
 

@@ -22,11 +22,16 @@ typedef struct trace_hit {
 enum { TRACE_NONE = -1 };
 
 tracer *tracer_create(const shape *s);
+/* Only the parts whose names begin with the prefix, or only the others; they keep their numbers. */
+tracer *tracer_of_parts(const shape *s, const char *prefix, bool with);
 void    tracer_destroy(tracer *t);
 const trace_triangle *tracer_triangles(const tracer *t, size_t *count);
 
 /* The first hit with low < t < high that is on neither of the two triangles `skip` (TRACE_NONE: nothing left out). */
 bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], trace_hit *out);
+
+/* Every triangle hit with low < t < high, nearest first; at most `room` are written, the number of all is returned. */
+size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out, size_t room);
 
 /* What a perfect renderer sees at the pixel centres of a shot. */
 typedef struct trace_map {

@@ -28,6 +28,8 @@ static const struct {
     const char *kind, *key, *reason;
 } exceptions[] = {
     {"layers", "shading", "both ways give the same picture"},
+    {"layers", "producer", "both ways give the same layers"},
+    {"layers", "memory", "less memory gives the same layers"},
     {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
     {"lines", "taps", "both forms are the same sums"},
@@ -120,7 +122,7 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
             snprintf(values[count++], TEXT_SIZE, "%s", p->type == PARAM_COLOUR ? colours[i] : axes[i]);
         break;
     case PARAM_TEXT: /* rooms with texts have tests of their own; these are words that several of them understand */
-        snprintf(values[count++], TEXT_SIZE, "%s", "other*");
+        snprintf(values[count++], TEXT_SIZE, "%s", "ball");
         snprintf(values[count++], TEXT_SIZE, "%s", "x");
         break;
     case PARAM_PALETTE:
@@ -145,6 +147,8 @@ static void make_term_hold(lmn_look *look, const kind *k, const technique *t, co
         snprintf(value, sizeof value, "%s", term + length + 1);
     else if (p->type == PARAM_BOOL)
         snprintf(value, sizeof value, "true");
+    else if (p->type == PARAM_TEXT)
+        snprintf(value, sizeof value, "ball");
     else if (p->type == PARAM_ENUM)
         snprintf(value, sizeof value, "%s", p->names[term[length] == '<' ? 0 : (size_t)bound + 1]);
     else

@@ -3,8 +3,6 @@
 
 #include "light/point.glsl"
 
-uniform vec2 u_unproject;
-
 /* Sixteen steps of a float below 1: what the rasteriser's rounding can add up to over the depths that are compared. Where the
  * near plane is close to the eye (a viewer inside the model), smaller differences of window depth are noise. */
 const float DEPTH_NOISE = 16.0 * 5.96e-8;

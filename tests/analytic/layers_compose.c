@@ -1,0 +1,1000 @@
+/* How layers meet the page, against colours blended on the CPU: sorted 'over' of all surfaces that rays find, lines over each. */
+#include <limner/limner.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "model.h"
+#include "picture.h"
+#include "scenes.h"
+#include "stack.h"
+
+#define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ece4d2\"},\"rules\":[" RULES "]}"
+#define OWN_COLOUR "\"surface\":{\"technique\":\"flat\",\"model_colour\":1}"
+#define ALL_LAYERS "\"layers\":{\"technique\":\"peel\",\"count\":0}"
+#define LINES "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}"
+
+static const uint8_t ground[3] = {0xec, 0xe4, 0xd2};
+
+static const shot_view views[] = {
+    {.width = 160, .height = 128, .eye = {4, 3, 5}, .up = {0, 1, 0}},
+    {.width = 128, .height = 144, .eye = {-2, 3, -4}, .up = {0, 1, 0}, .orthographic = true},
+    {.width = 141, .height = 133, .eye = {1, -2.5, 3.5}, .target = {0.2, 0.1, 0}, .up = {0.2, 1, 0}, .fov_deg = 55},
+};
+
+static const uint8_t *pixel(const shot *s, int x, int y)
+{
+    return &s->picture[4 * (y * s->width + x)];
+}
+
+/* --- blending ---------------------------------------------------------------------------------------------------- */
+
+typedef struct paint {
+    double r, g, b, a; /* linear, straight */
+} paint;
+
+static paint paint_of(const uint8_t srgb[3], double alpha)
+{
+    return (paint){picture_linear(srgb[0]), picture_linear(srgb[1]), picture_linear(srgb[2]), alpha};
+}
+
+static void put_over(paint *under, paint p)
+{
+    under->r = p.r * p.a + under->r * (1 - p.a);
+    under->g = p.g * p.a + under->g * (1 - p.a);
+    under->b = p.b * p.a + under->b * (1 - p.a);
+}
+
+static int levels_off(const uint8_t *drawn, paint wanted)
+{
+    double off = fmax(fabs(drawn[0] - picture_srgb(wanted.r)), fmax(fabs(drawn[1] - picture_srgb(wanted.g)), fabs(drawn[2] - picture_srgb(wanted.b))));
+    return (int)ceil(off - 0.5);
+}
+
+static paint part_paint(const shape *s, uint16_t id, double opacity)
+{
+    const float *c = s->parts[id - 1].colour;
+    return (paint){(double)c[0], (double)c[1], (double)c[2], (double)c[3] * opacity};
+}
+
+/* Surfaces of different parts that a rasteriser may order either way. */
+static bool has_open_order(const stack_map *m, int i)
+{
+    const stack_hit *hits = stack_at(m, i);
+    for (size_t k = 1; k < stack_count(m, i); k++)
+        if (hits[k].tied && hits[k].id != hits[k - 1].id)
+            return true;
+    return false;
+}
+
+typedef struct tally {
+    int pixels, right, sure, right_sure, worst, x, y;
+} tally;
+
+static void judge(tally *t, const shot *s, int i, bool sure, paint wanted)
+{
+    int off = levels_off(&s->picture[4 * i], wanted);
+    t->pixels++;
+    t->right += off <= 2;
+    t->sure += sure;
+    t->right_sure += sure && off <= 2;
+    if (sure && off > t->worst) {
+        t->worst = off;
+        t->x = i % s->width;
+        t->y = i / s->width;
+    }
+}
+
+static void check_tally(const char *row, const tally *t, const shot *s, int least, const char *what)
+{
+    check_at_least(row, t->sure, least, "%s: pixels whose answer is sure, of %d", what, t->pixels);
+    if (!check_at_least(row, (double)t->right_sure / (t->sure ? t->sure : 1), 0.999, "%s: share of them within 2 levels of the blended colour (of all: %.5f)", what,
+                        (double)t->right / (t->pixels ? t->pixels : 1)) && s->picture)
+        check_note("worst at %d, %d: %d levels, drawn %d %d %d", t->x, t->y, t->worst, pixel(s, t->x, t->y)[0], pixel(s, t->x, t->y)[1],
+                   pixel(s, t->x, t->y)[2]);
+}
+
+/* --- sorted transparency ----------------------------------------------------------------------------------------- */
+
+static void against_sorted(scene_kind kind, uint32_t seed, double opacity, const char *producer, const shot_view *view)
+{
+    char  look[512], what[96];
+    shape s = {0};
+    shot  drawing;
+    tally t = {0};
+    scene_make(&s, kind, seed);
+    for (size_t i = 0; i < s.count; i += 2)
+        s.parts[i].colour[3] = 0.5f; /* the material's own */
+    snprintf(look, sizeof look, LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},"
+                                     "\"compose\":{\"technique\":\"xray\",\"opacity\":%g}}"), producer, opacity);
+    snprintf(what, sizeof what, "%s %u, opacity %g, %s%s", scene_names[kind], seed, opacity, producer, view->es ? ", ES" : "");
+    if (shot_of_shape(&drawing, &s, "sorted.glb", look, NULL, view)) {
+        tracer   *rays = tracer_create(&s);
+        stack_map map;
+        stack_map_make(&map, rays, &drawing);
+        for (int i = 0; i < drawing.width * drawing.height; i++) {
+            paint wanted = paint_of(ground, 1);
+            for (size_t k = stack_count(&map, i); k-- > 0;)
+                put_over(&wanted, part_paint(&s, stack_at(&map, i)[k].id, opacity));
+            judge(&t, &drawing, i, map.sharp[i] && !has_open_order(&map, i), wanted);
+        }
+        stack_map_release(&map);
+        tracer_destroy(rays);
+    }
+    check_tally("B07", &t, &drawing, 9000, what);
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+static void sorted(void)
+{
+    against_sorted(SCENE_CLOSED, 1, 0.3, "peeling", &views[0]);
+    against_sorted(SCENE_CLOSED, 2, 0.6, "lists", &views[1]);
+    against_sorted(SCENE_OPEN, 3, 0.3, "lists", &views[2]);
+    against_sorted(SCENE_OPEN, 4, 0.9, "peeling", &views[0]);
+    against_sorted(SCENE_CROSSING, 5, 0.3, "peeling", &views[1]);
+    against_sorted(SCENE_CROSSING, 6, 0.12, "lists", &views[2]);
+    against_sorted(SCENE_COINCIDENT, 7, 0.3, "lists", &views[0]);
+    shot_view es = views[0];
+    es.es = true;
+    against_sorted(SCENE_CLOSED, 8, 0.3, "auto", &es);
+}
+
+/* The order of the parts in the file says nothing about the picture. */
+static void any_order(void)
+{
+    static const size_t orders[][7] = {{6, 5, 4, 3, 2, 1, 0}, {2, 0, 5, 1, 6, 4, 3}};
+    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}}");
+    shape s = {0};
+    shot  first, other;
+    scene_make(&s, SCENE_CROSSING, 9);
+    if (shot_of_shape(&first, &s, "order.glb", look, NULL, &views[0])) {
+        tracer   *rays = tracer_create(&s);
+        stack_map map;
+        stack_map_make(&map, rays, &first);
+        for (size_t o = 0; o < 2; o++) {
+            shape moved = {0};
+            int   sure = 0, everywhere = 0;
+            scene_reorder(&moved, &s, orders[o]);
+            if (shot_of_shape(&other, &moved, "order.glb", look, NULL, &views[0]))
+                for (int i = 0; i < first.width * first.height; i++) {
+                    bool differs = memcmp(&first.picture[4 * i], &other.picture[4 * i], 4) != 0;
+                    everywhere += differs;
+                    sure += differs && !has_open_order(&map, i) && map.sharp[i];
+                }
+            check_that("B07", other.picture != NULL && s.count == 7, "seven parts in another order are drawn");
+            check_at_most("B07", sure, 0, "pixels that the order of the parts changes (of all pixels: %d)", everywhere);
+            shot_release(&other);
+            shape_release(&moved);
+        }
+        stack_map_release(&map);
+        tracer_destroy(rays);
+    }
+    shot_release(&first);
+    shape_release(&s);
+}
+
+/* Two rules, each transparent in its own way: their surfaces interleave along each ray. */
+static void two_figures(void)
+{
+    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}},"
+                                    "{\"select\":\"cross0,cross3,cross6\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}," ALL_LAYERS
+                                    ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.2}}");
+    static const uint8_t red[3] = {255, 0, 0};
+    shape s = {0};
+    shot  drawing;
+    tally t = {0};
+    scene_make(&s, SCENE_CROSSING, 12);
+    if (shot_of_shape(&drawing, &s, "figures.glb", look, NULL, &views[2])) {
+        tracer   *rays = tracer_create(&s);
+        stack_map map;
+        stack_map_make(&map, rays, &drawing);
+        for (int i = 0; i < drawing.width * drawing.height; i++) {
+            paint wanted = paint_of(ground, 1);
+            for (size_t k = stack_count(&map, i); k-- > 0;) {
+                uint16_t id = stack_at(&map, i)[k].id;
+                put_over(&wanted, id % 3 == 1 ? paint_of(red, 0.2) : part_paint(&s, id, 0.5));
+            }
+            judge(&t, &drawing, i, map.sharp[i] && !has_open_order(&map, i), wanted);
+        }
+        stack_map_release(&map);
+        tracer_destroy(rays);
+    }
+    check_tally("B07", &t, &drawing, 9000, "two transparent figures");
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+/* --- lines over layers ------------------------------------------------------------------------------------------- */
+
+/* Ink of an edge map's pixel when all classes have one colour. */
+static double ink_of(const uint8_t *edge)
+{
+    return 1 - edge[0] / 255.0 * (edge[1] / 255.0) * (edge[3] / 255.0);
+}
+
+static double largest_ink(const shot *s, int i)
+{
+    double most = 0;
+    for (int k = 0; k < s->layer_count; k++)
+        most = fmax(most, ink_of(&s->layers[k].edge[4 * i]));
+    return most;
+}
+
+/* Is there ink of any layer within the square around the pixel? */
+static bool ink_around(const shot *s, int i, int radius)
+{
+    for (int y = i / s->width - radius; y <= i / s->width + radius; y++)
+        for (int x = i % s->width - radius; x <= i % s->width + radius; x++)
+            if (x >= 0 && y >= 0 && x < s->width && y < s->height && largest_ink(s, y * s->width + x) > 0)
+                return true;
+    return false;
+}
+
+/* Per layer the fill, then its ink, nearest last: from the layers' own maps. `strength` of layer k's lines is hidden·fade^(k − 1). */
+static void lines_over_layers(void)
+{
+    static const struct {
+        const char *style;
+        double      hidden, fade;
+    } styles[] = {{"", 1, 1}, {",\"hidden_opacity\":0.5", 0.5, 1}, {",\"hidden_opacity\":0.8,\"fade\":0.6", 0.8, 0.6}};
+    for (size_t v = 0; v < 3; v++) {
+        char  look[512];
+        shape s = {0};
+        shot  drawing;
+        tally t = {0}, inked = {0};
+        scene_make(&s, v % 2 ? SCENE_CROSSING : SCENE_CLOSED, 13 + (uint32_t)v);
+        snprintf(look, sizeof look, LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#102080c0\"},"
+                                         "\"compose\":{\"technique\":\"xray\",\"opacity\":0.3,\"once\":false%s}}"), styles[v].style);
+        if (shot_of_shape(&drawing, &s, "inked.glb", look, NULL, &views[v]))
+            for (int i = 0; i < drawing.width * drawing.height; i++) {
+                static const uint8_t blue[3] = {0x10, 0x20, 0x80};
+                paint  wanted = paint_of(ground, 1);
+                double ink = 0;
+                for (int k = drawing.layer_count; k-- > 0;) {
+                    const uint8_t *e = &drawing.layers[k].edge[4 * i];
+                    double strength = k ? styles[v].hidden * pow(styles[v].fade, k - 1) : 1, a = 0xc0 / 255.0;
+                    double clear = (1 - a * (1 - e[0] / 255.0)) * (1 - a * (1 - e[1] / 255.0)) * (1 - a * (1 - e[3] / 255.0));
+                    if (drawing.layers[k].id[i])
+                        put_over(&wanted, part_paint(&s, drawing.layers[k].id[i], 0.3));
+                    put_over(&wanted, paint_of(blue, (1 - clear) * strength));
+                    ink = fmax(ink, 1 - clear);
+                }
+                judge(ink > 0 ? &inked : &t, &drawing, i, true, wanted);
+            }
+        check_tally("B07", &t, &drawing, 5000, "layers between lines");
+        check_tally("B07", &inked, &drawing, 1500, *styles[v].style ? styles[v].style + 1 : "lines over their layers");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* --- blueprint --------------------------------------------------------------------------------------------------- */
+
+static void tint_adds_up(void)
+{
+    static const uint8_t tint[3] = {0x20, 0x50, 0xc0};
+    static const char *const producers[] = {"peeling", "lists"};
+    for (int p = 0; p < 2; p++) {
+        char   look[512];
+        shape  s = {0};
+        shot   drawing;
+        tally  t = {0};
+        double sum[STACK_MAX] = {0}, count[STACK_MAX] = {0};
+        int    steps = 0, wrong = 0;
+        scene_make(&s, p ? SCENE_CROSSING : SCENE_CLOSED, 16);
+        snprintf(look, sizeof look, LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},"
+                                         "\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2}}"), producers[p]);
+        if (shot_of_shape(&drawing, &s, "tint.glb", look, NULL, &views[p])) {
+            tracer   *rays = tracer_create(&s);
+            stack_map map;
+            stack_map_make(&map, rays, &drawing);
+            for (int i = 0; i < drawing.width * drawing.height; i++) {
+                paint  wanted = paint_of(ground, 1);
+                size_t n = stack_count(&map, i);
+                for (size_t k = 0; k < n; k++)
+                    put_over(&wanted, paint_of(tint, 0.2));
+                judge(&t, &drawing, i, map.sharp[i], wanted);
+                sum[n] += map.sharp[i] ? drawing.picture[4 * i] : 0;
+                count[n] += map.sharp[i];
+            }
+            for (size_t n = 0, last = 0; n <= map.most_sharp; n++) {
+                if (count[n] < 5)
+                    continue;
+                if (n > 0 && n <= 10) {
+                    steps++;
+                    wrong += sum[n] / count[n] >= sum[last] / count[last] - 0.5;
+                }
+                last = n;
+            }
+            stack_map_release(&map);
+            tracer_destroy(rays);
+        }
+        check_tally("B04", &t, &drawing, 9000, "tint of one layer after the other");
+        check_at_least("B04", steps, 4, "different depths up to ten layers");
+        check_at_most("B04", wrong, 0, "of them, those that are not darker than the one before");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+static bool dark_near(const shot *s, dvec place, int radius, int below)
+{
+    for (int y = (int)floor(place.y) - radius; y <= (int)floor(place.y) + radius; y++)
+        for (int x = (int)floor(place.x) - radius; x <= (int)floor(place.x) + radius; x++)
+            if (x >= 0 && y >= 0 && x < s->width && y < s->height && pixel(s, x, y)[0] < below && pixel(s, x, y)[1] < below)
+                return true;
+    return false;
+}
+
+/* The twelve edges of a box's part. */
+static void box_edges(const shape_part *p, dvec edges[12][2])
+{
+    int at = 0;
+    for (uint32_t i = 0; i < 8; i++)
+        for (uint32_t axis = 1; axis < 8; axis *= 2)
+            if (!(i & axis)) {
+                edges[at][0] = shape_point(p, i);
+                edges[at++][1] = shape_point(p, i | axis);
+            }
+}
+
+static double edges_seen(const shot *s, const shape_part *box, int below)
+{
+    dvec edges[12][2];
+    int  found = 0, samples = 0;
+    box_edges(box, edges);
+    for (int e = 0; e < 12; e++)
+        for (int k = 0; k <= 50; k++) {
+            samples++;
+            found += dark_near(s, shot_project(s, dvec_mix(edges[e][0], edges[e][1], k / 50.0)), 1, below);
+        }
+    return (double)found / samples;
+}
+
+static void hidden_edges(void)
+{
+    static const char deep[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0.1}}");
+    static const char flat[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," LINES "}");
+    for (int v = 0; v < 3; v++) {
+        shape s = {0};
+        shot  blueprint, front;
+        shape_box(&s, "outer", dvec_of(-1, -0.9, -1), dvec_of(1, 1, 1));
+        shape_box(&s, "inner", dvec_of(-0.45, -0.3, -0.5), dvec_of(0.5, 0.4, 0.35));
+        shape_place(&s, dvec_of(1, 2, 1), 25, dvec_of(0, 0, 0));
+        bool drawn = shot_of_shape(&blueprint, &s, "boxes.glb", deep, NULL, &views[v]);
+        if (shot_of_shape(&front, &s, "boxes.glb", flat, NULL, &views[v]) && drawn) {
+            check_at_least("B04", edges_seen(&blueprint, &s.parts[0], 110), 0.99, "share of the outer box's edges with a line in the blueprint");
+            check_at_least("B04", edges_seen(&blueprint, &s.parts[1], 110), 0.99, "share of the hidden box's");
+            check_at_most("B04", edges_seen(&front, &s.parts[1], 110), 0.15, "and in a drawing of the front alone");
+        }
+        shot_release(&blueprint);
+        shot_release(&front);
+        shape_release(&s);
+    }
+}
+
+/* Parts with the prefix are opaque and have this colour; all others are layers with one fill each. Judges the pixels where no line
+ * is near: layers before the opaque part tint it, those behind it do not show. */
+static void against_opaque(const char *row, const char *what, const shape *s, const shot *drawing, const char *prefix, paint opaque, int layers, paint (*fill)(const shape *, uint16_t))
+{
+    tracer   *rest = tracer_of_parts(s, prefix, false), *named = tracer_of_parts(s, prefix, true);
+    stack_map map;
+    trace_map front;
+    tally     t = {0}, beside = {0};
+    int       tinted = 0, hiding = 0;
+    stack_map_make(&map, rest, drawing);
+    trace_map_make(&front, named, drawing);
+    for (int i = 0; i < drawing->width * drawing->height; i++) {
+        const stack_hit *hits = stack_at(&map, i);
+        paint  wanted = paint_of(ground, 1);
+        bool   sure = map.sharp[i] && !has_open_order(&map, i) && !ink_around(drawing, i, 1) && !trace_map_border(&front, i % drawing->width, i / drawing->width, 1);
+        size_t count = stack_count(&map, i), before = 0;
+        count = layers && count > (size_t)layers ? (size_t)layers : count;
+        while (before < count && hits[before].depth < front.depth[i]) {
+            sure = sure && fabs(hits[before].depth - front.depth[i]) > 1e-3;
+            before++;
+        }
+        sure = sure && (before == count || hits[before].depth - front.depth[i] > 1e-3);
+        if (front.id[i])
+            put_over(&wanted, opaque);
+        tinted += front.id[i] && before > 0;
+        hiding += front.id[i] && before < count;
+        for (size_t k = before; k-- > 0;)
+            put_over(&wanted, fill(s, hits[k].id));
+        judge(front.id[i] ? &t : &beside, drawing, i, sure, wanted);
+    }
+    check_tally(row, &t, drawing, 300, what);
+    check_tally(row, &beside, drawing, 3000, "  beside it");
+    check_at_least(row, tinted, 300, "  its pixels with layers before them");
+    check_note("%d of its pixels have layers behind them", hiding);
+    stack_map_release(&map);
+    trace_map_release(&front);
+    tracer_destroy(rest);
+    tracer_destroy(named);
+}
+
+static paint blue_fill(const shape *s, uint16_t id)
+{
+    static const uint8_t tint[3] = {0x20, 0x50, 0xc0};
+    (void)s;
+    (void)id;
+    return paint_of(tint, 0.2);
+}
+
+static paint own_fill(const shape *s, uint16_t id)
+{
+    return part_paint(s, id, 0.3);
+}
+
+#define BLUE_RULE "{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2}}"
+
+/* An opaque part amid the layers hides what is behind it and is tinted by what is before it. */
+static void opaque_amid_layers(void)
+{
+    static const uint8_t red[3] = {255, 0x20, 0x10};
+    for (int v = 0; v < 3; v++)
+        for (int m = 0; m < 2; m++) {
+            shape s = {0};
+            shot  drawing;
+            scene_make(&s, SCENE_CLOSED, 17 + (uint32_t)v);
+            shape_sphere(&s, "core", dvec_of(0.1, 0, 0.05), 0.5, 24, 48, true);
+            const char *changes[] = {"0:layers.producer", m ? "lists" : "peeling", NULL};
+            if (shot_of_shape(&drawing, &s, "core.glb", LOOK(BLUE_RULE ",{\"select\":\"core\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"), changes, &views[v]))
+                against_opaque("B04", m ? "an opaque part amid layers, lists" : "an opaque part amid layers, peeling", &s, &drawing, "core", paint_of(red, 1), 0, blue_fill);
+            shot_release(&drawing);
+            shape_release(&s);
+        }
+}
+
+/* A box and two arrows inside a blueprint. */
+static void glyphs(void)
+{
+    static const uint8_t red[3] = {255, 0x20, 0x10};
+    for (int v = 0; v < 2; v++) {
+        shape s = {0};
+        shot  drawing;
+        shape_box(&s, "hall", dvec_of(-1.2, -0.8, -1), dvec_of(1.2, 0.8, 1));
+        shape_box(&s, "room", dvec_of(-0.9, -0.7, -0.8), dvec_of(-0.1, 0.3, 0.7));
+        shape_torus(&s, "ring", 0.5, 0.15, 48, 24);
+        shape_place(&s, dvec_of(1, 0.3, 0), 60, dvec_of(0.5, 0, 0));
+        shape_box(&s, "glyph box", dvec_of(-0.7, -0.5, -0.3), dvec_of(-0.3, 0, 0.2));
+        shape_box(&s, "glyph shaft", dvec_of(-0.9, 0.38, 0.35), dvec_of(0.4, 0.5, 0.5));
+        shape_sphere(&s, "glyph head", dvec_of(0.5, 0.44, 0.42), 0.25, 2, 12, false);
+        shape_box(&s, "glyph rod", dvec_of(-0.05, -0.9, -0.05), dvec_of(0.05, 0.4, 0.05));
+        shape_place(&s, dvec_of(0, 0, 1), -40, dvec_of(0.4, 0, 0));
+        if (shot_of_shape(&drawing, &s, "glyphs.glb", LOOK(BLUE_RULE ",{\"select\":\"glyph*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"), NULL, &views[v]))
+            against_opaque("B12", "a box and arrows inside a blueprint", &s, &drawing, "glyph", paint_of(red, 1), 0, blue_fill);
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* The designated part lies at its depth: tinted by the layers that are left before it, and hiding those behind. */
+static void focus(void)
+{
+    static const uint8_t green[3] = {0x20, 0xc0, 0x40};
+    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"focus\":\"closed1\",\"focus_colour\":\"#20c040\","
+                                    "\"focus_share\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}");
+    for (int v = 0; v < 3; v++) {
+        shape s = {0};
+        shot  drawing;
+        scene_make(&s, SCENE_CLOSED, 21 + (uint32_t)v);
+        if (shot_of_shape(&drawing, &s, "focus.glb", look, NULL, &views[v]))
+            against_opaque("B10", "a designated part amid layers", &s, &drawing, "closed1", paint_of(green, 1), drawing.layers_drawn, own_fill);
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* --- wire -------------------------------------------------------------------------------------------------------- */
+
+/* Ink above the threshold is a line, and everything else the ground, untouched. */
+static void wire(void)
+{
+    static const char *const thresholds[] = {"0.5", "0.2", "0.9"};
+    for (int v = 0; v < 3; v++) {
+        const char *changes[] = {"compose.threshold", thresholds[v], NULL};
+        shape  s = {0};
+        shot   drawing;
+        double threshold = atof(thresholds[v]);
+        int    ink = 0, bare = 0, wrong_ink = 0, wrong_ground = 0;
+        scene_make(&s, (scene_kind)v, 31);
+        if (shot_of_shape(&drawing, &s, "wire.glb", LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"lines\":{\"operator\":\"sobel\",\"gain\":4,\"colour\":\"#102080\"},"
+                                                         "\"compose\":{\"technique\":\"wire\",\"once\":false}}"), changes, &views[v]))
+            for (int i = 0; i < drawing.width * drawing.height; i++) {
+                const uint8_t *p = &drawing.picture[4 * i];
+                double most = largest_ink(&drawing, i);
+                if (most < threshold - 0.01) {
+                    bare++;
+                    wrong_ground += memcmp(p, ground, 3) != 0;
+                } else if (most > threshold + 0.01) {
+                    ink++;
+                    wrong_ink += abs(p[0] - 0x10) > 1 || abs(p[1] - 0x20) > 1 || abs(p[2] - 0x80) > 1;
+                }
+            }
+        check_at_least("B06", ink, 2000, "threshold %s: pixels with a layer's ink above it", thresholds[v]);
+        check_at_least("B06", bare, 4000, "and without");
+        check_at_most("B06", wrong_ink, 0, "pixels of ink that are not in the line's colour");
+        check_at_most("B06", wrong_ground, 0, "pixels beside them that are not the ground");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* --- hidden lines ------------------------------------------------------------------------------------------------ */
+
+static const shot_view straight = {.width = 192, .height = 192, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+
+#define WIRE_LOOK(STYLE) LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"wire\"" STYLE "}}")
+
+static void box_in_box(shape *s)
+{
+    shape_box(s, "outer", dvec_of(-1.6, -1.6, -1), dvec_of(1.6, 1.6, 1));
+    shape_box(s, "inner", dvec_of(-1, -0.9, -0.5), dvec_of(1.1, 0.8, 0.5));
+}
+
+/* Along the inner box's upper and lower edge: is there ink across it, in a pixel column? */
+static bool column_has_ink(const shot *s, double y, int x, int radius, const uint8_t colour[3])
+{
+    for (int j = (int)floor(y) - radius; j <= (int)floor(y) + radius; j++)
+        if (abs(pixel(s, x, j)[0] - colour[0]) + abs(pixel(s, x, j)[1] - colour[1]) + abs(pixel(s, x, j)[2] - colour[2]) < 30)
+            return true;
+    return false;
+}
+
+static void hidden_colour_and_dashes(void)
+{
+    static const uint8_t black[3] = {0, 0, 0}, red[3] = {255, 0, 0};
+    shape s = {0};
+    shot  drawing;
+    int   runs = 0, wrong_on = 0, wrong_off = 0, open = 0, samples = 0;
+    box_in_box(&s);
+    if (shot_of_shape(&drawing, &s, "dashes.glb", WIRE_LOOK(",\"hidden_colour\":\"#ff0000\",\"hidden_dash\":9,\"hidden_gap\":6"), NULL, &straight)) {
+        for (int side = 0; side < 2; side++) {
+            dvec a = shot_project(&drawing, dvec_of(-1, side ? 0.8 : -0.9, 0.5)), b = shot_project(&drawing, dvec_of(1.1, side ? 0.8 : -0.9, 0.5));
+            dvec c = shot_project(&drawing, dvec_of(-1.6, side ? 1.6 : -1.6, 1)), d = shot_project(&drawing, dvec_of(1.6, side ? 1.6 : -1.6, 1));
+            int  length = 0, whole = 0;
+            bool last = false;
+            for (int x = (int)a.x + 3; x < (int)b.x - 3; x++) {
+                bool on = column_has_ink(&drawing, a.y, x, 1, red);
+                if (length && on != last) {
+                    if (whole++) { /* the first may have begun before */
+                        runs++;
+                        wrong_on += last && abs(length - 9) > 2;
+                        wrong_off += !last && abs(length - 6) > 2;
+                    }
+                    length = 0;
+                }
+                last = on;
+                length++;
+            }
+            for (int x = (int)c.x + 2; x < (int)d.x - 2; x++) {
+                samples++;
+                open += !column_has_ink(&drawing, c.y, x, 1, black);
+            }
+        }
+        check_at_least("hidden", runs, 20, "dashes and gaps along two hidden edges, in the hidden colour");
+        check_at_most("hidden", wrong_on, 0, "dashes that are not 9 +- 2 px long");
+        check_at_most("hidden", wrong_off, 0, "gaps that are not 6 +- 2 px long");
+        check_at_most("hidden", open, 0, "of %d places along visible edges, those without an unbroken line", samples);
+    }
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+static double ink_across(const shot *s, dvec place)
+{
+    double sum = 0;
+    for (int x = -8; x < 8; x++)
+        for (int y = (int)place.y - 8; y < (int)place.y + 8; y++)
+            sum += (1 - picture_linear(pixel(s, (int)place.x + x, y)[0]) / picture_linear(ground[0])) / 16;
+    return sum;
+}
+
+static void hidden_width(void)
+{
+    static const char *const widths[] = {"1", "2", "4", "7"};
+    for (int w = 0; w < 4; w++) {
+        const char *changes[] = {"compose.hidden_width", widths[w], NULL};
+        shape s = {0};
+        shot  drawing;
+        box_in_box(&s);
+        if (shot_of_shape(&drawing, &s, "width.glb", WIRE_LOOK(""), changes, &straight)) {
+            check_near("hidden", ink_across(&drawing, shot_project(&drawing, dvec_of(0, 0.8, 0.5))), atof(widths[w]), atof(widths[w]) <= 2 ? 0.5 : 1,
+                       "width of a hidden line of width %s", widths[w]);
+            check_near("hidden", ink_across(&drawing, shot_project(&drawing, dvec_of(0, 1.6, 1))), 2, 0.5, "  and of a visible one");
+        }
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* An edge that two layers in turn have is inked once; a half-transparent ink would show it twice. */
+static void repeated_once(void)
+{
+    static const uint8_t black[3] = {0, 0, 0};
+    for (int once = 0; once < 2; once++) {
+        const char *changes[] = {"compose.once", once ? "true" : "false", NULL};
+        shape s = {0};
+        shot  drawing;
+        int   both = 0, wrong = 0;
+        shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        if (shot_of_shape(&drawing, &s, "once.glb", LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS ",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#00000080\"},"
+                                                         "\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0}}"), changes, &views[0]))
+            for (int i = 0; i < drawing.width * drawing.height && drawing.layer_count == 2; i++) {
+                const uint8_t *e = &drawing.layers[0].edge[4 * i], *f = &drawing.layers[1].edge[4 * i];
+                if (e[0] || f[0] || e[1] < 255 || f[1] < 255 || e[3] < 255 || f[3] < 255)
+                    continue;
+                paint wanted = paint_of(ground, 1);
+                for (int k = once; k < 2; k++)
+                    put_over(&wanted, paint_of(black, 128 / 255.0));
+                both++;
+                wrong += levels_off(&drawing.picture[4 * i], wanted) > 2;
+            }
+        check_at_least("B13", both, 200, "pixels whose ink two layers have");
+        check_at_most("B13", wrong, 0, "of them, those not inked %s", once ? "once" : "twice");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* Behind a plate's outline, the lines of a bar that runs on behind it keep a distance. */
+static void halo(void)
+{
+    for (int width = 0; width <= 8; width += 4) {
+        char  value[16];
+        const char *changes[] = {"compose.halo", value, NULL};
+        shape s = {0};
+        shot  drawing;
+        int   near = 0, near_ink = 0, far = 0, far_ink = 0;
+        snprintf(value, sizeof value, "%d", width);
+        shape_quad(&s, "plate", 1, 0.5);
+        shape_box(&s, "bar", dvec_of(-1.8, -0.2, -0.5), dvec_of(1.8, 0.25, -0.3));
+        if (shot_of_shape(&drawing, &s, "halo.glb", WIRE_LOOK(""), changes, &straight)) {
+            dvec left = shot_project(&drawing, dvec_of(-1, 0.25, 0)), right = shot_project(&drawing, dvec_of(1, 0.25, 0));
+            for (int x = (int)left.x; x <= (int)right.x; x++) {
+                double inside = fmin(x + 0.5 - left.x, right.x - x - 0.5);
+                bool   on = column_has_ink(&drawing, left.y, x, 1, (uint8_t[3]){0, 0, 0});
+                if (inside > 2 && inside < width - 0.5) {
+                    near++;
+                    near_ink += on;
+                } else if (inside > width + 3) {
+                    far++;
+                    far_ink += on;
+                }
+            }
+            check_at_most("hidden", near_ink, 0, "halo of %d px: places within it with a line, of %d", width, near);
+            check_near("hidden", far_ink, far, 0, "  places farther away with a line");
+        }
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+static void clutter(void)
+{
+    static const char *const amounts[] = {"0", "0.5", "1"};
+    double last = INFINITY;
+    for (int a = 0; a < 3; a++) {
+        const char *changes[] = {"compose.clutter", amounts[a], NULL};
+        shape  s = {0};
+        shot   drawing;
+        double sum = 0;
+        int    inked = 0, gone = 0;
+        scene_make(&s, SCENE_CROSSING, 33);
+        if (shot_of_shape(&drawing, &s, "clutter.glb", LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0}}"),
+                          changes, &views[0]))
+            for (int i = 0; i < drawing.width * drawing.height; i++) {
+                double ink = drawing.layer_count > 1 ? ink_of(&drawing.layers[1].edge[4 * i]) : 0;
+                sum += 1 - picture_linear(drawing.picture[4 * i]) / picture_linear(ground[0]);
+                if (ink > 0.95 && drawing.layers[1].edge[4 * i] < 10) { /* an outline of the first hidden layer */
+                    inked++;
+                    gone += drawing.picture[4 * i] > ground[0] - 8;
+                }
+            }
+        check_at_most("hidden", sum, a ? 0.97 * last : INFINITY, "ink with clutter %s", amounts[a]);
+        check_at_least("hidden", inked, 500, "  pixels of the second layer's outlines");
+        check_at_most("hidden", gone, 0, "  of them, those that are cut off");
+        last = sum;
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* --- textures ---------------------------------------------------------------------------------------------------- */
+
+enum { TEXELS = 64, FIELD = 16 };
+
+static void checkered(shape_part *p)
+{
+    p->texture_size = TEXELS;
+    p->texture = check_alloc((size_t)TEXELS * TEXELS, 4);
+    for (int i = 0; i < TEXELS * TEXELS; i++) {
+        bool dark = (i % TEXELS / FIELD + i / TEXELS / FIELD) % 2;
+        memcpy(&p->texture[4 * i], dark ? (uint8_t[4]){200, 30, 30, 255} : (uint8_t[4]){40, 200, 220, 255}, 4);
+    }
+}
+
+/* A textured plate behind both sides of a box, and another behind it: the pattern shows through. */
+static void textures_through_layers(void)
+{
+    static const char look[] = LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"textured\",\"light\":0}," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}}");
+    shape s = {0};
+    shot  drawing;
+    tally t = {0};
+    int   dark = 0, bright = 0;
+    shape_box(&s, "box", dvec_of(-0.9, -0.9, 0.5), dvec_of(0.8, 0.8, 1));
+    shape_quad(&s, "pattern", 1.2, 0);
+    shape_quad(&s, "behind", 1.5, -1);
+    scene_colour(&s);
+    for (int k = 0; k < 3; k++)
+        s.parts[1].colour[k] = 1;
+    checkered(&s.parts[1]);
+    if (shot_of_shape(&drawing, &s, "texture.glb", look, NULL, &straight)) {
+        tracer   *rays = tracer_create(&s);
+        stack_map map;
+        stack_map_make(&map, rays, &drawing);
+        for (int i = 0; i < drawing.width * drawing.height; i++) {
+            paint  wanted = paint_of(ground, 1);
+            bool   sure = map.sharp[i], pattern = false;
+            for (size_t k = stack_count(&map, i); k-- > 0;) {
+                uint16_t id = stack_at(&map, i)[k].id;
+                paint    p = part_paint(&s, id, 0.4);
+                if (id == 2) {
+                    dvec origin, direction;
+                    shot_ray(&drawing, i % drawing.width + 0.5, i / drawing.width + 0.5, &origin, &direction);
+                    double u = (0.5 + origin.x / 2.4) * TEXELS, v = (0.5 - origin.y / 2.4) * TEXELS;
+                    double in_u = fmod(u, FIELD), in_v = fmod(v, FIELD);
+                    int    field = ((int)u / FIELD + (int)v / FIELD) % 2;
+                    sure = sure && fmin(fmin(in_u, FIELD - in_u), fmin(in_v, FIELD - in_v)) > 1.2;
+                    p = paint_of(&s.parts[1].texture[field ? 4 * FIELD : 0], 0.4);
+                    pattern = true;
+                    dark += field && stack_at(&map, i)[0].id == 1;
+                    bright += !field && stack_at(&map, i)[0].id == 1;
+                }
+                put_over(&wanted, p);
+            }
+            judge(&t, &drawing, i, sure && pattern, wanted);
+        }
+        stack_map_release(&map);
+        tracer_destroy(rays);
+    }
+    check_at_least("B08", dark < bright ? dark : bright, 1000, "pixels of either field behind the box");
+    check_tally("B08", &t, &drawing, 5000, "a texture behind layers and before others");
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+/* --- plan views -------------------------------------------------------------------------------------------------- */
+
+/* Chambers under a roof, seen from the named side. */
+static void plan_view(int named, const char *what)
+{
+    static const char deep[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0.05}}");
+    static const char flat[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," LINES "}");
+    const shot_view view = {.width = 256, .height = 256, .bare = true, .named = named, .orthographic = true};
+    shape s = {0};
+    shot  blueprint, front;
+    shape_box(&s, "house", dvec_of(-2, 0, -1.5), dvec_of(2, 1.2, 1.5));
+    shape_box(&s, "wall one", dvec_of(-0.6, 0.05, -1.3), dvec_of(-0.45, 1, 0.6));
+    shape_box(&s, "wall two", dvec_of(-0.45, 0.05, 0.1), dvec_of(1.3, 0.9, 0.25));
+    shape_box(&s, "pillar", dvec_of(-1.4, 0.05, -0.4), dvec_of(-1.1, 1.1, -0.1));
+    shape_box(&s, "statue", dvec_of(0.5, 0.05, -0.9), dvec_of(0.9, 0.7, -0.5));
+    bool drawn = shot_of_shape(&blueprint, &s, "plan.glb", deep, NULL, &view);
+    if (shot_of_shape(&front, &s, "plan.glb", flat, NULL, &view) && drawn) {
+        dvec edges[12][2];
+        int  stray = 0, judged = 0;
+        for (size_t part = 0; part < s.count; part++) {
+            double seen = edges_seen(&blueprint, &s.parts[part], 110);
+            check_at_least("B11", seen, 0.99, "%s: share of the edges of %s with a line", what, s.parts[part].name);
+            if (part > 0)
+                check_at_most("B11", edges_seen(&front, &s.parts[part], 110), 0.1, "  and in a drawing of the front alone");
+        }
+        for (int y = 2; y < 254; y++)
+            for (int x = 2; x < 254; x++) {
+                double least = INFINITY;
+                for (size_t part = 0; part < s.count; part++) {
+                    box_edges(&s.parts[part], edges);
+                    for (int e = 0; e < 12; e++) {
+                        dvec a = shot_project(&blueprint, edges[e][0]), b = shot_project(&blueprint, edges[e][1]);
+                        double ex = b.x - a.x, ey = b.y - a.y, length = ex * ex + ey * ey;
+                        double k = length > 0 ? fmin(1, fmax(0, ((x + 0.5 - a.x) * ex + (y + 0.5 - a.y) * ey) / length)) : 0;
+                        least = fmin(least, hypot(x + 0.5 - a.x - k * ex, y + 0.5 - a.y - k * ey));
+                    }
+                }
+                judged += least > 2.5;
+                stray += least > 2.5 && pixel(&blueprint, x, y)[0] < 110;
+            }
+        check_at_most("B11", stray, 0, "%s: dark pixels farther than 2.5 px from every edge, of %d", what, judged);
+    }
+    shot_release(&blueprint);
+    shot_release(&front);
+    shape_release(&s);
+}
+
+static void plan_views(void)
+{
+    plan_view(LMN_VIEW_TOP, "from above");
+    plan_view(LMN_VIEW_FRONT, "from the front");
+    plan_view(LMN_VIEW_RIGHT, "from the right");
+}
+
+/* --- edges of what can be asked ---------------------------------------------------------------------------------- */
+
+static void refuse(const char *key, const char *value)
+{
+    lmn_error error = {0};
+    lmn_look *look = NULL;
+    lmn_status status = lmn_look_parse(&look, LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":\"xray\"}"), "look", &error);
+    check_that("bad", status == LMN_OK, "a layered look is read: %s", error.message);
+    if (status == LMN_OK) {
+        status = lmn_look_set(look, key, value, &error);
+        check_that("bad", status == LMN_USAGE && error.message[0], "%s = %s is refused: %s", key, value, error.message);
+    }
+    lmn_look_destroy(&look);
+}
+
+static void refuse_file(const char *layers, const char *compose)
+{
+    char      text[512];
+    lmn_error error = {0};
+    lmn_look *look = NULL;
+    snprintf(text, sizeof text, LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"layers\":%s,\"compose\":%s}"), layers, compose);
+    lmn_status status = lmn_look_parse(&look, text, "look", &error);
+    check_that("bad", status == LMN_FORMAT && error.line > 0, "layers %s with %s are refused with their line: %s", layers, compose, error.message);
+    lmn_look_destroy(&look);
+}
+
+static void bad_values(void)
+{
+    static const char *const values[][2] = {{"layers.count", "-1"}, {"layers.count", "10000"}, {"layers.count", "257"}, {"layers.count", "2.5"},
+                                            {"layers.count", "many"}, {"layers.fraction", "-0.1"}, {"layers.fraction", "1.5"}, {"layers.fraction", "nan"},
+                                            {"layers.focus_share", "2"}, {"layers.producer", "magic"}, {"compose.opacity", "1.01"}, {"compose.opacity", "-1"},
+                                            {"compose.fade", "2"}, {"compose.halo", "-1"}, {"compose.hidden_gap", "-3"}, {"compose.tint", "#ff0000"},
+                                            {"compose.technique", "xrays"}, {"layers.technique", "peeled"}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        refuse(values[i][0], values[i][1]);
+    refuse_file("{\"technique\":\"peel\",\"count\":-1}", "\"xray\"");
+    refuse_file("{\"technique\":\"peel\",\"count\":10000}", "\"xray\"");
+    refuse_file("{\"technique\":\"peel\",\"fraction\":\"all\"}", "\"xray\"");
+    refuse_file("\"peel\"", "{\"technique\":\"wire\",\"threshold\":3}");
+    refuse_file("\"peel\"", "{\"technique\":\"xray\",\"tint\":\"#ff0000\"}");
+}
+
+static lmn_status draw_text(const char *model, const char *look_text, lmn_error *error)
+{
+    lmn_scene    *scene = NULL;
+    lmn_look     *look = NULL;
+    lmn_renderer *renderer = NULL;
+    lmn_drawing  *drawing = NULL;
+    lmn_renderer_desc how = LMN_RENDERER_DESC_INIT;
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    desc.width = desc.height = 64;
+    lmn_status status = lmn_scene_create(&scene, error);
+    if (status == LMN_OK && model)
+        status = lmn_scene_add_file(scene, model, NULL, error);
+    if (status == LMN_OK)
+        status = lmn_look_parse(&look, look_text, "look", error);
+    if (status == LMN_OK)
+        status = lmn_renderer_create(&renderer, &how, error);
+    if (status == LMN_OK)
+        status = lmn_draw(&drawing, renderer, scene, look, &desc, error);
+    lmn_drawing_destroy(&drawing);
+    lmn_renderer_destroy(&renderer);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&scene);
+    return status;
+}
+
+static void nothing_and_nonsense(void)
+{
+    static const char plain_xray[] = LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":\"xray\"}");
+    lmn_error error = {0};
+    shape     s = {0};
+    shot      drawing;
+    lmn_status status = draw_text(NULL, plain_xray, &error);
+    check_that("bad", status == LMN_FORMAT, "an empty scene has nothing to draw: %s", error.message);
+    shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+    model_write_glb(check_path("one.glb"), &s);
+    error = (lmn_error){0};
+    status = draw_text(check_path("one.glb"), LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"focus\":\"[id\"},\"compose\":\"xray\"}"), &error);
+    check_that("bad", status == LMN_USAGE || status == LMN_FORMAT, "a focus that is no selector is refused: %s", error.message);
+    error = (lmn_error){0};
+    status = draw_text(check_path("one.glb"), LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"focus\":\"nobody\"},\"compose\":\"xray\"}"), &error);
+    check_note("a focus that matches no part: status %d %s", (int)status, error.message);
+    if (shot_of_shape(&drawing, &s, "one.glb", LOOK("{\"select\":\"other\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":\"xray\"}"), NULL, &views[0])) {
+        int wrong = 0;
+        for (int i = 0; i < drawing.width * drawing.height; i++)
+            wrong += memcmp(&drawing.picture[4 * i], ground, 3) != 0;
+        check_at_most("bad", wrong, 0, "pixels that are not ground when a layered rule selects nothing");
+        check_near("bad", drawing.layers_drawn, 0, 0, "  layers");
+    }
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+/* From within, what lies behind the viewer is no layer. */
+static void from_inside(void)
+{
+    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}");
+    for (int p = 0; p < 2; p++)
+        for (int v = 0; v < 2; v++) {
+            char  text[512];
+            const shot_view view = {.width = 144, .height = 128, .eye = v ? dvec_of(0.05, 0.1, 0.02) : dvec_of(0.3, 0.4, 0.6), .target = {-1, -0.2, -1}, .up = {0, 1, 0}, .fov_deg = 60};
+            shape s = {0};
+            shot  drawing;
+            snprintf(text, sizeof text, look, p ? "lists" : "peeling");
+            scene_make(&s, v ? SCENE_CROSSING : SCENE_CLOSED, 35);
+            shape_sphere(&s, "around", dvec_of(0, 0, 0), 1.9, 32, 64, true);
+            if (shot_of_shape(&drawing, &s, "inside.glb", text, NULL, &view)) {
+                tracer   *rays = tracer_create(&s);
+                stack_map map;
+                stack_map_make(&map, rays, &drawing);
+                stack_score score = stack_compare(&map, rays, &drawing, 0);
+                if (!check_at_least("B01", (double)score.right_sharp / (double)score.sharp, 0.999, "seen from within, %s: share of sure pixels with the right layers (of all: %.5f)",
+                                    drawing.layer_producer, (double)score.right / (double)score.pixels))
+                    check_note("%zu count, %zu id, %zu depth, %zu normal, %zu holes; first %d, %d in layer %d", score.wrong_count, score.wrong_id, score.wrong_depth,
+                               score.wrong_normal, score.holes, score.x, score.y, score.layer);
+                check_at_least("B01", (double)score.sharp, 0.9 * (double)score.pixels, "  sure pixels");
+                stack_map_release(&map);
+                tracer_destroy(rays);
+            }
+            shot_release(&drawing);
+            shape_release(&s);
+        }
+}
+
+/* With little memory lists are drawn in pieces; the picture does not show where. */
+static void little_memory(void)
+{
+    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\",\"memory\":%d}," LINES
+                                    ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.3,\"halo\":3}}");
+    shot_view view = {.width = 256, .height = 256, .eye = {4, 3, 5}, .up = {0, 1, 0}, .without_maps = true};
+    char  text[512];
+    shape s = {0};
+    shot  large = {0}, small = {0}, peeled = {0};
+    scene_make(&s, SCENE_CROSSING, 36);
+    snprintf(text, sizeof text, look, "lists", 128);
+    bool ok = shot_of_shape(&large, &s, "memory.glb", text, NULL, &view);
+    snprintf(text, sizeof text, look, "lists", 1);
+    ok = shot_of_shape(&small, &s, "memory.glb", text, NULL, &view) && ok;
+    snprintf(text, sizeof text, look, "peeling", 128);
+    if (shot_of_shape(&peeled, &s, "memory.glb", text, NULL, &view) && ok) {
+        int pieces = 0, producers = 0, count = 256 * 256;
+        for (int i = 0; i < count; i++) {
+            bool differs = false, other = false;
+            for (int k = 4 * i; k < 4 * i + 4; k++) {
+                differs = differs || abs(large.picture[k] - small.picture[k]) > 1;
+                other = other || abs(large.picture[k] - peeled.picture[k]) > 2;
+            }
+            pieces += differs;
+            producers += other;
+        }
+        check_note("128 MiB: %s; 1 MiB: %s%s", large.layer_producer, small.layer_producer, shot_has_warning(&small, "layer-memory") ? ", with a warning" : "");
+        check_that("memory", !shot_has_warning(&large, "layer-memory"), "128 MiB are enough for a picture of 256 pixels");
+        check_near("memory", small.layers_drawn, large.layers_drawn, 0, "layers with little memory");
+        check_at_most("memory", pieces, 0, "pixels that differ when lists have 1 MiB");
+        check_at_most("B01", (double)producers / count, 0.001, "share of pixels that differ between lists and peeling in a picture with lines and halo");
+    }
+    shot_release(&large);
+    shot_release(&small);
+    shot_release(&peeled);
+    shape_release(&s);
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case cases[] = {
+        {"sorted", sorted},           {"order", any_order},        {"figures", two_figures},  {"inked", lines_over_layers},
+        {"tint", tint_adds_up},       {"edges", hidden_edges},     {"opaque", opaque_amid_layers}, {"glyphs", glyphs},
+        {"focus", focus},             {"wire", wire},              {"dashes", hidden_colour_and_dashes}, {"width", hidden_width},
+        {"once", repeated_once},      {"halo", halo},              {"clutter", clutter},      {"texture", textures_through_layers},
+        {"plan", plan_views},         {"bad", bad_values},         {"nothing", nothing_and_nonsense}, {"inside", from_inside},
+        {"memory", little_memory},
+    };
+    int status = check_main(argc, argv, "layers_compose", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
+}
