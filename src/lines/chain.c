@@ -195,8 +195,9 @@ static chain_point point_of(const tracing *t, uint32_t cell)
                          (uint32_t)row * (uint32_t)g->width + (uint32_t)column};
 }
 
-/* Cosine of the turn at point i of n; 1 where the ends are too near. */
-static float turn_at(const chain_point *p, size_t n, size_t i, bool closed)
+/* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the chord between
+ * its neighbours within reach, which is greatest at the very corner. */
+static float sharpness_at(const chain_point *p, size_t n, size_t i, bool closed)
 {
     size_t reach = CORNER_REACH;
     if (closed) {
@@ -206,22 +207,25 @@ static float turn_at(const chain_point *p, size_t n, size_t i, bool closed)
         reach = n - 1 - i < reach ? n - 1 - i : reach;
     }
     if (reach < CORNER_LEAST)
-        return 1;
+        return 0;
     const chain_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
     float ux = b->x - a->x, uy = b->y - a->y, vx = c->x - b->x, vy = c->y - b->y;
     float size = sqrtf((ux * ux + uy * uy) * (vx * vx + vy * vy));
-    return size > 0 ? (ux * vx + uy * vy) / size : 1;
+    if (ux * vx + uy * vy >= corner_cosine * size)
+        return 0;
+    float chord = hypotf(c->x - a->x, c->y - a->y);
+    return chord > 0 ? fabsf(ux * vy - uy * vx) / chord : hypotf(ux, uy);
 }
 
-/* Is point i the sharpest turn within reach, and a corner? Of equals the first. */
-static bool is_corner(const float *turns, size_t n, size_t i, bool closed)
+/* Is point i a corner, and the sharpest within reach? Of equals the first. */
+static bool is_corner(const float *sharpness, size_t n, size_t i, bool closed)
 {
-    if (turns[i] >= corner_cosine)
+    if (sharpness[i] <= 0)
         return false;
     for (size_t k = 1; k <= CORNER_REACH; k++) {
-        if ((closed || i >= k) && turns[(i + n * CORNER_REACH - k) % n] <= turns[i])
+        if ((closed || i >= k) && sharpness[(i + n * CORNER_REACH - k) % n] >= sharpness[i])
             return false;
-        if ((closed || i + k < n) && turns[(i + k) % n] < turns[i])
+        if ((closed || i + k < n) && sharpness[(i + k) % n] > sharpness[i])
             return false;
     }
     return true;
@@ -287,14 +291,14 @@ static bool add_chain(chain_set *out, chain_point *p, size_t n, size_t first, ch
 }
 
 /* Parts a line at its corners. */
-static bool add_parted(chain_set *out, const raw_line *line, chain_point *p, float *turns)
+static bool add_parted(chain_set *out, const raw_line *line, chain_point *p, float *sharpness)
 {
     size_t n = line->count, start = 0, first_corner = n;
     bool joined = line->joined[0], good = true;
     for (size_t i = 0; i < n; i++)
-        turns[i] = turn_at(p, n, i, line->closed);
+        sharpness[i] = sharpness_at(p, n, i, line->closed);
     for (size_t i = 0; i < n && good; i++) {
-        if (!is_corner(turns, n, i, line->closed))
+        if (!is_corner(sharpness, n, i, line->closed))
             continue;
         if (first_corner < n || !line->closed)
             good = add_chain(out, p, n, start, (chain){.count = i - start + 1, .joined = {joined, true}});
@@ -318,16 +322,16 @@ static bool make_chains(chain_set *out, const tracing *t)
     for (size_t i = 0; i < t->line_count; i++)
         longest = t->lines[i].count > longest ? t->lines[i].count : longest;
     chain_point *points = mem_alloc(longest * sizeof *points);
-    float *turns = mem_alloc(longest * sizeof *turns);
-    bool good = points && turns;
+    float *sharpness = mem_alloc(longest * sizeof *sharpness);
+    bool good = points && sharpness;
     for (size_t i = 0; i < t->line_count && good; i++) {
         const raw_line *line = &t->lines[i];
         for (size_t k = 0; k < line->count; k++)
             points[k] = point_of(t, t->cells[line->first + k]);
-        good = add_parted(out, line, points, turns);
+        good = add_parted(out, line, points, sharpness);
     }
     mem_free(points);
-    mem_free(turns);
+    mem_free(sharpness);
     return good;
 }
 
