@@ -29,7 +29,6 @@ typedef struct raw_line {
 
 typedef struct tracing {
     thin_grid grid;
-    int       around[8];
     uint32_t *cells; /* of all lines */
     raw_line *lines;
     size_t    cell_count, cell_room, line_count, line_room;
@@ -60,7 +59,7 @@ static void add_line(tracing *t, raw_line line)
 static uint32_t next_of(const tracing *t, uint32_t before, uint32_t cell)
 {
     for (int k = 0; k < 8; k++) {
-        uint32_t next = (uint32_t)((int64_t)cell + t->around[k]);
+        uint32_t next = (uint32_t)((int64_t)cell + t->grid.around[k]);
         if (next != before && t->grid.cells[next] & CELL_THIN)
             return next;
     }
@@ -107,7 +106,7 @@ static void follow_loop(tracing *t, uint32_t start)
 static void follow_from(tracing *t, uint32_t node)
 {
     for (int k = 0; k < 8; k++) {
-        uint32_t second = (uint32_t)((int64_t)node + t->around[k]);
+        uint32_t second = (uint32_t)((int64_t)node + t->grid.around[k]);
         if (!(t->grid.cells[second] & CELL_THIN))
             continue;
         if (!is_node(t, second)) {
@@ -364,7 +363,6 @@ bool chains_trace(chain_set *out, const uint8_t *ink, int width, int height, flo
     *out = (chain_set){0};
     bool good = thin_create(&t.grid, ink, width, height) && thin_run(&t.grid);
     if (good) {
-        thin_around(&t.grid, t.around);
         trace_lines(&t);
         for (int round = 0; round < SPUR_ROUNDS && good && !t.failed && remove_spurs(&t, spur); round++) {
             good = thin_run(&t.grid);

@@ -12,6 +12,8 @@
 static const float LINE_INK = 0.15f, SPUR = 3.5f;
 /* The detected map's lines reach this far from their middle; and chains of less than this share of a period stay whole. */
 static const float DETECTED_REACH = 3.5f, LEAST_PERIOD = 0.75f, LEAST_DASHES = 1.5f;
+/* Half of the widest lines, with eight samples a side. */
+enum { REACH_MAX = 140 };
 /* From this width on dots are round; below, a square is rounder. */
 static const float ROUND_FROM = 4;
 
@@ -42,9 +44,9 @@ dash_pattern dash_pattern_of(const chain *c, const dash_style *style)
 
 float dash_from_middle(const dash_pattern *p, const chain *c, float along)
 {
-    float at = along + p->lead - 0.5f * p->dash, index = roundf(at / p->period);
-    if (!c->closed)
-        index = fmaxf(0, fminf((float)p->gaps, index));
+    float at = along + p->lead - 0.5f * p->dash, index = (float)(int)(at / p->period + 0.5f); /* at is never far below 0 */
+    if (!c->closed && index > (float)p->gaps)
+        index = (float)p->gaps;
     return fabsf(at - index * p->period);
 }
 
@@ -58,26 +60,72 @@ float dash_inside(const dash_pattern *p, const chain *c, float along)
 
 /* --- painting ---------------------------------------------------------------------------------------------------- */
 
+/* A chain's point as pixels around it see it. */
 typedef struct source {
-    int16_t  x, y; /* the pixel */
-    uint32_t point, chain;
+    float    x, y, along;
+    float    tx, ty; /* direction of the line, a unit vector */
+    uint32_t chain;
 } source;
 
 typedef struct painting {
-    uint8_t            *out;
     int                 width, height;
     const chain_set    *set;
     const dash_style   *style;
-    const dash_pattern *patterns;
+    dash_pattern       *patterns;
     source             *sources;
-    uint32_t           *nearest; /* source of each pixel + 1; 0 = out of reach */
-    uint32_t           *front, *behind; /* pixels */
-    size_t              front_count, behind_count, front_room, behind_room;
+    uint32_t           *nearest;  /* source of each pixel */
+    uint16_t           *distance; /* to it, squared, + 1; 0 = out of reach of all */
 } painting;
 
-static int distance2(const source *s, int x, int y)
+/* The chain's direction at a point: between its neighbours. */
+static void set_direction(source *s, const chain *c, const chain_point *points, size_t i)
 {
-    return (s->x - x) * (s->x - x) + (s->y - y) * (s->y - y);
+    const chain_point *before = i ? &points[i - 1] : c->closed ? &points[c->count - 1] : &points[0];
+    const chain_point *behind = i + 1 < c->count ? &points[i + 1] : c->closed ? &points[0] : &points[i];
+    float tx = behind->x - before->x, ty = behind->y - before->y, size = sqrtf(tx * tx + ty * ty);
+    s->tx = size > 0 ? tx / size : 0;
+    s->ty = size > 0 ? ty / size : 0;
+}
+
+/* Takes the pixels in reach of a point's own pixel that no other point is nearer to; of equals the first stays. */
+static void claim(painting *p, uint32_t label, uint32_t pixel, int reach, const int *spans)
+{
+    int x = (int)(pixel % (uint32_t)p->width), y = (int)(pixel / (uint32_t)p->width);
+    int top = y > reach ? -reach : -y, bottom = y + reach < p->height ? reach : p->height - 1 - y;
+    for (int dy = top; dy <= bottom; dy++) {
+        int span = spans[dy < 0 ? -dy : dy];
+        int left = x > span ? -span : -x, right = x + span < p->width ? span : p->width - 1 - x;
+        size_t row = (size_t)(y + dy) * (size_t)p->width + (size_t)x;
+        uint16_t *distance = &p->distance[row];
+        for (int dx = left; dx <= right; dx++) {
+            int d = dx * dx + dy * dy + 1;
+            if (distance[dx] && distance[dx] <= d)
+                continue;
+            distance[dx] = (uint16_t)d;
+            p->nearest[(int64_t)row + dx] = label;
+        }
+    }
+}
+
+static void place_sources(painting *p)
+{
+    int spans[REACH_MAX + 1];
+    float reach = DETECTED_REACH + 0.5f * (p->style->width > 2 ? p->style->width - 2 : 0);
+    reach = reach > REACH_MAX ? REACH_MAX : reach;
+    for (int i = 0; i <= (int)reach; i++)
+        spans[i] = (int)sqrtf(reach * reach - (float)(i * i));
+    uint32_t count = 0;
+    for (size_t i = 0; i < p->set->chain_count; i++) {
+        const chain *c = &p->set->chains[i];
+        const chain_point *points = &p->set->points[c->first];
+        p->patterns[i] = dash_pattern_of(c, p->style);
+        for (size_t k = 0; k < c->count; k++, count++) {
+            source *s = &p->sources[count];
+            *s = (source){.x = points[k].x, .y = points[k].y, .along = points[k].along, .chain = (uint32_t)i};
+            set_direction(s, c, points, k);
+            claim(p, count, points[k].pixel, (int)reach, spans);
+        }
+    }
 }
 
 /* Share of ink at a pixel, by its place beside the nearest chain. */
@@ -87,111 +135,46 @@ static uint8_t share_at(const painting *p, const source *s, int x, int y)
     const dash_pattern *pattern = &p->patterns[s->chain];
     if (pattern->gaps == 0)
         return 255;
-    const chain_point *points = &p->set->points[c->first], *at = &points[s->point];
-    size_t before = s->point ? s->point - 1 : c->closed ? c->count - 1 : 0;
-    size_t behind = s->point + 1 < c->count ? s->point + 1 : c->closed ? 0 : s->point;
-    float tx = points[behind].x - points[before].x, ty = points[behind].y - points[before].y;
-    float size = hypotf(tx, ty), dx = (float)x - at->x, dy = (float)y - at->y;
-    float beside = 0, forth = 0;
-    if (size > 0) {
-        forth = (dx * tx + dy * ty) / size;
-        beside = (dx * ty - dy * tx) / size;
-    }
-    float along = at->along + fmaxf(-2, fminf(2, forth)), inside = dash_inside(pattern, c, along);
+    float dx = (float)x - s->x, dy = (float)y - s->y, forth = dx * s->tx + dy * s->ty;
+    float along = s->along + (forth < -2 ? -2 : forth > 2 ? 2 : forth), inside;
     if (p->style->dash <= p->style->width && p->style->width >= ROUND_FROM)
-        inside = 0.5f * p->style->width - hypotf(dash_from_middle(pattern, c, along), beside);
+        inside = 0.5f * p->style->width - hypotf(dash_from_middle(pattern, c, along), dx * s->ty - dy * s->tx);
+    else
+        inside = dash_inside(pattern, c, along);
     float share = inside + 0.5f;
     return share <= 0 ? 0 : share >= 1 ? 255 : (uint8_t)(share * 255 + 0.5f);
 }
 
-static bool claim(painting *p, uint32_t pixel, uint32_t label)
+static void paint_row(const painting *p, uint8_t *out, int y)
 {
-    if (!mem_grow((void **)&p->behind, &p->behind_room, p->behind_count + 1, sizeof *p->behind))
-        return false;
-    p->nearest[pixel] = label;
-    p->behind[p->behind_count++] = pixel;
-    return true;
-}
-
-/* One ring farther out: the pixels beside the front go to whichever chain is nearest. */
-static bool spread(painting *p, int reach2)
-{
-    for (size_t i = 0; i < p->front_count; i++) {
-        uint32_t pixel = p->front[i], label = p->nearest[pixel];
-        int x = (int)(pixel % (uint32_t)p->width), y = (int)(pixel / (uint32_t)p->width);
-        const source *s = &p->sources[label - 1];
-        for (int k = 0; k < 9; k++) {
-            int nx = x + k % 3 - 1, ny = y + k / 3 - 1;
-            if (k == 4 || nx < 0 || ny < 0 || nx >= p->width || ny >= p->height)
-                continue;
-            uint32_t next = (uint32_t)ny * (uint32_t)p->width + (uint32_t)nx, other = p->nearest[next];
-            int distance = distance2(s, nx, ny);
-            if (other == label || distance > reach2 || (other && distance2(&p->sources[other - 1], nx, ny) <= distance))
-                continue;
-            if (!claim(p, next, label))
-                return false;
-        }
+    size_t first = (size_t)y * (size_t)p->width;
+    for (int x = 0; x < p->width; x++) {
+        uint64_t four;
+        /* Most of a picture is empty. */
+        while (x + 4 <= p->width && (memcpy(&four, &p->distance[first + (size_t)x], sizeof four), four == 0))
+            x += 4;
+        if (x < p->width && p->distance[first + (size_t)x])
+            out[first + (size_t)x] = share_at(p, &p->sources[p->nearest[first + (size_t)x]], x, y);
     }
-    return true;
-}
-
-static void swap_fronts(painting *p)
-{
-    uint32_t *pixels = p->front;
-    size_t room = p->front_room;
-    p->front = p->behind;
-    p->front_room = p->behind_room;
-    p->front_count = p->behind_count;
-    p->behind = pixels;
-    p->behind_room = room;
-    p->behind_count = 0;
-}
-
-static void paint_front(const painting *p)
-{
-    for (size_t i = 0; i < p->front_count; i++) {
-        uint32_t pixel = p->front[i];
-        p->out[pixel] = share_at(p, &p->sources[p->nearest[pixel] - 1], (int)(pixel % (uint32_t)p->width), (int)(pixel / (uint32_t)p->width));
-    }
-}
-
-/* Every chain's points claim their own pixels; of several chains at a node the first. */
-static bool place_sources(painting *p)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < p->set->chain_count; i++) {
-        const chain *c = &p->set->chains[i];
-        for (size_t k = 0; k < c->count; k++, count++) {
-            uint32_t pixel = p->set->points[c->first + k].pixel;
-            p->sources[count] = (source){(int16_t)(pixel % (uint32_t)p->width), (int16_t)(pixel / (uint32_t)p->width), (uint32_t)k, (uint32_t)i};
-            if (!p->nearest[pixel] && !claim(p, pixel, (uint32_t)count + 1))
-                return false;
-        }
-    }
-    return true;
 }
 
 bool dash_paint(uint8_t *out, int width, int height, const chain_set *set, const dash_style *style)
 {
-    memset(out, 255, (size_t)width * (size_t)height);
-    dash_pattern *patterns = mem_alloc(set->chain_count * sizeof *patterns);
-    painting p = {.out = out, .width = width, .height = height, .set = set, .style = style, .patterns = patterns};
-    p.sources = mem_alloc(set->point_count * sizeof *p.sources);
-    p.nearest = mem_calloc((size_t)width * (size_t)height, sizeof *p.nearest);
-    bool good = patterns && p.sources && p.nearest;
-    for (size_t i = 0; good && i < set->chain_count; i++)
-        patterns[i] = dash_pattern_of(&set->chains[i], style);
-    float reach = DETECTED_REACH + 0.5f * fmaxf(style->width - 2, 0);
-    good = good && place_sources(&p);
-    for (swap_fronts(&p); good && p.front_count; swap_fronts(&p)) {
-        paint_front(&p);
-        good = spread(&p, (int)(reach * reach));
+    size_t pixels = (size_t)width * (size_t)height;
+    painting p = {.width = width, .height = height, .set = set, .style = style,
+                  .patterns = mem_alloc(set->chain_count * sizeof *p.patterns), .sources = mem_alloc(set->point_count * sizeof *p.sources),
+                  .nearest = mem_alloc(pixels * sizeof *p.nearest), .distance = mem_calloc(pixels, sizeof *p.distance)};
+    bool good = p.patterns && p.sources && p.nearest && p.distance;
+    if (good) {
+        place_sources(&p);
+        memset(out, 255, pixels);
+        for (int y = 0; y < height; y++)
+            paint_row(&p, out, y);
     }
-    mem_free(patterns);
+    mem_free(p.patterns);
     mem_free(p.sources);
     mem_free(p.nearest);
-    mem_free(p.front);
-    mem_free(p.behind);
+    mem_free(p.distance);
     return good;
 }
 

@@ -9,12 +9,6 @@
 
 enum { CELL_QUEUED = 4, SIDES = 4 };
 
-void thin_around(const thin_grid *g, int out[8])
-{
-    const int around[8] = {1, 1 + g->stride, g->stride, g->stride - 1, -1, -1 - g->stride, -g->stride, 1 - g->stride};
-    memcpy(out, around, sizeof around);
-}
-
 static unsigned pattern_of(const uint8_t *cells, uint32_t cell, const int around[8])
 {
     unsigned pattern = 0;
@@ -25,14 +19,13 @@ static unsigned pattern_of(const uint8_t *cells, uint32_t cell, const int around
 
 int thin_degree(const thin_grid *g, uint32_t cell)
 {
-    int around[8], degree = 0;
-    thin_around(g, around);
+    int degree = 0;
     for (int k = 0; k < 8; k++)
-        degree += (g->cells[(int64_t)cell + around[k]] & CELL_THIN) != 0;
+        degree += (g->cells[(int64_t)cell + g->around[k]] & CELL_THIN) != 0;
     return degree;
 }
 
-/* Fills single empty pixels inside ink, which would make rings of a few pixels. */
+/* Counts single empty pixels inside ink too, which would make rings of a few pixels. */
 static bool is_ink(const uint8_t *ink, int width, int height, int x, int y)
 {
     const uint8_t *at = &ink[(size_t)y * (size_t)width + (size_t)x];
@@ -41,22 +34,35 @@ static bool is_ink(const uint8_t *ink, int width, int height, int x, int y)
     return x > 0 && y > 0 && x + 1 < width && y + 1 < height && at[-1] && at[1] && at[-width] && at[width];
 }
 
+static void add_row(thin_grid *g, const uint8_t *ink, int y)
+{
+    const uint8_t *row = &ink[(size_t)y * (size_t)g->width];
+    for (int x = 0; x < g->width; x++) {
+        uint64_t eight;
+        /* Most of a picture is empty. */
+        while (x + 8 <= g->width && (memcpy(&eight, &row[x], sizeof eight), eight == 0))
+            x += 8;
+        if (x >= g->width || !is_ink(ink, g->width, g->height, x, y))
+            continue;
+        uint32_t cell = (uint32_t)((y + 1) * g->stride + x + 1);
+        g->cells[cell] = CELL_INK | CELL_THIN;
+        g->pixels[g->count++] = cell;
+    }
+}
+
 bool thin_create(thin_grid *out, const uint8_t *ink, int width, int height)
 {
     *out = (thin_grid){.width = width, .height = height, .stride = width + 2};
+    const int around[8] = {1, 1 + out->stride, out->stride, out->stride - 1, -1, -1 - out->stride, -out->stride, 1 - out->stride};
+    memcpy(out->around, around, sizeof around);
     out->cells = mem_calloc((size_t)(height + 2), (size_t)out->stride);
     size_t capacity = 0;
     bool good = out->cells != NULL;
-    for (int y = 0; good && y < height; y++)
-        for (int x = 0; x < width && good; x++) {
-            if (!is_ink(ink, width, height, x, y))
-                continue;
-            uint32_t cell = (uint32_t)((y + 1) * out->stride + x + 1);
-            out->cells[cell] = CELL_INK | CELL_THIN;
-            good = mem_grow((void **)&out->pixels, &capacity, out->count + 1, sizeof *out->pixels);
-            if (good)
-                out->pixels[out->count++] = cell;
-        }
+    for (int y = 0; good && y < height; y++) {
+        good = mem_grow((void **)&out->pixels, &capacity, out->count + (size_t)width, sizeof *out->pixels);
+        if (good)
+            add_row(out, ink, y);
+    }
     if (!good)
         thin_release(out);
     return good;
@@ -128,11 +134,10 @@ bool thin_run(thin_grid *g)
 {
     static const int order[SIDES] = {2, 6, 0, 4};
     bool table[256];
-    int  around[8];
+    const int *around = g->around;
     peel_lists l = {mem_alloc(g->count * sizeof(uint32_t)), mem_alloc(g->count * sizeof(uint32_t)), mem_alloc(g->count * sizeof(uint32_t)), 0, 0};
     bool good = l.active && l.bare && l.gone;
     make_table(table);
-    thin_around(g, around);
     for (size_t i = 0; good && i < g->count; i++)
         if (g->cells[g->pixels[i]] & CELL_THIN)
             l.active[l.active_count++] = g->pixels[i];

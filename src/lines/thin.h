@@ -14,10 +14,8 @@ typedef struct thin_grid {
     uint32_t *pixels; /* cells that are CELL_THIN, by rows */
     size_t    count;
     int       width, height, stride;
+    int       around[8]; /* distances to the eight neighbours in `cells`, once around */
 } thin_grid;
-
-/* Distances to the eight neighbours in `cells`, once around. */
-void thin_around(const thin_grid *g, int out[8]);
 
 /* How many of the eight are CELL_THIN. */
 int thin_degree(const thin_grid *g, uint32_t cell);

@@ -210,8 +210,8 @@ static void corners_have_ink(void **state)
             double corners[4][2];
             for (int k = 0; k < 4; k++) {
                 double angle = (degrees + 90 * k) * pi / 180;
-                corners[k][0] = SIDE / 2 + 107.3 * cos(angle);
-                corners[k][1] = SIDE / 2 + 107.3 * sin(angle);
+                corners[k][0] = SIDE / 2 + 103 * cos(angle);
+                corners[k][1] = SIDE / 2 + 103 * sin(angle);
             }
             clear_ink();
             for (int k = 0; k < 4; k++)
@@ -222,8 +222,8 @@ static void corners_have_ink(void **state)
                 assert_true(set.chains[i].joined[0] && set.chains[i].joined[1]);
                 run_list r = runs_along(corners[i], corners[(i + 1) % 4]);
                 assert_int_equal(r.count % 2, 1);
-                assert_int_equal(r.count / 2, 9); /* 151.7 px in periods of 16 */
-                double half = 0.5 * 10 * 151.7 / (9 * 16);
+                assert_int_equal(r.count / 2, 9); /* 145.7 px in periods of 16 */
+                double half = 0.5 * 10 * 145.7 / (9 * 16);
                 double first = r.ends[0], last = r.ends[r.count - 1] - r.ends[r.count - 2];
                 if (fabs(first - half) > 2 || fabs(last - half) > 2)
                     fail_msg("width %d, %d degrees: %.2f and %.2f px at corners", width, degrees, first, last);
