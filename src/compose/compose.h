@@ -22,9 +22,9 @@ typedef struct layer_style {
                      .doc = "Colour of all lines of hidden layers; auto takes those of the visible ones."),                       \
     PARAM_FLOAT_ROW(layer_style, hidden_width, .def = 1, .min = 0.5, .max = 32, .soft_max = 8, .unit = UNIT_PX, .can_auto = true, \
                     .def_auto = true, .cpu_only = true, .doc = "Width of hidden lines; auto takes that of the visible ones."),    \
-    PARAM_FLOAT_ROW(layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 40, .unit = UNIT_PX, .cpu_only = true,  \
-                    .doc = "Length of the dashes of hidden lines, along the line; 0 leaves them unbroken."),                      \
-    PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 40, .unit = UNIT_PX, .cpu_only = true, \
+    PARAM_FLOAT_ROW(layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,  \
+                    .doc = "Length of the dashes of hidden lines, along the line; 0 leaves them as visible lines are."),           \
+    PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true, \
                     .only_if = "hidden_dash", .doc = "Length of the gaps between the dashes of hidden lines."),                   \
     PARAM_FLOAT_ROW(layer_style, hidden_opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                                \
                     .doc = "Opacity of the lines of the first hidden layer."),                                                    \
@@ -40,7 +40,7 @@ typedef struct layer_style {
 
 /* What every composition of layers reads, and the passes behind it. */
 #define LAYER_READS                                                                                                               \
-    {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NORMAL_DEPTH}
+    {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NORMAL_DEPTH}
 /* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the place is. */
 #define NEARER_LINES_PASSES(condition)                                                                                            \
     {.name = "nearer lines across", .shader = "compose/nearer_row.frag", .reads = {TARGET_EDGE}, .writes = TARGET_NEARER_ROW,     \

@@ -4,7 +4,7 @@
 
 static const pass passes[] = {
     {.name = "merged", .shader = "lines/ink.glsl",
-     .reads = {TARGET_DEPTH, TARGET_EDGE}, .writes = TARGET_PAGE, .geometry = true},
+     .reads = {TARGET_DEPTH, TARGET_EDGE, TARGET_DASH}, .writes = TARGET_PAGE, .geometry = true},
 };
 
 const technique compose_merged = {

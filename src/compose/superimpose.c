@@ -3,7 +3,7 @@
 #include "compose/compose.h"
 
 static const pass passes[] = {
-    {.name = "superimpose", .shader = "lines/ink.glsl", .reads = {TARGET_EDGE, TARGET_SHADE, TARGET_DEPTH, TARGET_GROUND},
+    {.name = "superimpose", .shader = "lines/ink.glsl", .reads = {TARGET_EDGE, TARGET_DASH, TARGET_SHADE, TARGET_DEPTH, TARGET_GROUND},
      .writes = TARGET_PAGE, .geometry = true},
 };
 

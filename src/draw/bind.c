@@ -50,7 +50,7 @@ gpu_texture *frame_acquire(frame *f, target t)
         [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,     [TARGET_ALBEDO] = GPU_RGBA16F,
         [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_FILTERED] = GPU_RGBA16F, [TARGET_EDGE] = GPU_RGBA16F,
         [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_NEARER_ROW] = GPU_RGBA16F, [TARGET_NEARER] = GPU_RGBA16F, [TARGET_LAYERS] = GPU_RGBA16F,
-        [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
+        [TARGET_DASH] = GPU_R8,              [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
     };
     return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
 }
@@ -80,7 +80,12 @@ bool pass_applies(kind_id id, const pass *p, const technique_use *use)
 
 bool rule_traces_lines(const rule *r)
 {
-    (void)r;
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const technique_use *use = &r->uses[KIND_LINES][i];
+        for (size_t k = 0; k < use->technique->pass_count; k++)
+            if (use->technique->passes[k].process && pass_applies(KIND_LINES, &use->technique->passes[k], use))
+                return true;
+    }
     return false;
 }
 
@@ -157,6 +162,9 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
     for (int i = 0; i < count; i++)
         if (target_of(f, s, reads[i]))
             target_declare(prelude, reads[i]);
+    for (int i = 0; i < count; i++)
+        if (reads[i] == TARGET_DASH && s->targets[TARGET_DASH])
+            text_append(prelude, "#define HAS_DASHES\n");
     if (s->targets[TARGET_EDGE_BEFORE])
         text_append(prelude, "#define MAP_OF_BEFORE\n");
     if (s->targets[TARGET_NEARER])

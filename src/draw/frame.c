@@ -17,7 +17,7 @@ static float lengths_of(const param *params, size_t count, const void *values)
 {
     float sum = 0;
     for (size_t p = 0; p < count; p++)
-        if (params[p].unit == UNIT_PX && params[p].type == PARAM_FLOAT && !param_is_auto(&params[p], values))
+        if (params[p].unit == UNIT_PX && params[p].type == PARAM_FLOAT && !params[p].along && !param_is_auto(&params[p], values))
             sum += fabsf(*(const float *)param_field(&params[p], values));
     return sum;
 }

@@ -71,7 +71,7 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
 /* Gives back what the figures keep of the lines in front. */
 static void forget_lines(frame *f, layer_stack *stack)
 {
-    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND};
+    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH};
     for (int i = 0; i < stack->count; i++)
         for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
             gpu_target_release(f->g, stack->states[i].targets[own[k]]);
@@ -362,7 +362,7 @@ static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
             continue;
         if (peel->producer == PRODUCER_PEELING || (peel->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
             out.lists = false;
-        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r);
+        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) || rule_traces_lines(stack->hidden[i].rule);
         size_t bytes = (size_t)peel->memory << 20;
         out.bytes = bytes < out.bytes ? bytes : out.bytes;
     }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 typedef struct pass_params {
     param_set   sets[4];
     const pass *merged; /* line detection that this pass does too, or NULL */
@@ -84,9 +86,39 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     watch_stop(f, w, group, p->name);
 }
 
+/* Each line technique has dashes of its own, or none. */
+static void forget_dashes(frame *f, figure_state *s)
+{
+    gpu_target_release(f->g, s->targets[TARGET_DASH]);
+    s->targets[TARGET_DASH] = NULL;
+}
+
+/* A pass on the CPU: reads the box where the figure can be, and writes there. */
+static void run_process(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
+{
+    stopwatch w = watch_start(f);
+    const int *box = s->pixels;
+    size_t count = (size_t)box[2] * (size_t)box[3];
+    float *in = mem_alloc(count * 4 * sizeof *in);
+    uint8_t *out = mem_alloc(count);
+    gpu_texture *written = frame_acquire(f, p->writes);
+    if (in && out)
+        gpu_read_box(f->g, target_of(f, s, p->reads[0]), box, in);
+    if (!in || !out || (!gpu_failed(f->g) && !p->process(&(pass_pixels){in, box[2], box[3]}, out, use->values)))
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    gpu_target_write(f->g, written, box, out);
+    mem_free(in);
+    mem_free(out);
+    gpu_target_release(f->g, s->targets[p->writes]);
+    s->targets[p->writes] = written;
+    watch_stop(f, w, group, p->name);
+}
+
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use)
 {
     const technique *t = use->technique;
+    if (id == KIND_LINES)
+        forget_dashes(f, s);
     pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
     const technique_use *lines = rule_inked_lines(s->figure->rule);
@@ -102,6 +134,10 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
             continue;
         if (p->geometry)
             run_geometry(f, s, p, kinds[id]->name);
+        else if (p->process && !f->maps) /* maps show what was detected */
+            run_process(f, s, p, use, kinds[id]->name);
+        else if (p->process)
+            continue;
         else
             for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
                 run_pass(f, s, p, &params, kinds[id]->name, k);
@@ -112,8 +148,10 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
     const kind *k = kinds[id];
-    if (id == KIND_LINES && !f->maps && rule_merged_detection(r))
+    if (id == KIND_LINES && !f->maps && rule_merged_detection(r)) {
+        forget_dashes(f, s);
         return;
+    }
     for (size_t i = 0; i < r->use_counts[id]; i++) {
         const technique_use *use = &r->uses[id][i];
         run_use(f, s, id, use);

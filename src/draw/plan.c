@@ -240,6 +240,10 @@ static bool add_hidden_rule(plan *p, figure *f)
             lines->colour = lines->inner_colour = lines->id_colour = style->hidden_colour;
         if (!isnan(style->hidden_width))
             lines->width = style->hidden_width;
+        if (style->hidden_dash > 0) {
+            lines->dash = style->hidden_dash;
+            lines->gap = style->hidden_gap;
+        }
     }
     f->hidden = r;
     return r != NULL;

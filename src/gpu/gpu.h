@@ -16,9 +16,12 @@ typedef struct gpu_program gpu_program;
 typedef struct gpu_mesh    gpu_mesh;
 typedef struct gpu_buffer  gpu_buffer;
 
-typedef enum gpu_format { GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT } gpu_format;
-typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend; /* source premultiplied; UNDER: the picture's alpha is what still shows
- * through, 1 at first, which 16-bit floats hold better than what does not */
+typedef enum gpu_format {
+    GPU_R8, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT
+} gpu_format;
+/* The source is premultiplied. UNDER: the picture's alpha is what still shows through, 1 at first, which 16-bit floats hold better
+ * than what does not. */
+typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend;
 typedef enum gpu_cull { GPU_CULL_NONE, GPU_CULL_BACK, GPU_CULL_FRONT } gpu_cull;
 /* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where gpu_facts.lists). */
 typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;
@@ -61,6 +64,10 @@ int  gpu_texture_width(const gpu_texture *t);
 int  gpu_texture_height(const gpu_texture *t);
 /* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, RGBA32UI → 4, DEPTH32F → 1 float. */
 void gpu_read(gpu *g, gpu_texture *t, void *out);
+/* The same for a part (x, y, width, height); not of depth or R8. */
+void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out);
+/* Writes a part of an 8-bit picture; rows follow each other without gaps. */
+void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixels);
 
 /* --- programs ------------------------------------------------------------------------------------------------------ */
 

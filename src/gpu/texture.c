@@ -10,6 +10,7 @@ typedef struct format_row {
 } format_row;
 
 static const format_row formats[GPU_FORMAT_COUNT] = {
+    [GPU_R8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
     [GPU_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
     [GPU_SRGB8] = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE},
     [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT},
@@ -184,22 +185,40 @@ void gpu_read(gpu *g, gpu_texture *t, void *out)
         glReadPixels(0, 0, t->width, t->height, GL_DEPTH_COMPONENT, GL_FLOAT, out);
         return;
     }
+    gpu_read_box(g, t, (int[]){0, 0, t->width, t->height}, out);
+}
+
+void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out)
+{
+    if (g->failed || !t)
+        return;
     gpu_pass_begin(g, &(gpu_pass){.colours = {t}, .colour_count = 1});
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     GLenum type = t->format == GPU_RGBA16F ? GL_FLOAT : formats[t->format].type;
     if (t->format == GPU_RG32UI && g->facts.es) {
         /* ES guarantees four-component integer reads only. */
-        size_t count = (size_t)t->width * (size_t)t->height;
+        size_t count = (size_t)box[2] * (size_t)box[3];
         uint32_t *wide = mem_alloc(count * 16);
         if (!wide) {
             gpu_fail(g, LMN_MEMORY, "out of memory");
             return;
         }
-        glReadPixels(0, 0, t->width, t->height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, wide);
+        glReadPixels(box[0], box[1], box[2], box[3], GL_RGBA_INTEGER, GL_UNSIGNED_INT, wide);
         for (size_t i = 0; i < count; i++)
             memcpy((uint32_t *)out + i * 2, wide + i * 4, 8);
         mem_free(wide);
         return;
     }
-    glReadPixels(0, 0, t->width, t->height, formats[t->format].format, type, out);
+    glReadPixels(box[0], box[1], box[2], box[3], formats[t->format].format, type, out);
+}
+
+void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixels)
+{
+    if (g->failed || !t)
+        return;
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, t->name);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, box[0], box[1], box[2], box[3], formats[t->format].format, formats[t->format].type, pixels);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }

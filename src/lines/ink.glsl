@@ -14,6 +14,16 @@ vec4 edge_at(ivec2 pixel)
 #endif
 }
 
+/* Share of the lines' ink that dashes leave. */
+float dash_at(ivec2 pixel)
+{
+#ifdef HAS_DASHES
+    return texelFetch(t_dash, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0).r;
+#else
+    return 1.0;
+#endif
+}
+
 vec4 over(vec4 front, vec4 back)
 {
     return front + back * (1.0 - front.a);
@@ -40,11 +50,11 @@ float lightness(vec3 colour)
 vec4 ink_at(ivec2 pixel)
 {
     vec4 edge = edge_at(pixel);
-    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour);
+    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour) * dash_at(pixel);
 #if CONTRAST == 1
     /* Seed 001, section 8.6.1: the same contour once more in the second colour, moved; the first lies on top. */
     ivec2 moved = ivec2(floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5));
-    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour));
+    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(pixel - moved));
 #elif CONTRAST == 2
     /* Section 8.6.2: dark on light ground and light on dark, by the blurred picture; where the picture shows the edge by itself the
      * line may be left out. */
@@ -52,7 +62,7 @@ vec4 ink_at(ivec2 pixel)
     float light_distance = abs(lightness(u_line_light_colour.rgb) - ground);
     float dark_distance = abs(lightness(u_line_colour.rgb) - ground);
     if (light_distance > dark_distance)
-        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour);
+        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(pixel);
     if (u_line_suppress > 0.0) {
         ivec2 reach = ivec2(2, 0);
         float across = lightness(texelFetch(t_shade, clamp(pixel + reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
@@ -71,7 +81,7 @@ vec4 ink_at(ivec2 pixel)
     float size = length(outward);
     vec2 unit = size > 1e-7 ? outward / size : vec2(0.0);
     ivec2 moved = ivec2(floor(unit * max(u_line_width, 1.0) + 0.5));
-    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour));
+    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(pixel - moved));
 #endif
     return ink;
 }

@@ -38,6 +38,11 @@ static const param common[] = {
                            "0 keeps all lines."),
     PARAM_FLOAT_ROW(lines_common, blur, .def = 6, .min = 1, .max = 32, .unit = UNIT_PX, .only_if = "contrast=adaptive",
                     .doc = "Radius in which the ground's brightness is averaged."),
+    PARAM_FLOAT_ROW(lines_common, dash, .def = 0, .min = 0, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,
+                    .doc = "Length of dashes along the lines, stretched so that lines begin, end and meet with ink; 0 leaves them "
+                           "unbroken, and a dash no longer than the line is wide becomes a dot."),
+    PARAM_FLOAT_ROW(lines_common, gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,
+                    .only_if = "dash", .doc = "Length of the gaps between dashes."),
 };
 
 static const technique *const techniques[] = {
@@ -45,7 +50,7 @@ static const technique *const techniques[] = {
     &lines_id,            &lines_colour,
 };
 
-static const pass ink = {.name = "ink", .shader = "lines/ink.frag", .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_GROUND, TARGET_DEPTH},
+static const pass ink = {.name = "ink", .shader = "lines/ink.frag", .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_DASH, TARGET_GROUND, TARGET_DEPTH},
                          .writes = TARGET_SHADE};
 
 const kind kind_lines = {

@@ -57,6 +57,7 @@ typedef struct param {
     bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               cpu_only;    /* no uniform */
+    bool               along;       /* a length along lines, which makes them no wider */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
     const char        *doc;         /* one line, ends in a full stop */
     const char        *since, *was;

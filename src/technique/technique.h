@@ -26,6 +26,7 @@ typedef enum target {
     TARGET_EDGE_BEFORE, /* edge map of the layer in front of this one */
     TARGET_NEARER_ROW, /* RGBA16F: on the way to the next */
     TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
+    TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
     TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
@@ -33,9 +34,15 @@ typedef enum target {
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 8 };
+enum { PASS_READS_MAX = 9 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
+
+/* What a pass on the CPU reads: a part of a picture, row 0 at the bottom. */
+typedef struct pass_pixels {
+    const float *values; /* 4 a pixel */
+    int          width, height;
+} pass_pixels;
 
 /* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
 typedef struct pass {
@@ -46,6 +53,9 @@ typedef struct pass {
     pass_blend  blend;
     bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
     bool        geometry; /* draws the figure's parts again, shaded and inked by the shader file's ink_at, instead of a full screen */
+    /* Instead of a shader: work on the CPU, from the first picture that is read (of floats) to the written one (R8). Gets the
+     * technique's values; false when memory is gone. */
+    bool      (*process)(const pass_pixels *in, uint8_t *out, const void *values);
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
     bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
