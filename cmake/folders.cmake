@@ -11,7 +11,7 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     add_library(limner_${folder} OBJECT ${sources})
     target_include_directories(limner_${folder} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(limner_${folder} PRIVATE PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG
-                                                   PkgConfig::WEBP PkgConfig::DEFLATE PkgConfig::ASSIMP)
+                                                   PkgConfig::WEBP PkgConfig::DEFLATE PkgConfig::ASSIMP PkgConfig::GLU)
     target_link_libraries(limner PRIVATE limner_${folder})
     list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_${folder}>)
   endif()
@@ -44,7 +44,7 @@ target_link_libraries(limner PRIVATE limner_embedded)
 list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 
 set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
-    PkgConfig::ASSIMP ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
+    PkgConfig::ASSIMP PkgConfig::GLU ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)
 set_target_properties(limner PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
