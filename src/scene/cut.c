@@ -202,7 +202,49 @@ static void settle_flat(cut_job *j, cut_piece *p)
     }
 }
 
-static void keep_piece(cut_job *j, const cut_piece *p)
+static void make_surfaces(cut_job *j)
+{
+    for (int k = 0; k < j->cut->plane_count; k++)
+        job_slice(j, 0, k);
+    for (size_t i = 0; i < j->piece_count && !j->failed; i++) {
+        cut_piece *p = &j->pieces[i];
+        if (!p->count)
+            continue;
+        settle_flat(j, p);
+        p->kept = !cut_is_inside(j->cut, p->positive, p->negative);
+    }
+    j->surface_pieces = j->piece_count;
+}
+
+/* Which sides of its planes the cells use. */
+static void make_caps(cut_job *j)
+{
+    uint32_t done[2] = {0, 0};
+    for (int i = 0; i < j->cut->cell_count; i++)
+        for (int k = 0; k < j->cut->cells[i].count && !j->failed; k++) {
+            const cut_face *f = &j->cut->cells[i].faces[k];
+            uint32_t bit = UINT32_C(1) << f->plane;
+            if (!(done[f->positive] & bit))
+                job_cap(j, f->plane, f->positive);
+            done[f->positive] |= bit;
+        }
+}
+
+/* --- what is left -------------------------------------------------------------------------------------------------- */
+
+/* Corner k of a fan's triangle i. */
+static const cut_point *fan_corner(const cut_job *j, const cut_piece *p, uint32_t start, uint32_t i, uint32_t k)
+{
+    return &j->points[p->first + (start + (k == 0 ? 0 : i + k - 1)) % p->count];
+}
+
+static vec3 place_of(const cut_job *j, const cut_point *p)
+{
+    const double *at = j->vertices[p->vertex].local;
+    return (vec3){(float)at[0], (float)at[1], (float)at[2]};
+}
+
+static void write_surface(cut_job *j, const cut_piece *p)
 {
     cut_surface *s = &j->out->surfaces[p->primitive];
     if (p->whole) {
@@ -220,40 +262,41 @@ static void keep_piece(cut_job *j, const cut_piece *p)
     uint32_t start = job_fan_start(j, p);
     for (uint32_t i = 1; i + 1 < p->count; i++)
         for (uint32_t k = 0; k < 3; k++) {
-            const cut_point *from = &j->points[p->first + (start + (k == 0 ? 0 : i + k - 1)) % p->count];
-            const double *at = j->vertices[from->vertex].local;
+            const cut_point *from = fan_corner(j, p, start, i, k);
             cut_corner *c = &s->corners[s->corner_count++];
-            *c = (cut_corner){.position = {(float)at[0], (float)at[1], (float)at[2]}, .triangle = p->triangle};
+            *c = (cut_corner){.position = place_of(j, from), .triangle = p->triangle};
             memcpy(c->weights, from->weights, sizeof c->weights);
         }
 }
 
-static void make_surfaces(cut_job *j)
+static void write_cap(cut_job *j, const cut_piece *p)
 {
-    for (int k = 0; k < j->cut->plane_count; k++)
-        job_slice(j, 0, k);
-    for (size_t i = 0; i < j->piece_count && !j->failed; i++) {
-        cut_piece *p = &j->pieces[i];
-        if (!p->count)
-            continue;
-        settle_flat(j, p);
-        if (!cut_is_inside(j->cut, p->positive, p->negative))
-            keep_piece(j, p);
+    cut_cap *cap = &j->out->caps[p->cap];
+    if (!mem_grow((void **)&cap->positions, &cap->capacity, cap->count + 3 * (size_t)(p->count - 2), sizeof *cap->positions)) {
+        j->failed = true;
+        return;
     }
+    uint32_t start = job_fan_start(j, p);
+    for (uint32_t i = 1; i + 1 < p->count; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            cap->positions[cap->count++] = place_of(j, fan_corner(j, p, start, i, j->inside_out && k ? 3 - k : k));
 }
 
-/* Which sides of its planes the cells use. */
-static void make_caps(cut_job *j)
+static void write_pieces(cut_job *j)
 {
-    uint32_t done[2] = {0, 0};
-    for (int i = 0; i < j->cut->cell_count; i++)
-        for (int k = 0; k < j->cut->cells[i].count && !j->failed; k++) {
-            const cut_face *f = &j->cut->cells[i].faces[k];
-            uint32_t bit = UINT32_C(1) << f->plane;
-            if (!(done[f->positive] & bit))
-                job_cap(j, f->plane, f->positive);
-            done[f->positive] |= bit;
-        }
+    for (size_t i = 0; i < j->piece_count && !j->failed; i++) {
+        const cut_piece *p = &j->pieces[i];
+        if (p->count && p->kept && p->cap >= 0)
+            write_cap(j, p);
+        else if (p->count && p->kept)
+            write_surface(j, p);
+    }
+    cut_result *r = j->out;
+    size_t kept = 0;
+    for (size_t i = 0; i < r->cap_count; i++)
+        if (r->caps[i].count)
+            r->caps[kept++] = r->caps[i];
+    r->cap_count = kept;
 }
 
 /* --- the part ------------------------------------------------------------------------------------------------------ */
@@ -306,6 +349,10 @@ lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_
             make_surfaces(&j);
         if (!j.failed)
             make_caps(&j);
+        if (!j.failed)
+            job_stitch(&j);
+        if (!j.failed)
+            write_pieces(&j);
     }
     mem_free(numbers);
     job_release(&j);

@@ -50,7 +50,7 @@ static bool collect(section *s)
     cut_segment *segments = NULL;
     size_t count = 0, capacity = 0;
     bool done = true;
-    for (size_t i = 0; i < j->piece_count && done; i++) {
+    for (size_t i = 0; i < j->surface_pieces && done; i++) {
         const cut_piece *p = &j->pieces[i];
         if (!p->count || !((s->positive ? p->negative : p->positive) & bit))
             continue;
@@ -267,24 +267,6 @@ static bool fill_loops(section *s, size_t first, size_t end, cut_rule rule)
 
 /* --- the faces ----------------------------------------------------------------------------------------------------- */
 
-static void write_piece(section *s, cut_cap *cap, const cut_piece *p)
-{
-    cut_job *j = s->job;
-    size_t added = 3 * (size_t)(p->count - 2);
-    if (!mem_grow((void **)&cap->positions, &cap->capacity, cap->count + added, sizeof *cap->positions)) {
-        j->failed = true;
-        return;
-    }
-    uint32_t start = job_fan_start(j, p);
-    for (uint32_t i = 1; i + 1 < p->count; i++)
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t turned = j->inside_out && k ? 3 - k : k;
-            const cut_point *from = &j->points[p->first + (start + (turned == 0 ? 0 : i + turned - 1)) % p->count];
-            const double *at = j->vertices[from->vertex].local;
-            cap->positions[cap->count++] = (vec3){(float)at[0], (float)at[1], (float)at[2]};
-        }
-}
-
 static vec3 normal_before(const section *s)
 {
     const double *n = s->job->cut->planes[s->plane].normal, *m = s->job->world->m;
@@ -301,7 +283,8 @@ static vec3 normal_before(const section *s)
 static void make_cap(section *s, uint32_t number, size_t loop)
 {
     cut_job *j = s->job;
-    size_t first = j->piece_count, points = j->point_count;
+    cut_result *r = j->out;
+    size_t first = j->piece_count;
     for (size_t i = 0; i < s->triangles.count && !j->failed; i += 3) {
         const uint32_t *c = &s->triangles.corners[i];
         job_add_piece(j, (cut_point[]){{c[0], {0}}, {c[1], {0}}, {c[2], {0}}}, 3, 0, 0);
@@ -309,23 +292,19 @@ static void make_cap(section *s, uint32_t number, size_t loop)
     for (int k = 0; k < j->cut->plane_count && j->cut->plane_count > 1; k++)
         if (k != s->plane)
             job_slice(j, first, k);
-    cut_cap cap = {.plane = s->plane, .positive = s->positive, .body = number, .primitive = s->loops.primitives[loop], .normal = normal_before(s)};
     uint32_t bit = UINT32_C(1) << s->plane, here = s->positive ? bit : 0, there = s->positive ? 0 : bit;
     for (size_t i = first; i < j->piece_count && !j->failed; i++) {
-        const cut_piece *p = &j->pieces[i];
-        if (p->count && cut_is_inside(j->cut, p->positive | here, p->negative | there) &&
-            !cut_is_inside(j->cut, p->positive | there, p->negative | here))
-            write_piece(s, &cap, p);
+        cut_piece *p = &j->pieces[i];
+        p->kept = p->count && cut_is_inside(j->cut, p->positive | here, p->negative | there) &&
+                  !cut_is_inside(j->cut, p->positive | there, p->negative | here);
+        p->cap = (int32_t)r->cap_count;
     }
-    j->piece_count = first;
-    j->point_count = points;
-    cut_result *r = j->out;
-    if (!j->failed && cap.count && mem_grow((void **)&r->caps, &r->cap_capacity, r->cap_count + 1, sizeof *r->caps)) {
-        r->caps[r->cap_count++] = cap;
+    if (!mem_grow((void **)&r->caps, &r->cap_capacity, r->cap_count + 1, sizeof *r->caps)) {
+        j->failed = true;
         return;
     }
-    j->failed = j->failed || cap.count;
-    mem_free(cap.positions);
+    r->caps[r->cap_count++] = (cut_cap){.plane = s->plane, .positive = s->positive, .body = number,
+                                        .primitive = s->loops.primitives[loop], .normal = normal_before(s)};
 }
 
 static void fill_all(section *s)

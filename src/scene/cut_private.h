@@ -22,6 +22,8 @@ typedef struct cut_piece {
     uint32_t count, primitive, triangle;
     uint32_t positive, negative; /* of its points together; once sliced, of the material behind it */
     bool     whole;              /* still the triangle that it was */
+    bool     kept;
+    int32_t  cap;                /* of the result, −1: a surface's */
 } cut_piece;
 
 /* Which vertex divides an edge. */
@@ -40,6 +42,7 @@ typedef struct cut_job {
     size_t           point_count, point_capacity;
     cut_piece       *pieces;
     size_t           piece_count, piece_capacity;
+    size_t           surface_pieces; /* the first ones; those of cut faces follow */
     cut_edge        *edges;
     size_t           edge_slots, edge_count;
     size_t           shell_count;
@@ -59,6 +62,10 @@ void job_slice(cut_job *j, size_t first, int plane);
 bool cut_is_inside(const cut *c, uint32_t positive, uint32_t negative);
 /* The corner from which a fan has no triangle that is thinner than it must be. */
 uint32_t job_fan_start(const cut_job *j, const cut_piece *p);
+
+/* --- cut_stitch.c --- */
+/* Gives pieces that meet in a line of two planes the same corners there. */
+void job_stitch(cut_job *j);
 
 /* --- cut_cap.c --- */
 /* The cut faces in one plane whose normals point to its positive or negative side. */

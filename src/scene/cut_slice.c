@@ -103,7 +103,7 @@ cut_piece *job_add_piece(cut_job *j, const cut_point *points, uint32_t count, ui
         return NULL;
     }
     cut_piece *p = &j->pieces[j->piece_count++];
-    *p = (cut_piece){.first = j->point_count, .count = count, .primitive = primitive, .triangle = triangle};
+    *p = (cut_piece){.first = j->point_count, .count = count, .primitive = primitive, .triangle = triangle, .cap = -1};
     memcpy(&j->points[j->point_count], points, count * sizeof *points);
     j->point_count += count;
     for (uint32_t i = 0; i < count; i++) {
@@ -197,7 +197,8 @@ uint32_t job_fan_start(const cut_job *j, const cut_piece *p)
 {
     uint32_t best = 0;
     double best_least = -1;
-    for (uint32_t s = 0; s < p->count && p->count > 3; s++) {
+    /* Each corner of the usual few; of many corners some, as trying is quadratic. */
+    for (uint32_t s = 0; s < p->count && p->count > 3; s += 1 + p->count / 32) {
         double least = INFINITY;
         for (uint32_t i = 1; i + 1 < p->count; i++)
             least = fmin(least, corner_area(j, p, s, s + i, s + i + 1));
