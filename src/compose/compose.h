@@ -22,7 +22,7 @@ typedef struct layer_style {
                      .doc = "Colour of all lines of hidden layers; auto takes those of the visible ones."),                       \
     PARAM_FLOAT_ROW(layer_style, hidden_width, .def = 1, .min = 0.5, .max = 32, .soft_max = 8, .unit = UNIT_PX, .can_auto = true, \
                     .def_auto = true, .cpu_only = true, .doc = "Width of hidden lines; auto takes that of the visible ones."),    \
-    PARAM_FLOAT_ROW(layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,  \
+    PARAM_FLOAT_ROW(layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 12, .unit = UNIT_PX, .along = true, .cpu_only = true,  \
                     .doc = "Length of the dashes of hidden lines, along the line; 0 leaves them as visible lines are."),           \
     PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true, \
                     .only_if = "hidden_dash", .doc = "Length of the gaps between the dashes of hidden lines."),                   \
