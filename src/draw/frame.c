@@ -13,12 +13,16 @@ static void release_targets(frame *f, figure_state *s)
         gpu_target_release(f->g, s->targets[i]);
 }
 
+/* The sum of the lengths that matter with these values. */
 static float lengths_of(const param *params, size_t count, const void *values)
 {
     float sum = 0;
-    for (size_t p = 0; p < count; p++)
-        if (params[p].unit == UNIT_PX && params[p].type == PARAM_FLOAT && !params[p].along && !param_is_auto(&params[p], values))
-            sum += fabsf(*(const float *)param_field(&params[p], values));
+    for (size_t i = 0; i < count; i++) {
+        const param *p = &params[i];
+        bool widens = p->unit == UNIT_PX && p->type == PARAM_FLOAT && !p->along && !param_is_auto(p, values);
+        if (widens && params_condition(p->only_if, params, count, values))
+            sum += fabsf(*(const float *)param_field(p, values));
+    }
     return sum;
 }
 

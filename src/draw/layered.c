@@ -62,6 +62,8 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
     }
     for (int i = 0; i < stack->count; i++)
         stack->states[i].shared = stack->count > 1;
+    if (stack->count > 1)
+        stack->channels |= CHANNEL_ID;
     if (f->maps && !f->maps->whole)
         stack->limit = 1;
     if (f->maps) /* are read back whole */
@@ -216,6 +218,8 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
     s->layer = layer;
     for (size_t k = 0; k < sizeof borrowed / sizeof *borrowed; k++)
         s->targets[borrowed[k]] = stack->targets[borrowed[k]];
+    if (!(stack->channels & CHANNEL_ID)) /* peeling has ids of its own need */
+        s->targets[TARGET_ID] = NULL;
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
     if (f->maps) {
         if (f->maps->whole)

@@ -93,11 +93,25 @@ static void forget_dashes(frame *f, figure_state *s)
     s->targets[TARGET_DASH] = NULL;
 }
 
-/* A pass on the CPU: reads the box where the figure can be, and writes there. */
+/* Where a pass has anything to do: the box around all that is drawn. */
+static void box_of_interest(const figure_state *s, int out[4])
+{
+    memcpy(out, s->boxes && s->box_count ? s->boxes[0] : s->pixels, 4 * sizeof *out);
+    for (size_t i = 1; s->boxes && i < s->box_count; i++)
+        for (int k = 0; k < 2; k++) {
+            const int *other = s->boxes[i];
+            int low = other[k] < out[k] ? other[k] : out[k], end = out[k] + out[2 + k], other_end = other[k] + other[2 + k];
+            out[2 + k] = (other_end > end ? other_end : end) - low;
+            out[k] = low;
+        }
+}
+
+/* A pass on the CPU. Outside the box its picture is undefined: nothing is inked there. */
 static void run_process(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     stopwatch w = watch_start(f);
-    const int *box = s->pixels;
+    int box[4];
+    box_of_interest(s, box);
     size_t count = (size_t)box[2] * (size_t)box[3];
     float *in = mem_alloc(count * 4 * sizeof *in);
     uint8_t *out = mem_alloc(count);

@@ -86,12 +86,11 @@ static void settle_layers(figure *f, bool as_sprites)
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
-    /* Part id and facing order coincident surfaces. */
-    f->channels = channels_of(r, f->part_count > 1) | CHANNEL_ID;
+    f->channels = channels_of(r, f->part_count > 1);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
-        f->channels |= CHANNEL_NORMAL_DEPTH;
+        f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID;
 }
 
 static void settle_figure(figure *f, const plan *p, bool as_sprites)

@@ -394,7 +394,8 @@ void raster_layer(frame *f, layer_stack *stack, bool first)
     gpu_pass pass = {0};
     memcpy(pass.scissor, stack->around, sizeof pass.scissor);
     memcpy(pass.clear_box, stack->around, sizeof pass.clear_box);
-    outputs o = open_outputs(f, stack->channels, stack->targets, &pass, f->camera.far);
+    /* Part and facing order what coincides. */
+    outputs o = open_outputs(f, stack->channels | CHANNEL_ID, stack->targets, &pass, f->camera.far);
     if (!gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &pass);
         draw_parts(f, &(raster_job){.stack = stack, .at = o, .peeled = !first});

@@ -18,7 +18,14 @@ enum {
     BROAD        = 4   /* ink this far on all sides is no line */
 };
 
-static const float corner_cosine = 0.6428f; /* 50 degrees */
+/* A turn of 50 degrees is a corner. */
+static const float corner_turn = 0.873f;
+
+/* A smaller one is, too, when it hardly grows as it is measured over twice the way; that of an arc would double. */
+static const struct {
+    size_t reach;
+    float  turn, growth; /* radians: 35 and 20 degrees */
+} faint_corners[] = {{CORNER_REACH, 0.611f, 1.4f}, {2 * CORNER_REACH, 0.349f, 1.3f}};
 
 /* A line between nodes as it was found, before it is parted at corners. */
 typedef struct raw_line {
@@ -194,26 +201,52 @@ static chain_point point_of(const tracing *t, uint32_t cell)
                          (uint32_t)row * (uint32_t)g->width + (uint32_t)column};
 }
 
-/* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the chord between
- * its neighbours within reach, which is greatest at the very corner. */
-static float sharpness_at(const chain_point *p, size_t n, size_t i, bool closed)
+/* How much of `reach` the line has on both sides of point i. */
+static size_t reach_at(size_t n, size_t i, bool closed, size_t reach)
 {
-    size_t reach = CORNER_REACH;
-    if (closed) {
-        reach = n / 3 < reach ? n / 3 : reach;
-    } else {
-        reach = i < reach ? i : reach;
-        reach = n - 1 - i < reach ? n - 1 - i : reach;
-    }
-    if (reach < CORNER_LEAST)
-        return 0;
+    size_t before = closed ? n / 3 : i, behind = closed ? n / 3 : n - 1 - i;
+    reach = before < reach ? before : reach;
+    return behind < reach ? behind : reach;
+}
+
+/* Angle between the ways from and to the points at this distance, without sign. */
+static float turn_at(const chain_point *p, size_t n, size_t i, size_t reach)
+{
     const chain_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
     float ux = b->x - a->x, uy = b->y - a->y, vx = c->x - b->x, vy = c->y - b->y;
-    float size = sqrtf((ux * ux + uy * uy) * (vx * vx + vy * vy));
-    if (ux * vx + uy * vy >= corner_cosine * size)
+    return fabsf(atan2f(ux * vy - uy * vx, ux * vx + uy * vy));
+}
+
+/* Over how many points on either side is there a corner at point i? 0: there is none. */
+static size_t corner_reach_at(const chain_point *p, size_t n, size_t i, bool closed)
+{
+    size_t reach = reach_at(n, i, closed, CORNER_REACH);
+    if (reach < CORNER_LEAST)
         return 0;
-    float chord = hypotf(c->x - a->x, c->y - a->y);
-    return chord > 0 ? fabsf(ux * vy - uy * vx) / chord : hypotf(ux, uy);
+    if (turn_at(p, n, i, reach) > corner_turn)
+        return reach;
+    for (size_t k = 0; k < sizeof faint_corners / sizeof *faint_corners; k++) {
+        reach = faint_corners[k].reach;
+        if (reach_at(n, i, closed, 2 * reach) < 2 * reach)
+            break;
+        float turn = turn_at(p, n, i, reach);
+        if (turn > faint_corners[k].turn && turn_at(p, n, i, 2 * reach) < faint_corners[k].growth * turn)
+            return reach;
+    }
+    return 0;
+}
+
+/* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the chord between
+ * its neighbours, as a share of their distance along the line; greatest at the very corner. */
+static float sharpness_at(const chain_point *p, size_t n, size_t i, bool closed)
+{
+    size_t reach = corner_reach_at(p, n, i, closed);
+    if (reach == 0)
+        return 0;
+    const chain_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
+    float dx = c->x - a->x, dy = c->y - a->y, chord = hypotf(dx, dy);
+    float height = chord > 0 ? fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) / chord : hypotf(b->x - a->x, b->y - a->y);
+    return height / (float)reach;
 }
 
 /* Is point i a corner, and the sharpest within reach? Of equals the first. */
