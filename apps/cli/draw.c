@@ -9,7 +9,7 @@
 #include <time.h>
 
 typedef struct draw_values {
-    const char   *output, *format, *look, *select, *camera, *frames, *background, *maps, *report;
+    const char   *output, *format, *look, *select, *cut, *camera, *frames, *background, *maps, *report;
     word_list     sets;
     option_size   size;
     option_vector eye, target, up;
@@ -34,6 +34,8 @@ static const option options[] = {
     {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
     {"select", 0, OPTION_TEXT, AT(select), "SEL", "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
+    {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",
+     "Cut a section: x, -z=40%, 1,1,0@0,0,5 or box=50%,0%,50%:100%,100%,100%, several separated by ';'. The same as --set scene.cut=SPEC."},
     {"size", 0, OPTION_SIZE, AT(size), "WxH", "Picture size in pixels. Default: 1024x1024.", 1, 16384},
     {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.", .choices = views},
     {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
@@ -205,6 +207,8 @@ static int load_look(session *s)
         if (status != EXIT_DONE)
             return status;
     }
+    if (s->values->cut && lmn_look_set(s->look, "scene.cut", s->values->cut, &error) != LMN_OK)
+        return message_error(&error);
     return EXIT_DONE;
 }
 

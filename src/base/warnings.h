@@ -15,6 +15,7 @@
     X(WARNING_TRANSPARENCY, "transparency")       /* drawn as a cut-out */                                            \
     X(WARNING_NO_MATCH, "no-match")               /* a rule that selects nothing */                                   \
     X(WARNING_LAYER_MEMORY, "layer-memory")       /* layers were made the slower way */                           \
+    X(WARNING_CUT_OPEN, "cut-open")               /* parts that are not closed have no cut face */                   \
     X(WARNING_UNUSED, "unused")                   /* a setting without effect */
 
 typedef enum warning_code {

@@ -1,9 +1,24 @@
 /* What programs of all passes get: pictures, parameters, and the facts of the frame. */
 #include "draw/frame_private.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "light/light.h"
+
+/* How cut faces are hatched. Lengths count supersamples. */
+static void set_cut(frame *f)
+{
+    const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
+    float scale = (float)f->samples, colour[4], fill[4] = {1, 1, 1, -1};
+    uniforms_linear(v->cut_colour, colour);
+    if (!isnan(v->cut_fill.r))
+        uniforms_linear(v->cut_fill, fill);
+    gpu_set_vec4(f->g, "u_cut_lines", (float[]){v->cut_hatch * scale, v->cut_width * scale, v->cut_angle * (3.14159265f / 180), 0});
+    gpu_set_vec4(f->g, "u_cut_colour", colour);
+    gpu_set_vec4(f->g, "u_cut_fill", fill);
+}
 
 void frame_set_common(frame *f, const figure_state *s)
 {
@@ -20,6 +35,8 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_int(g, "u_filled", s->filled);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);
+    if (gpu_has_uniform(g, "u_cut_lines"))
+        set_cut(f);
 }
 
 static const char *prefix_of(kind_id id)

@@ -36,16 +36,63 @@ void renderer_destroy(lmn_renderer **renderer)
     *renderer = NULL;
 }
 
+/* The parts that a selector matches; NULL text or an empty one: `otherwise`. */
+static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *text, bool otherwise, lmn_error *error)
+{
+    selector *wanted = NULL;
+    lmn_status status = text && text[0] ? selector_parse(&wanted, text, error) : LMN_OK;
+    *out = status == LMN_OK ? mem_calloc(scene->part_count, sizeof **out) : NULL;
+    if (status == LMN_OK && !*out)
+        status = error_memory(error);
+    for (size_t i = 0; i < scene->part_count && *out; i++)
+        (*out)[i] = wanted ? selector_matches(wanted, scene, i) : otherwise;
+    selector_destroy(&wanted);
+    return status;
+}
+
+/* What the look cuts away; percentages count along the bounds of what is selected. */
+static lmn_status find_section(upload_section *out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
+{
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    *out = (upload_section){.spared = NULL};
+    memset(&out->cut, 0, sizeof out->cut);
+    if (!v->cut.text[0])
+        return LMN_OK;
+    bool *selected;
+    box3 box = box3_empty();
+    lmn_status status = match_parts(&selected, scene, desc->select, true, error);
+    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++)
+        if (selected[i])
+            box = box3_union(box, scene->parts[i].bounds);
+    mem_free(selected);
+    if (status == LMN_OK)
+        status = cut_parse(&out->cut, v->cut.text, box, error);
+    if (status == LMN_OK)
+        status = match_parts(&out->spared, scene, v->cut_keep.text, false, error);
+    return status;
+}
+
+static bool same_section(const upload_section *a, const upload_section *b, size_t part_count)
+{
+    return memcmp(&a->cut, &b->cut, sizeof a->cut) == 0 && !a->spared == !b->spared &&
+           (!a->spared || memcmp(a->spared, b->spared, part_count * sizeof *a->spared) == 0);
+}
+
 /* Puts the scene on the GPU unless it is there already. */
 static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     double crease = (double)v->crease_angle * (3.14159265358979323846 / 180);
-    if (r->up_valid && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease)
-        return LMN_OK;
+    upload_section section;
+    lmn_status status = find_section(&section, scene, look, desc, error);
+    bool there = r->up_valid && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease;
+    if (status != LMN_OK || (there && same_section(&r->up.section, &section, scene->part_count))) {
+        mem_free(section.spared);
+        return status;
+    }
     r->up_valid = false;
     upload_release(&r->up, r->g);
-    lmn_status status = upload_create(&r->up, r->g, scene, crease, desc->progress, desc->progress_user, error);
+    status = upload_create(&r->up, r->g, scene, crease, &section, desc->progress, desc->progress_user, error);
     r->scene = scene;
     r->up_valid = status == LMN_OK;
     return status;
@@ -176,6 +223,9 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
             break;
         }
     }
+    if (r->up.open_parts)
+        warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", r->up.open_parts,
+                     scene->part_count);
     if (desc->time_s != 0 && scene->animation_count)
         warnings_add(&d->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
     return LMN_OK;

@@ -54,7 +54,9 @@ static void declare_material(text *prelude, const draw_item *item, const materia
         text_append(prelude, "#define HAS_BASE_TEXTURE\n");
     if (t.normal)
         text_append(prelude, "#define HAS_NORMAL_TEXTURE\n");
-    if (m->alpha != ALPHA_OPAQUE)
+    if (item->is_cut)
+        text_append(prelude, "#define CUT_FACE\n");
+    else if (m->alpha != ALPHA_OPAQUE)
         text_append(prelude, "#define CUT_OUT\n");
 }
 
@@ -213,14 +215,14 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_colours, ready;
+    bool                has_uvs, has_colours, is_cut, ready;
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
-        item->has_colours == last->has_colours)
+        item->has_colours == last->has_colours && item->is_cut == last->is_cut)
         return;
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     material tinted;
@@ -242,7 +244,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     if (s->targets[TARGET_REFLECTION])
         gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
     set_material(f->g, m, t, job->stack != NULL);
-    *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, true, last->triangles};
+    *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, true, last->triangles};
 }
 
 /* Whose item it is in this run; NULL: nobody's, it is not drawn. */
@@ -346,6 +348,8 @@ void raster_shade_deferred(frame *f, figure_state *s)
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
+    if (f->up->has_cut)
+        text_append(&prelude, "#define HAS_CUT\n");
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {

@@ -1,11 +1,9 @@
-#include "draw/upload.h"
+#include "draw/upload_private.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/mesh.h"
-
 
 static void *gather(const void *source, const uint32_t *map, uint32_t count, size_t size)
 {
@@ -17,63 +15,66 @@ static void *gather(const void *source, const uint32_t *map, uint32_t count, siz
     return out;
 }
 
-/* Positions and normals in the pose, split where the crease angle asks for it. Frees nothing of the primitive. */
-static lmn_status make_mesh(gpu_mesh **out, gpu *g, const primitive *p, const render_vertices *split, const mat4 *joints,
-                            size_t joint_count, const float *weights, size_t weight_count, lmn_error *error)
+void posed_release(posed_mesh *m)
 {
-    uint32_t count = split->vertex_count;
-    const vec3 *normals = split->normals ? split->normals : p->normals;
-    bool posed = joints || (weights && p->morph_count);
-    vec3 *positions = NULL, *posed_normals = NULL;
-    vec2 *uvs[UV_SETS] = {NULL};
-    vec4 *colours = NULL;
-    lmn_status status = LMN_OK;
-    gpu_mesh_data data = {.vertex_count = count, .index_count = p->index_count,
-                          .indices = split->indices ? split->indices : p->indices, .normals = (const float *)normals,
-                          .positions = (const float *)p->positions, .colours = (const float *)p->colours};
-    if (posed) {
-        positions = mem_alloc(sizeof(vec3) * (size_t)count);
-        posed_normals = mem_alloc(sizeof(vec3) * (size_t)count);
-        if (!positions || !posed_normals)
-            status = error_memory(error);
-        else
-            mesh_pose(p, weights, weight_count, joints, joint_count, normals, split->source, count, positions, posed_normals);
-        data.positions = (const float *)positions;
-        data.normals = (const float *)posed_normals;
-    } else if (split->source) {
-        positions = gather(p->positions, split->source, count, sizeof(vec3));
-        data.positions = (const float *)positions;
-    }
-    for (int i = 0; i < UV_SETS; i++) {
-        uvs[i] = split->source ? gather(p->uvs[i], split->source, count, sizeof(vec2)) : NULL;
-        data.uvs[i] = (const float *)(split->source ? uvs[i] : p->uvs[i]);
-    }
-    if (split->source)
-        data.colours = (const float *)(colours = gather(p->colours, split->source, count, sizeof(vec4)));
-    if (status == LMN_OK && (!data.positions || !data.normals))
-        status = error_memory(error);
-    if (status == LMN_OK) {
-        *out = gpu_mesh_create(g, &data);
-        status = gpu_check(g, error);
-    }
-    mem_free(positions);
-    mem_free(posed_normals);
+    mem_free(m->positions);
+    mem_free(m->normals);
     for (int i = 0; i < UV_SETS; i++)
-        mem_free(uvs[i]);
-    mem_free(colours);
-    return status;
+        mem_free(m->uvs[i]);
+    mem_free(m->colours);
+    render_vertices_release(&m->split);
+    memset(m, 0, sizeof *m);
 }
 
-static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, const primitive *p, const mat4 *joints, size_t joint_count,
-                                   const float *weights, size_t weight_count, lmn_error *error)
+/* Points at what needs no change and makes the rest. */
+static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_pose *pose, lmn_error *error)
 {
-    render_vertices split = {.vertex_count = p->vertex_count, .index_count = p->index_count};
+    const render_vertices *split = &out->split;
+    uint32_t count = split->vertex_count;
+    const vec3 *normals = split->normals ? split->normals : p->normals;
+    bool done = true;
+    gpu_mesh_data *data = &out->data;
+    *data = (gpu_mesh_data){.vertex_count = count, .index_count = p->index_count,
+                            .indices = split->indices ? split->indices : p->indices, .normals = (const float *)normals,
+                            .positions = (const float *)p->positions, .colours = (const float *)p->colours};
+    if (pose->joints || (pose->weights && p->morph_count)) {
+        out->positions = mem_alloc(sizeof(vec3) * (size_t)count);
+        out->normals = mem_alloc(sizeof(vec3) * (size_t)count);
+        done = out->positions && out->normals;
+        if (done)
+            mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, normals, split->source, count, out->positions,
+                      out->normals);
+        data->normals = (const float *)out->normals;
+        data->positions = (const float *)out->positions;
+    } else if (split->source) {
+        data->positions = gather(p->positions, split->source, count, sizeof(vec3));
+        out->positions = (vec3 *)(void *)(uintptr_t)data->positions;
+    }
+    for (int i = 0; i < UV_SETS; i++) {
+        out->uvs[i] = split->source ? gather(p->uvs[i], split->source, count, sizeof(vec2)) : NULL;
+        data->uvs[i] = (const float *)(split->source ? out->uvs[i] : p->uvs[i]);
+        done = done && (!p->uvs[i] || data->uvs[i]);
+    }
+    if (split->source)
+        data->colours = (const float *)(out->colours = gather(p->colours, split->source, count, sizeof(vec4)));
+    done = done && data->positions && data->normals && (!p->colours || data->colours);
+    return done ? LMN_OK : error_memory(error);
+}
+
+lmn_status posed_make(posed_mesh *out, const upload *u, const primitive *p, const part_pose *pose, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    out->split = (render_vertices){.vertex_count = p->vertex_count, .index_count = p->index_count};
     lmn_status status = LMN_OK;
     if (!p->normals)
-        status = mesh_make_normals(&split, p, u->crease_angle, error);
-    if (status == LMN_OK)
-        status = make_mesh(out, g, p, &split, joints, joint_count, weights, weight_count, error);
-    render_vertices_release(&split);
+        status = mesh_make_normals(&out->split, p, u->crease_angle, error);
+    return status == LMN_OK ? pose_vertices(out, p, pose, error) : status;
+}
+
+lmn_status upload_add_mesh(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)
+{
+    *out = gpu_mesh_create(g, data);
+    lmn_status status = gpu_check(g, error);
     if (status != LMN_OK)
         return status;
     if (!mem_grow((void **)&u->meshes, &u->mesh_capacity, u->mesh_count + 1, sizeof *u->meshes)) {
@@ -83,6 +84,16 @@ static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, const prim
     u->meshes[u->mesh_count++] = *out;
     u->bytes += gpu_mesh_bytes(*out);
     return LMN_OK;
+}
+
+static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, const primitive *p, const part_pose *pose, lmn_error *error)
+{
+    posed_mesh m;
+    lmn_status status = posed_make(&m, u, p, pose, error);
+    if (status == LMN_OK)
+        status = upload_add_mesh(u, g, out, &m.data, error);
+    posed_release(&m);
+    return status;
 }
 
 /* Joint matrices in world axes: world · inverse bind. */
@@ -95,7 +106,7 @@ static mat4 *joint_matrices(const lmn_scene *scene, const mat4 *worlds, const sk
     return out;
 }
 
-static bool add_item(upload *u, const draw_item *item)
+bool upload_add_item(upload *u, const draw_item *item)
 {
     if (!mem_grow((void **)&u->items, &u->item_capacity, u->item_count + 1, sizeof *u->items))
         return false;
@@ -103,54 +114,79 @@ static bool add_item(upload *u, const draw_item *item)
     return true;
 }
 
+/* What all items of a part's primitive share. */
+draw_item upload_item(const upload_part_job *job, size_t primitive_index)
+{
+    const primitive *p = &job->mesh->primitives[primitive_index];
+    return (draw_item){.part_id = (uint32_t)job->part_index + 1, .surface_id = (uint32_t)primitive_index + 1, .part_index = job->part_index,
+                       .material = p->material, .has_uvs = p->uvs[0] || p->uvs[1], .has_colours = p->colours != NULL};
+}
+
+static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, const mat4 *world, lmn_error *error)
+{
+    const primitive *p = &job->mesh->primitives[i];
+    lmn_status status = LMN_OK;
+    if (p->index_count == 0)
+        return LMN_OK;
+    if (!job->meshes[i])
+        status = upload_primitive(u, g, &job->meshes[i], p, &job->pose, error);
+    draw_item item = upload_item(job, i);
+    item.mesh = job->meshes[i];
+    item.world = *world;
+    u->triangles += p->index_count / 3;
+    if (status == LMN_OK && !upload_add_item(u, &item))
+        status = error_memory(error);
+    return status;
+}
+
+static lmn_status add_instances(upload *u, gpu *g, const lmn_scene *scene, upload_part_job *job, lmn_error *error)
+{
+    const node *n = &scene->nodes[scene->parts[job->part_index].node];
+    lmn_status status = LMN_OK;
+    for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
+        /* A skin's joints already carry world places; the node's own matrix does not count (glTF 2.0, section 3.7.3.3). */
+        mat4 world = job->pose.joints ? mat4_identity() : u->worlds[scene->parts[job->part_index].node];
+        if (n->instance_count)
+            world = mat4_multiply(&world, &n->instances[k]);
+        cut_verdict verdict = CUT_WHOLE;
+        status = upload_cut(u, g, job, &world, &verdict, error);
+        for (size_t i = 0; i < job->mesh->primitive_count && status == LMN_OK && verdict == CUT_WHOLE; i++)
+            status = add_whole(u, g, job, i, &world, error);
+    }
+    return status;
+}
+
 static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, gpu_mesh **shared, lmn_error *error)
 {
     const node *n = &scene->nodes[scene->parts[part_index].node];
     const mesh *m = &scene->meshes[n->mesh];
     const skin *s = n->skin >= 0 ? &scene->skins[n->skin] : NULL;
-    const float *weights = n->morph_weights ? n->morph_weights : m->morph_weights;
-    size_t weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
+    upload_part_job job = {.part_index = part_index, .mesh = m, .meshes = shared};
+    job.pose.weights = n->morph_weights ? n->morph_weights : m->morph_weights;
+    job.pose.weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
     mat4 *joints = s ? joint_matrices(scene, u->worlds, s) : NULL;
     if (s && !joints)
         return error_memory(error);
-    bool own = s || weight_count > 0;
-    lmn_status status = LMN_OK;
-    for (size_t i = 0; i < m->primitive_count && status == LMN_OK; i++) {
-        const primitive *p = &m->primitives[i];
-        if (p->index_count == 0)
-            continue;
-        gpu_mesh *mesh_on_gpu = own ? NULL : shared[i];
-        if (!mesh_on_gpu) {
-            status = upload_primitive(u, g, &mesh_on_gpu, p, joints, s ? s->joint_count : 0, weights, weight_count, error);
-            if (status != LMN_OK)
-                break;
-            if (!own)
-                shared[i] = mesh_on_gpu;
-        }
-        size_t copies = n->instance_count ? n->instance_count : 1;
-        u->triangles += (uint64_t)(p->index_count / 3) * copies;
-        for (size_t k = 0; k < copies && status == LMN_OK; k++) {
-            /* A skin's joints already carry world places; the node's own matrix does not count (glTF 2.0, section 3.7.3.3). */
-            mat4 world = s ? mat4_identity() : u->worlds[scene->parts[part_index].node];
-            if (n->instance_count)
-                world = mat4_multiply(&world, &n->instances[k]);
-            draw_item item = {.mesh = mesh_on_gpu, .world = world, .part_id = (uint32_t)part_index + 1,
-                              .surface_id = (uint32_t)i + 1, .part_index = part_index, .material = p->material,
-                              .has_uvs = p->uvs[0] || p->uvs[1], .has_colours = p->colours != NULL};
-            if (!add_item(u, &item))
-                status = error_memory(error);
-        }
-    }
+    job.pose.joints = joints;
+    job.pose.joint_count = s ? s->joint_count : 0;
+    gpu_mesh **own = s || job.pose.weight_count > 0 ? mem_calloc(m->primitive_count, sizeof *own) : NULL;
+    if (s || job.pose.weight_count > 0)
+        job.meshes = own;
+    lmn_status status = job.meshes ? add_instances(u, g, scene, &job, error) : error_memory(error);
+    upload_part_close(&job);
+    mem_free(own);
     mem_free(joints);
     return status;
 }
 
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, lmn_progress_fn progress, void *user,
-                         lmn_error *error)
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, upload_section *section,
+                         lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->revision = scene->revision;
     out->crease_angle = crease_angle;
+    out->section = *section;
+    *section = (upload_section){.spared = NULL};
     out->worlds = scene_world_matrices(scene);
     out->part_count = scene->part_count;
     out->part_boxes = mem_calloc(scene->part_count, sizeof *out->part_boxes);
@@ -189,6 +225,7 @@ void upload_release(upload *u, gpu *g)
     mem_free(u->items);
     mem_free(u->worlds);
     mem_free(u->part_boxes);
+    mem_free(u->section.spared);
     memset(u, 0, sizeof *u);
 }
 

@@ -3,6 +3,7 @@
 #define LIMNER_DRAW_UPLOAD_H
 
 #include "gpu/gpu.h"
+#include "scene/cut.h"
 #include "scene/scene.h"
 
 /* One draw call: a primitive of a part at one place. */
@@ -13,11 +14,21 @@ typedef struct draw_item {
     size_t    part_index;
     int32_t   material;
     bool      has_uvs, has_colours;
+    bool      is_cut; /* a cut face: unlit, hatched */
 } draw_item;
+
+/* What is cut away, and which parts stay whole all the same. */
+typedef struct upload_section {
+    cut   cut;
+    bool *spared; /* per part; NULL: none. Owned. */
+} upload_section;
 
 typedef struct upload {
     uint64_t      revision;
     double        crease_angle; /* radians */
+    upload_section section;
+    size_t        open_parts; /* some of whose sections are not closed */
+    bool          has_cut;    /* there are cut faces */
     mat4         *worlds;
     box3         *part_boxes; /* world axes */
     size_t        part_count;
@@ -31,9 +42,9 @@ typedef struct upload {
     size_t        bytes;
 } upload;
 
-/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. */
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, lmn_progress_fn progress, void *user,
-                         lmn_error *error);
+/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over. */
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, upload_section *section,
+                         lmn_progress_fn progress, void *user, lmn_error *error);
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
 gpu_texture *upload_texture(upload *u, gpu *g, const lmn_scene *scene, const texture_use *use, bool linear);

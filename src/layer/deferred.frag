@@ -1,5 +1,8 @@
 /* Shades a figure from its G-buffer. Seed 000, section 3.6; row E04. */
 #include "light/point.glsl"
+#ifdef HAS_CUT
+#include "light/cut.glsl"
+#endif
 
 uniform sampler2D  t_normal_depth;
 uniform usampler2D t_id;
@@ -21,4 +24,8 @@ void main()
     vec3 normal = (id.g & 0x40000000u) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
     out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false));
+#ifdef HAS_CUT
+    if ((id.g & 0x20000000u) != 0u)
+        out_shade = cut_colour(pixel, id, albedo.rgb);
+#endif
 }

@@ -25,6 +25,7 @@ enum { LAYERS_MAX = 256 };
 enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = (1 << SURFACE_FIGURE_BITS) - 1 };
 #define SURFACE_COMPLEMENT 0x80000000u /* a part that another figure draws */
 #define SURFACE_TURNED     0x40000000u /* seen from inside: the normal points away */
+#define SURFACE_CUT        0x20000000u /* a cut face */
 #define SURFACE_BACK       0x10000000u /* back-facing by winding */
 
 typedef struct peel_values {

@@ -1,11 +1,14 @@
 /* The geometry pass: writes those channels of the G-buffer that the figure needs, each where the prelude places it. */
 #include "light/point.glsl"
 #include "layer/material.glsl"
+#if defined(CUT_FACE) && defined(AT_SHADE)
+#include "light/cut.glsl"
+#endif
 
 #ifdef AT_NORMAL_DEPTH
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif
-#if defined(AT_ID) || defined(INTO_LISTS)
+#if defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE)
 uniform uint u_part_id;
 uniform uint u_surface_id;
 #endif
@@ -80,7 +83,11 @@ void main()
     if (albedo.a < u_alpha_cutoff)
         discard;
 #endif
+#ifdef CUT_FACE
+    float alpha = 1.0;
+#else
     float alpha = albedo.a;
+#endif
     albedo.a = 1.0;
     vec3 normal = model_normal();
 #if defined(AT_SHADE) || defined(DEFERRED)
@@ -107,7 +114,11 @@ void main()
     out_albedo = albedo;
 #endif
 #ifdef AT_SHADE
+#ifdef CUT_FACE
+    out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, u_surface_id), albedo.rgb);
+#else
     out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0));
+#endif
 #ifdef MERGED
     detect_edges();
 #endif

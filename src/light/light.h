@@ -16,6 +16,9 @@ typedef struct scene_values {
     float     fill, crease_angle;
     int32_t   lights;
     float     light_scale;
+    param_words cut, cut_keep;
+    float     cut_hatch, cut_angle, cut_width;
+    colour    cut_colour, cut_fill;
 } scene_values;
 
 #endif

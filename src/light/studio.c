@@ -14,6 +14,20 @@ static const param params[] = {
                    .doc = "studio: the two lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,
                     .doc = "Multiplies all lights."),
+    PARAM_TEXT_ROW(scene_values, cut,
+                   .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or box=50%,0%,50%:100%,100%,100%; see draw.md."),
+    PARAM_TEXT_ROW(scene_values, cut_keep, .only_if = "cut",
+                   .doc = "Selector of parts that stay whole, as draughtsmen leave shafts and bolts."),
+    PARAM_FLOAT_ROW(scene_values, cut_hatch, .def = 9, .min = 0, .max = 200, .soft_max = 30, .unit = UNIT_PX, .cpu_only = true, .only_if = "cut",
+                    .doc = "Distance of the lines that hatch cut faces; 0 draws none. Neighbouring parts differ a little."),
+    PARAM_FLOAT_ROW(scene_values, cut_angle, .def = 45, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "cut",
+                    .doc = "Angle of these lines; each part turns it further, so that neighbours differ."),
+    PARAM_FLOAT_ROW(scene_values, cut_width, .def = 1, .min = 0.1, .max = 64, .soft_max = 6, .unit = UNIT_PX, .cpu_only = true, .only_if = "cut",
+                    .doc = "Width of these lines."),
+    PARAM_COLOUR_ROW(scene_values, cut_colour, .def_colour = {0.13f, 0.13f, 0.15f, 1}, .cpu_only = true, .only_if = "cut",
+                     .doc = "Colour of these lines."),
+    PARAM_COLOUR_ROW(scene_values, cut_fill, .can_auto = true, .def_auto = true, .cpu_only = true, .only_if = "cut",
+                     .doc = "Colour of cut faces; auto takes the part's own, nearly white."),
 };
 
 static const technique studio = {

@@ -1,0 +1,50 @@
+/* What the files that put a scene on the GPU share: upload.c and upload_cut.c. */
+#ifndef LIMNER_DRAW_UPLOAD_PRIVATE_H
+#define LIMNER_DRAW_UPLOAD_PRIVATE_H
+
+#include "draw/upload.h"
+#include "scene/mesh.h"
+
+typedef struct part_pose {
+    const mat4  *joints; /* NULL: no skin */
+    size_t       joint_count;
+    const float *weights;
+    size_t       weight_count;
+} part_pose;
+
+/* A primitive ready to be drawn: split where the crease angle asks for it, in its pose. `data` points into the rest and into the
+ * primitive. */
+typedef struct posed_mesh {
+    gpu_mesh_data   data;
+    render_vertices split;
+    vec3           *positions, *normals;
+    vec2           *uvs[UV_SETS];
+    vec4           *colours;
+} posed_mesh;
+
+/* One part while it is put on the GPU. */
+typedef struct upload_part_job {
+    size_t      part_index;
+    const mesh *mesh;
+    part_pose   pose;
+    gpu_mesh  **meshes; /* per primitive, NULL: not made yet */
+    posed_mesh *posed;  /* per primitive, what cutting needs; NULL: not made yet */
+    cut_input  *inputs;
+    vec3      **input_positions;
+    box3        box;    /* of the pose */
+    bool        open;
+} upload_part_job;
+
+/* --- upload.c --- */
+lmn_status posed_make(posed_mesh *out, const upload *u, const primitive *p, const part_pose *pose, lmn_error *error);
+void       posed_release(posed_mesh *m);
+lmn_status upload_add_mesh(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
+bool       upload_add_item(upload *u, const draw_item *item);
+draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
+
+/* --- upload_cut.c --- */
+/* Cuts one instance; what is left of it is added unless it stays whole. */
+lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world, cut_verdict *verdict, lmn_error *error);
+void       upload_part_close(upload_part_job *job);
+
+#endif
