@@ -61,7 +61,7 @@ typedef struct layer_stack {
     int           node_vectors;
 } layer_stack;
 
-/* --- frame.c --- */
+/* --- figure.c --- */
 /* Sets range and pixels; false when nothing of it is on the page. */
 bool figure_open(frame *f, figure_state *s, const figure *fig);
 /* How far the figure's lines reach beyond it, pixels. */
@@ -113,8 +113,6 @@ void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */
 void layered_draw(frame *f, const figure *figures, int count);
-/* The figure among those of the stack that draws a part; NULL: none. */
-figure_state *layer_owner(const layer_stack *stack, size_t part_index);
 
 /* --- lists.c: all layers from one geometry pass --- */
 bool lists_possible(const frame *f);

@@ -10,14 +10,6 @@
 /* From this many layers on, one pass into lists is faster than a pass for each. */
 enum { LISTS_PAY_FROM = 3 };
 
-figure_state *layer_owner(const layer_stack *stack, size_t part_index)
-{
-    for (int i = 0; i < stack->count; i++)
-        if (stack->states[i].figure->designated[part_index])
-            return &stack->states[i];
-    return NULL;
-}
-
 static const peel_values *peel_of(const figure *fig)
 {
     const technique_use *layers = rule_use(fig->rule, KIND_LAYERS);

@@ -56,6 +56,15 @@ static lmn_status write_ids(const frame_maps *m, const layer_map *layer, size_t 
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
 }
 
+/* RGBA, row 0 on top; frees the pixels. */
+static lmn_status store_picture(const frame_maps *m, uint8_t *pixels, const char *directory, const char *name, lmn_error *error)
+{
+    export_bytes bytes;
+    lmn_status status = export_png_raw(&bytes, pixels, m->width, m->height, error);
+    mem_free(pixels);
+    return status == LMN_OK ? store(directory, name, &bytes, error) : status;
+}
+
 static lmn_status write_rgba(const frame_maps *m, const float *values, bool is_colour, const char *directory, const char *name,
                              lmn_error *error)
 {
@@ -73,10 +82,7 @@ static lmn_status write_rgba(const frame_maps *m, const float *values, bool is_c
             }
             p[3] = byte_of(v[3]);
         }
-    export_bytes bytes;
-    lmn_status status = export_png_raw(&bytes, pixels, m->width, m->height, error);
-    mem_free(pixels);
-    return status == LMN_OK ? store(directory, name, &bytes, error) : status;
+    return store_picture(m, pixels, directory, name, error);
 }
 
 static lmn_status write_layer_floats(const frame_maps *m, const layer_map *layer, int channels, const char *directory, const char *name,
@@ -106,10 +112,7 @@ static lmn_status write_layer_bytes(const frame_maps *m, const layer_map *layer,
             const layer_map *from = &layer[(size_t)(m->height - 1 - y) * (size_t)m->width + (size_t)x];
             memcpy(&pixels[4 * ((size_t)y * (size_t)m->width + (size_t)x)], shade ? from->shade : from->edge, 4);
         }
-    export_bytes bytes;
-    lmn_status status = export_png_raw(&bytes, pixels, m->width, m->height, error);
-    mem_free(pixels);
-    return status == LMN_OK ? store(directory, name, &bytes, error) : status;
+    return store_picture(m, pixels, directory, name, error);
 }
 
 /* layerK.depth.pfm, .normal.pfm, .id.png, .edge.png, .shade.png */

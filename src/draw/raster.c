@@ -247,6 +247,15 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, true, last->triangles};
 }
 
+/* The figure among those of the stack that draws a part; NULL: none. */
+static const figure_state *layer_owner(const layer_stack *stack, size_t part_index)
+{
+    for (int i = 0; i < stack->count; i++)
+        if (stack->states[i].figure->designated[part_index])
+            return &stack->states[i];
+    return NULL;
+}
+
 /* Whose item it is in this run; NULL: nobody's, it is not drawn. */
 static const figure_state *owner_of(const frame *f, const raster_job *job, const draw_item *item)
 {
