@@ -80,13 +80,13 @@ static bool has_active_pass(const technique_use *use)
     return false;
 }
 
-static void settle_layers(figure *f, bool as_sprites)
+static void settle_layers(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
-    f->channels = channels_of(r, f->part_count > 1);
+    f->channels = channels_of(r, f->part_count > 1 || p->has_cut);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
@@ -99,7 +99,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS), *compose = rule_use(r, KIND_COMPOSE);
     f->layered = compose && compose->technique->layered;
     if (f->layered) {
-        settle_layers(f, as_sprites);
+        settle_layers(f, p, as_sprites);
         return;
     }
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
@@ -108,7 +108,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred;
-    f->channels = channels_of(r, f->complement || f->part_count > 1) | CHANNEL_SHADE;
+    f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
     if (f->deferred)
@@ -348,6 +348,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     out->scene = scene;
     out->look = look;
     out->box = box3_empty();
+    out->has_cut = up->has_cut;
     out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
