@@ -1,0 +1,1242 @@
+/* Writes the example model of a gear pump: make_pump OUT.glb
+ *
+ * Every part is one closed shell. It is sewn from rings of shared points, and each ring is used twice: where one strip or
+ * flat face ends, the next begins. So no part needs a boolean operation, and a hole that leads through is simply a longer walk.
+ * Points lie on a grid of 0.1 µm and all decisions are made in whole numbers, so that every machine writes the same bytes.
+ * Lengths are millimetres; the shafts run along z, the driving end is at +z, +y is up. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { RING_MAX = 640, LOOP_MAX = 2400, HOLES_MAX = 16, ROUND = 64, SMALL_ROUND = 40 };
+
+static const double pi = 3.14159265358979323846;
+static const double grid = 10000; /* steps per millimetre */
+
+/* --- meshes and rings -------------------------------------------------------------------------------------------- */
+
+typedef struct point {
+    int32_t at[3];
+} point;
+
+typedef struct mesh {
+    point    *points;
+    uint32_t *indices;
+    uint32_t  point_count, index_count, point_space, index_space;
+} mesh;
+
+/* Directions that a ring can be stood up in, or a flat face look at. */
+typedef enum direction { RIGHT, LEFT, UP, DOWN, FRONT, BACK } direction;
+
+/* A closed plane curve, counter-clockwise. The third number is how far a point stands out of the plane. */
+typedef struct outline {
+    int    count;
+    double at[RING_MAX][3];
+} outline;
+
+/* Points of a mesh, in order. */
+typedef struct ring {
+    int      count;
+    uint32_t at[RING_MAX];
+} ring;
+
+/* Where outlines are placed: u, v and the way along `along` make a right-handed system. */
+typedef struct frame {
+    double    origin[3];
+    direction along;
+} frame;
+
+static const struct {
+    int u, v, t; /* axes */
+    int sign;    /* of t */
+} systems[] = {
+    [RIGHT] = {1, 2, 0, 1}, [LEFT] = {2, 1, 0, -1}, [UP] = {2, 0, 1, 1},
+    [DOWN] = {0, 2, 1, -1}, [FRONT] = {0, 1, 2, 1}, [BACK] = {1, 0, 2, -1},
+};
+
+/* Nothing that fails here can be mended by whoever runs the program, so there are no messages but the exit status. */
+static void give_up(void)
+{
+    exit(EXIT_FAILURE);
+}
+
+static void *grow(void *array, uint32_t count, uint32_t *space, size_t size)
+{
+    if (count < *space)
+        return array;
+    *space = *space ? *space * 2 : 1024;
+    void *bigger = realloc(array, *space * size);
+    if (!bigger)
+        give_up();
+    return bigger;
+}
+
+static uint32_t put_point(mesh *m, const frame *f, double u, double v, double t)
+{
+    m->points = grow(m->points, m->point_count, &m->point_space, sizeof *m->points);
+    point *p = &m->points[m->point_count];
+    double at[3] = {f->origin[0], f->origin[1], f->origin[2]};
+    at[systems[f->along].u] += u;
+    at[systems[f->along].v] += v;
+    at[systems[f->along].t] += systems[f->along].sign * t;
+    for (int k = 0; k < 3; k++)
+        p->at[k] = (int32_t)lround(at[k] * grid);
+    return m->point_count++;
+}
+
+static void put_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c)
+{
+    const uint32_t corners[3] = {a, b, c};
+    for (int k = 0; k < 3; k++) {
+        m->indices = grow(m->indices, m->index_count, &m->index_space, sizeof *m->indices);
+        m->indices[m->index_count++] = corners[k];
+    }
+}
+
+static ring put_ring(mesh *m, const frame *f, const outline *o, double t)
+{
+    ring r = {.count = o->count};
+    for (int i = 0; i < o->count; i++)
+        r.at[i] = put_point(m, f, o->at[i][0], o->at[i][1], t + o->at[i][2]);
+    return r;
+}
+
+/* The columns first … first + count − 1 between two rings. Walk so that the solid is at the left hand of who looks from the
+ * axis: outer walls in the frame's direction, holes against it, faces at the far end inwards. */
+static void sew_columns(mesh *m, const ring *a, const ring *b, int first, int count)
+{
+    if (a->count != b->count)
+        give_up();
+    for (int k = first; k < first + count; k++) {
+        int i = k % a->count, j = (k + 1) % a->count;
+        put_triangle(m, a->at[i], a->at[j], b->at[j]);
+        put_triangle(m, a->at[i], b->at[j], b->at[i]);
+    }
+}
+
+static void sew(mesh *m, const ring *a, const ring *b)
+{
+    sew_columns(m, a, b, 0, a->count);
+}
+
+/* --- flat faces -------------------------------------------------------------------------------------------------- */
+
+typedef struct corner {
+    int64_t  u, v;
+    uint32_t index;
+} corner;
+
+typedef struct loop {
+    int    count;
+    corner at[LOOP_MAX];
+} loop;
+
+/* Twice the area of a triangle; exact. */
+static int64_t turn(corner a, corner b, corner c)
+{
+    return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+
+static int64_t distance_squared(corner a, corner b)
+{
+    return (b.u - a.u) * (b.u - a.u) + (b.v - a.v) * (b.v - a.v);
+}
+
+static bool same(corner a, corner b)
+{
+    return a.u == b.u && a.v == b.v;
+}
+
+static bool opposite(int64_t a, int64_t b)
+{
+    return (a <= 0 && b >= 0) || (a >= 0 && b <= 0);
+}
+
+static bool apart(corner p, corner q, corner a, corner b)
+{
+    return (a.u > p.u && a.u > q.u && b.u > p.u && b.u > q.u) || (a.u < p.u && a.u < q.u && b.u < p.u && b.u < q.u) ||
+           (a.v > p.v && a.v > q.v && b.v > p.v && b.v > q.v) || (a.v < p.v && a.v < q.v && b.v < p.v && b.v < q.v);
+}
+
+/* Whether edge a–b stands in the way of the segment p–q. Meeting at an end does not, running along it does. */
+static bool blocks(corner p, corner q, corner a, corner b)
+{
+    if (apart(p, q, a, b))
+        return false;
+    bool at_a = same(a, p) || same(a, q), at_b = same(b, p) || same(b, q);
+    if (at_a && at_b)
+        return false;
+    if (at_a || at_b) {
+        corner shared = at_a ? a : b, other = at_a ? b : a, far = same(shared, p) ? q : p;
+        int64_t ahead = (far.u - shared.u) * (other.u - shared.u) + (far.v - shared.v) * (other.v - shared.v);
+        return turn(p, q, other) == 0 && ahead > 0;
+    }
+    return opposite(turn(p, q, a), turn(p, q, b)) && opposite(turn(a, b, p), turn(a, b, q));
+}
+
+static bool loop_blocks(const loop *l, corner p, corner q)
+{
+    for (int i = 0; i < l->count; i++)
+        if (blocks(p, q, l->at[i], l->at[(i + 1) % l->count]))
+            return true;
+    return false;
+}
+
+/* Whether the way from corner i to a point begins inside the loop, which has its inside at the left. */
+static bool begins_inside(const loop *l, int i, corner to)
+{
+    corner at = l->at[i], before = l->at[(i + l->count - 1) % l->count], after = l->at[(i + 1) % l->count];
+    if (turn(before, at, after) >= 0)
+        return turn(at, to, before) > 0 && turn(to, at, after) > 0;
+    return !(turn(at, to, after) >= 0 && turn(to, at, before) >= 0);
+}
+
+static void loop_of_ring(loop *l, const mesh *m, const ring *r, direction facing, bool hole)
+{
+    int64_t area = 0;
+    l->count = r->count;
+    for (int i = 0; i < r->count; i++) {
+        const int32_t *at = m->points[r->at[i]].at;
+        l->at[i] = (corner){at[systems[facing].u], at[systems[facing].v], r->at[i]};
+    }
+    for (int i = 0; i < l->count; i++) {
+        corner a = l->at[i], b = l->at[(i + 1) % l->count];
+        area += a.u * b.v - a.v * b.u;
+    }
+    if ((area < 0) != hole)
+        for (int i = 0, j = l->count - 1; i < j; i++, j--) {
+            corner kept = l->at[i];
+            l->at[i] = l->at[j];
+            l->at[j] = kept;
+        }
+}
+
+static bool hidden(const loop *main, const loop *holes, int hole_count, corner p, corner q)
+{
+    bool blocked = loop_blocks(main, p, q);
+    for (int h = 0; h < hole_count && !blocked; h++)
+        blocked = loop_blocks(&holes[h], p, q);
+    return blocked;
+}
+
+/* Joins the hole that is nearest to the main loop by a bridge to and fro, and drops it from the list. */
+static void bridge_hole(loop *main, loop *holes, int hole_count)
+{
+    int64_t best = INT64_MAX;
+    int hole = -1, from = 0, to = 0;
+    for (int h = 0; h < hole_count; h++)
+        for (int i = 0; i < main->count; i++)
+            for (int j = 0; j < holes[h].count; j++) {
+                corner p = main->at[i], q = holes[h].at[j];
+                int64_t length = distance_squared(p, q);
+                if (length >= best || !begins_inside(main, i, q) || !begins_inside(&holes[h], j, p) ||
+                    hidden(main, holes, hole_count, p, q))
+                    continue;
+                best = length;
+                hole = h;
+                from = i;
+                to = j;
+            }
+    if (hole < 0 || main->count + holes[hole].count + 2 > LOOP_MAX)
+        give_up();
+    int more = holes[hole].count + 2;
+    memmove(&main->at[from + more], &main->at[from], (size_t)(main->count - from) * sizeof *main->at);
+    for (int k = 0; k <= holes[hole].count; k++)
+        main->at[from + 1 + k] = holes[hole].at[(to + k) % holes[hole].count];
+    main->count += more;
+    holes[hole] = holes[hole_count - 1];
+}
+
+/* Cuts off the ear with the shortest diagonal, which keeps the triangles compact. */
+static void clip_ear(mesh *m, loop *l)
+{
+    int64_t best = INT64_MAX;
+    int ear = -1;
+    for (int i = 0; i < l->count; i++) {
+        int h = (i + l->count - 1) % l->count, j = (i + 1) % l->count;
+        corner a = l->at[h], b = l->at[i], c = l->at[j];
+        int64_t length = distance_squared(a, c);
+        if (length >= best || turn(a, b, c) <= 0)
+            continue;
+        if (l->count > 3 && (!begins_inside(l, h, c) || !begins_inside(l, j, a) || loop_blocks(l, a, c)))
+            continue;
+        best = length;
+        ear = i;
+    }
+    if (ear < 0)
+        give_up();
+    put_triangle(m, l->at[(ear + l->count - 1) % l->count].index, l->at[ear].index, l->at[(ear + 1) % l->count].index);
+    l->count--;
+    memmove(&l->at[ear], &l->at[ear + 1], (size_t)(l->count - ear) * sizeof *l->at);
+}
+
+/* A flat face with holes. The rings may run either way. */
+static void cap(mesh *m, direction facing, const ring *outer, const ring *holes, int hole_count)
+{
+    static loop main, inner[HOLES_MAX];
+    loop_of_ring(&main, m, outer, facing, false);
+    for (int h = 0; h < hole_count; h++)
+        loop_of_ring(&inner[h], m, &holes[h], facing, true);
+    for (; hole_count > 0; hole_count--)
+        bridge_hole(&main, inner, hole_count);
+    while (main.count >= 3)
+        clip_ear(m, &main);
+}
+
+/* --- outlines and solids of revolution --------------------------------------------------------------------------- */
+
+static void add_point(outline *o, double u, double v)
+{
+    if (o->count == RING_MAX)
+        give_up();
+    o->at[o->count][0] = u;
+    o->at[o->count][1] = v;
+    o->at[o->count++][2] = 0;
+}
+
+/* An arc of so many segments with both its ends; angles in degrees. */
+static void add_arc(outline *o, double u, double v, double radius, double from, double to, int segments)
+{
+    for (int i = 0; i <= segments; i++) {
+        double angle = (from + (to - from) * i / segments) * pi / 180;
+        add_point(o, u + radius * cos(angle), v + radius * sin(angle));
+    }
+}
+
+static outline circle(double u, double v, double radius, int segments)
+{
+    outline o = {0};
+    add_arc(&o, u, v, radius, 0, 360, segments);
+    o.count--; /* the end is the start */
+    return o;
+}
+
+/* Two arcs, one over the other, joined by straight sides: the shape of the pump and of its chamber. The arcs begin at angle
+ * `from` below the horizontal. Column `segments` is the left side, the last column the right one. */
+static outline double_round(double half_distance, double radius, double from, int segments)
+{
+    outline o = {0};
+    add_arc(&o, 0, half_distance, radius, -from, 180 + from, segments);
+    add_arc(&o, 0, -half_distance, radius, 180 - from, 360 + from, segments);
+    return o;
+}
+
+static outline rectangle(double left, double bottom, double right, double top)
+{
+    outline o = {0};
+    add_point(&o, left, bottom);
+    add_point(&o, right, bottom);
+    add_point(&o, right, top);
+    add_point(&o, left, top);
+    return o;
+}
+
+/* Strips through rings of radius r at t. Radius 0 ends the shell (or begins it) in a point. The first and the last ring are
+ * for whoever goes on from there. */
+static void lathe(mesh *m, const frame *f, const double (*profile)[2], int count, int segments, ring *first, ring *last)
+{
+    ring before = {0};
+    for (int k = 0; k < count; k++) {
+        double t = profile[k][0], radius = profile[k][1];
+        outline o = circle(0, 0, radius, segments);
+        ring here = {.count = segments};
+        if (radius > 0) {
+            here = put_ring(m, f, &o, t);
+        } else {
+            uint32_t tip = put_point(m, f, 0, 0, t);
+            for (int i = 0; i < segments; i++)
+                here.at[i] = tip;
+        }
+        for (int i = 0; k > 0 && i < segments; i++) {
+            int j = (i + 1) % segments;
+            if (before.at[i] != before.at[j])
+                put_triangle(m, before.at[i], before.at[j], here.at[j]);
+            if (here.at[i] != here.at[j])
+                put_triangle(m, before.at[i], here.at[j], here.at[i]);
+        }
+        if (k == 0 && first)
+            *first = here;
+        before = here;
+    }
+    if (last)
+        *last = before;
+}
+
+#define LATHE(mesh, frame, segments, first, last, ...)                                                                             \
+    lathe(mesh, frame, (const double[][2]){__VA_ARGS__}, (int)(sizeof((const double[][2]){__VA_ARGS__}) / sizeof(double[2])),      \
+          segments, first, last)
+
+/* A plate with holes between two heights. */
+static void extrude(mesh *m, const outline *outer, const outline *holes, int hole_count, double from, double to)
+{
+    const frame f = {.along = FRONT};
+    ring low = put_ring(m, &f, outer, from), high = put_ring(m, &f, outer, to), low_holes[HOLES_MAX], high_holes[HOLES_MAX];
+    sew(m, &low, &high);
+    for (int h = 0; h < hole_count; h++) {
+        low_holes[h] = put_ring(m, &f, &holes[h], from);
+        high_holes[h] = put_ring(m, &f, &holes[h], to);
+        sew(m, &high_holes[h], &low_holes[h]);
+    }
+    cap(m, BACK, &low, low_holes, hole_count);
+    cap(m, FRONT, &high, high_holes, hole_count);
+}
+
+/* --- dimensions that parts share --------------------------------------------------------------------------------- */
+
+enum { TEETH = 13, BODY_ARC = 48, CHAMBER_ARC = 72 };
+
+static const double module = 3;
+static const double axle = 19.5;          /* the shafts are at y = ±axle: half of module · TEETH */
+static const double body_radius = 37;
+static const double chamber_radius = 22.55;
+static const double pocket = 8;           /* half the height of the flat walls in which the ports open */
+static const double joint = 32;           /* housing up to here, then the gasket */
+static const double cover_back = 33, cover_front = 50;
+static const double bolt_circle = 29, bolt_seat = 49;
+static const double port_height = 16.5;   /* z of the ports */
+static const double valve_z = -12;        /* the relief valve lies between the bearings */
+static const double valve_seat = 11;      /* the seat is the cone r = x + valve_seat */
+static const double ball_radius = 4, fit = 0.03;
+
+static void bolt_place(int index, double at[2])
+{
+    double angle = (30 + 60 * index) * pi / 180;
+    at[0] = bolt_circle * cos(angle);
+    at[1] = bolt_circle * sin(angle) + (index < 3 ? axle : -axle);
+}
+
+static double pocket_angle(double radius)
+{
+    return asin((axle - pocket) / radius) * 180 / pi;
+}
+
+static double ball_place(void)
+{
+    return -valve_seat + (ball_radius + fit) * sqrt(2);
+}
+
+/* --- housing ----------------------------------------------------------------------------------------------------- */
+
+enum { BODY_RINGS = 5, SIDE_LEFT = BODY_ARC, LOWER_ARC = BODY_ARC + 1, SIDE_RIGHT = 2 * BODY_ARC + 1 };
+
+/* One port from the outside of its boss into the chamber. `base` is where the boss stands on the side of the body, `mouth` the
+ * hole in the chamber's wall. */
+static void port(mesh *m, direction side, ring *base, ring *mouth)
+{
+    const frame f = {{0, 0, port_height}, side};
+    double wall = chamber_radius * cos(pocket_angle(chamber_radius) * pi / 180);
+    LATHE(m, &f, ROUND, base, mouth, {body_radius, 14.5}, {42, 14.5}, {43, 13.5}, {43, 10.5}, {42, 9.5}, {29, 9.5}, {27.5, 7},
+          {wall, 7});
+}
+
+/* A length of a bore along x whose wall has a hole towards +z, drilled from the floor of the chamber. The wall is a grid of
+ * which a window is left out; the drilled hole's edge has as many points as the window's. */
+static ring branch(mesh *m, const frame *f, const ring *start, double radius, double middle, double half, double drill, int wide,
+                   ring *mouth)
+{
+    enum { STEPS = 6 };
+    const frame down = {.along = FRONT};
+    int first = SMALL_ROUND / 4 - wide, last = SMALL_ROUND / 4 + wide;
+    ring rows[STEPS + 1], window = {0};
+    outline o = circle(0, 0, radius, SMALL_ROUND), edge = {0}, top = {0};
+    for (int j = 0; j <= STEPS; j++) {
+        rows[j] = put_ring(m, f, &o, middle + half - 2 * half * j / STEPS);
+        if (j == 0)
+            sew(m, start, &rows[0]);
+        else
+            sew_columns(m, &rows[j - 1], &rows[j], last, SMALL_ROUND - 2 * wide);
+    }
+    for (int i = last; i > first; i--)
+        window.at[window.count++] = rows[0].at[i];
+    for (int j = 0; j < STEPS; j++)
+        window.at[window.count++] = rows[j].at[first];
+    for (int i = first; i < last; i++)
+        window.at[window.count++] = rows[STEPS].at[i];
+    for (int j = STEPS; j > 0; j--)
+        window.at[window.count++] = rows[j].at[last];
+    for (int i = 0; i < window.count; i++) {
+        const int32_t *at = m->points[window.at[i]].at;
+        double angle = atan2(at[1] / grid, at[0] / grid - middle);
+        double y = drill * sin(angle);
+        add_point(&edge, middle + drill * cos(angle), y);
+        edge.at[i][2] = f->origin[2] + sqrt(radius * radius - y * y);
+        add_point(&top, middle + drill * cos(angle), y);
+    }
+    ring low = put_ring(m, &down, &edge, 0);
+    *mouth = put_ring(m, &down, &top, 0);
+    sew(m, mouth, &low);
+    sew(m, &low, &window);
+    return rows[STEPS];
+}
+
+/* The relief valve's bore from the right side of the body: spring room, seat, orifice. Each has a way into the chamber, one on
+ * the inlet's side, one on the outlet's. */
+static void valve_bore(mesh *m, ring *base, ring mouths[2])
+{
+    const frame f = {{0, 0, valve_z}, RIGHT};
+    outline o = circle(0, 0, 5, SMALL_ROUND);
+    *base = put_ring(m, &f, &o, body_radius);
+    ring room = branch(m, &f, base, 5, 15.5, 2.6, 2, 4, &mouths[0]);
+    ring upper = put_ring(m, &f, &o, 5 - valve_seat);
+    o = circle(0, 0, 2.6, SMALL_ROUND);
+    ring lower = put_ring(m, &f, &o, 2.6 - valve_seat);
+    sew(m, &room, &upper);
+    sew(m, &upper, &lower);
+    ring orifice = branch(m, &f, &lower, 2.6, -15.5, 2, 1.6, 5, &mouths[1]);
+    ring end;
+    LATHE(m, &f, SMALL_ROUND, &end, NULL, {-19, 2.6}, {-20.5, 0});
+    sew(m, &orifice, &end);
+}
+
+/* What the foot adds to the body's outline, from its left side round the bottom to its right side; the ends are the body's. */
+static outline foot_outline(void)
+{
+    outline o = {0};
+    add_point(&o, -body_radius, -axle);
+    add_arc(&o, -43, -50, 6, 0, -90, 8);
+    add_arc(&o, -55, -59, 3, 90, 180, 6);
+    add_point(&o, -58, -66);
+    add_point(&o, -26, -66);
+    add_point(&o, -26, -64.5);
+    for (int i = o.count - 1; i >= 0; i--)
+        add_point(&o, -o.at[i][0], o.at[i][1]);
+    return o;
+}
+
+/* The foot between the body's rings `back` and `front`, whose lower arcs it replaces. */
+static void foot(mesh *m, const ring *back, const ring *front, double from, double to)
+{
+    const frame f = {.along = FRONT};
+    outline o = foot_outline();
+    ring ends[2] = {{0}, {0}};
+    const ring *body[2] = {back, front};
+    int half = o.count / 2, top = 9, pad = half - 3; /* columns of the left half that are flat with holes */
+    for (int e = 0; e < 2; e++) {
+        ends[e].count = o.count;
+        for (int i = 0; i < o.count; i++)
+            ends[e].at[i] = i == 0             ? body[e]->at[LOWER_ARC]
+                            : i == o.count - 1 ? body[e]->at[SIDE_RIGHT]
+                                               : put_point(m, &f, o.at[i][0], o.at[i][1], e ? to : from);
+        ring face = ends[e];
+        for (int i = SIDE_RIGHT - 1; i > LOWER_ARC; i--)
+            face.at[face.count++] = body[e]->at[i];
+        cap(m, e ? FRONT : BACK, &face, NULL, 0);
+    }
+    for (int c = 0; c < o.count - 1; c++) {
+        int mirrored = o.count - 2 - c, kind = c < half ? c : mirrored;
+        if (kind != top && kind != pad)
+            sew_columns(m, &ends[0], &ends[1], c, 1);
+    }
+    for (int side = -1; side <= 1; side += 2) {
+        ring upper[2], lower[2];
+        for (int h = 0; h < 2; h++) {
+            const frame hole = {{50 * side, 0, h ? to - 8 : from + 8}, UP};
+            LATHE(m, &hole, SMALL_ROUND, &upper[h], &lower[h], {-56, 4.5}, {-66, 4.5});
+        }
+        for (int level = 0; level < 2; level++) {
+            int c = level ? top : pad, i = side < 0 ? c : o.count - 2 - c;
+            ring face = {4, {ends[0].at[i], ends[0].at[i + 1], ends[1].at[i + 1], ends[1].at[i]}};
+            cap(m, level ? UP : DOWN, &face, level ? upper : lower, 2);
+        }
+    }
+}
+
+/* A flat side of the body with what opens in it. */
+static void body_side(mesh *m, const ring rings[BODY_RINGS], direction facing, const ring *holes, int hole_count)
+{
+    ring face = {0};
+    int  lower = facing == RIGHT ? SIDE_RIGHT : LOWER_ARC, upper = facing == RIGHT ? 0 : SIDE_LEFT;
+    for (int k = 1; k < BODY_RINGS; k++)
+        face.at[face.count++] = rings[k].at[lower];
+    for (int k = BODY_RINGS - 1; k > 0; k--)
+        face.at[face.count++] = rings[k].at[upper];
+    cap(m, facing, &face, holes, hole_count);
+}
+
+static void chamber(mesh *m, const ring mouths[2], const ring drilled[2], ring *open)
+{
+    const frame f = {.along = FRONT};
+    outline o = double_round(axle, chamber_radius, pocket_angle(chamber_radius), CHAMBER_ARC);
+    ring floor = put_ring(m, &f, &o, 0), holes[4] = {drilled[0], drilled[1]};
+    *open = put_ring(m, &f, &o, joint);
+    sew_columns(m, open, &floor, 0, CHAMBER_ARC);
+    sew_columns(m, open, &floor, CHAMBER_ARC + 1, CHAMBER_ARC);
+    for (int side = 0; side < 2; side++) {
+        int i = side ? CHAMBER_ARC : 2 * CHAMBER_ARC + 1, j = (i + 1) % o.count;
+        ring face = {4, {floor.at[i], floor.at[j], open->at[j], open->at[i]}};
+        cap(m, side ? RIGHT : LEFT, &face, &mouths[side], 1);
+        const frame bearing = {{0, side ? -axle : axle, 0}, FRONT};
+        ring bottom;
+        LATHE(m, &bearing, ROUND, &holes[2 + side], &bottom, {0, 12}, {-20.5, 12}, {-20.5, 7.5}, {-22, 6}, {-22, 0});
+    }
+    cap(m, FRONT, &floor, holes, 4);
+}
+
+static void build_housing(mesh *m)
+{
+    static const double heights[BODY_RINGS] = {-28, -26, -16, 22, 32};
+    const frame f = {.along = FRONT};
+    ring rings[BODY_RINGS], right[2], left, mouths[2], drilled[2], front[7];
+    for (int k = 0; k < BODY_RINGS; k++) {
+        outline o = double_round(axle, k ? body_radius : body_radius - 2, 0, BODY_ARC);
+        rings[k] = put_ring(m, &f, &o, heights[k]);
+    }
+    cap(m, BACK, &rings[0], NULL, 0);
+    sew(m, &rings[0], &rings[1]);
+    for (int k = 1; k < BODY_RINGS - 1; k++) {
+        sew_columns(m, &rings[k], &rings[k + 1], 0, BODY_ARC);
+        if (k != 2)
+            sew_columns(m, &rings[k], &rings[k + 1], LOWER_ARC, BODY_ARC);
+    }
+    foot(m, &rings[2], &rings[3], heights[2], heights[3]);
+    port(m, RIGHT, &right[0], &mouths[0]);
+    port(m, LEFT, &left, &mouths[1]);
+    valve_bore(m, &right[1], drilled);
+    body_side(m, rings, RIGHT, right, 2);
+    body_side(m, rings, LEFT, &left, 1);
+    chamber(m, mouths, drilled, &front[0]);
+    for (int b = 0; b < 6; b++) {
+        double at[2];
+        bolt_place(b, at);
+        const frame hole = {{at[0], at[1], 0}, FRONT};
+        LATHE(m, &hole, SMALL_ROUND, &front[1 + b], NULL, {joint, 3.6}, {joint - 0.5, 3.06}, {11, 3.06}, {9.2, 0});
+    }
+    cap(m, FRONT, &rings[BODY_RINGS - 1], front, 7);
+}
+
+/* --- cover and gasket -------------------------------------------------------------------------------------------- */
+
+static void build_gasket(mesh *m)
+{
+    double radius = chamber_radius + 0.1;
+    outline outer = double_round(axle, body_radius - 0.1, 0, BODY_ARC), holes[7];
+    holes[0] = double_round(axle, radius, pocket_angle(radius), CHAMBER_ARC);
+    for (int b = 0; b < 6; b++) {
+        double at[2];
+        bolt_place(b, at);
+        holes[1 + b] = circle(at[0], at[1], 3.5, SMALL_ROUND);
+    }
+    extrude(m, &outer, holes, 7, joint + fit, cover_back - fit);
+}
+
+static void build_cover(mesh *m)
+{
+    const frame f = {.along = FRONT}, drive = {{0, axle, 0}, FRONT}, idler = {{0, -axle, 0}, FRONT};
+    static const double heights[3] = {cover_back, cover_front - 1.2, cover_front};
+    ring rings[3], back[8], front[8];
+    for (int k = 0; k < 3; k++) {
+        outline o = double_round(axle, k < 2 ? body_radius : body_radius - 1.2, 0, BODY_ARC);
+        rings[k] = put_ring(m, &f, &o, heights[k]);
+        if (k > 0)
+            sew(m, &rings[k - 1], &rings[k]);
+    }
+    /* From the boss through the seal's room and the bearing; the other bearing is blind. */
+    LATHE(m, &drive, ROUND, &front[0], &back[0], {cover_front, 20}, {58.5, 20}, {60, 18.5}, {60, 14.8}, {59.2, 14}, {49, 14},
+          {49, 9.5}, {46, 9.5}, {46, 12}, {cover_back, 12});
+    LATHE(m, &idler, ROUND, &front[1], NULL, {cover_front, 15}, {52, 15}, {53, 14}, {53, 0});
+    LATHE(m, &idler, ROUND, NULL, &back[1], {47.5, 0}, {47.5, 6}, {46, 7.5}, {46, 12}, {cover_back, 12});
+    for (int b = 0; b < 6; b++) {
+        double at[2];
+        bolt_place(b, at);
+        const frame hole = {{at[0], at[1], 0}, FRONT};
+        LATHE(m, &hole, SMALL_ROUND, &front[2 + b], &back[2 + b], {cover_front, 6.4}, {bolt_seat, 6.4}, {bolt_seat, 3.8},
+              {bolt_seat - 0.5, 3.3}, {cover_back, 3.3});
+    }
+    cap(m, BACK, &rings[0], back, 8);
+    cap(m, FRONT, &rings[2], front, 8);
+}
+
+/* --- bolts ------------------------------------------------------------------------------------------------------- */
+
+/* A hexagon across flats, with points along its sides. Its height falls off outside of `flat`, the way a turned chamfer cuts the
+ * corners of a bolt's head. */
+static outline hexagon(double across, double flat)
+{
+    outline o = {0};
+    for (int i = 0; i < 48; i++) {
+        double angle = i * pi / 24, side = fmod(i, 8) * pi / 24 - pi / 6, radius = across / 2 / cos(side);
+        add_point(&o, radius * cos(angle), radius * sin(angle));
+        o.at[i][2] = flat > 0 ? -(radius - flat) * 0.65 : 0; /* steeper than 30°, so that it shows as an edge */
+    }
+    return o;
+}
+
+/* The head stands on t = 0, the shank goes down from there. */
+static void bolt(mesh *m, const frame *f, double radius, double length, double across, double head)
+{
+    ring shank;
+    double flat = across / 2 * 0.95;
+    LATHE(m, f, SMALL_ROUND, NULL, &shank, {-length, 0}, {-length, radius * 0.85}, {-length + radius * 0.3, radius}, {0, radius});
+    outline o = hexagon(across, 0);
+    ring low = put_ring(m, f, &o, 0);
+    o = hexagon(across, flat);
+    ring high = put_ring(m, f, &o, head);
+    o = circle(0, 0, flat, o.count);
+    ring top = put_ring(m, f, &o, head);
+    cap(m, f->along == FRONT ? BACK : LEFT, &low, &shank, 1);
+    sew(m, &low, &high);
+    sew(m, &high, &top);
+    cap(m, f->along, &top, NULL, 0);
+}
+
+static void build_bolt(mesh *m)
+{
+    bolt(m, &(frame){.along = FRONT}, 3, 34, 10, 4);
+}
+
+static void build_plug(mesh *m)
+{
+    bolt(m, &(frame){.along = RIGHT}, 4.97, 12, 13, 5);
+}
+
+/* --- shafts, keys, gears, coupling ------------------------------------------------------------------------------- */
+
+enum { SHAFT_ARC = 60, SLOT_ARC = 6, SLOT_KEEPS = SHAFT_ARC + 1 };
+
+/* A circle with points where a keyway's edges are. The first SLOT_KEEPS points are the same in keyed_round. */
+static outline round_for_key(double radius, double half)
+{
+    outline o = {0};
+    double gap = asin(half / radius) * 180 / pi;
+    add_arc(&o, 0, 0, radius, 90 + gap, 450 - gap, SHAFT_ARC);
+    for (int i = 1; i < SLOT_ARC; i++) {
+        double angle = (90 - gap + 2 * gap * i / SLOT_ARC) * pi / 180;
+        add_point(&o, radius * cos(angle), radius * sin(angle));
+    }
+    return o;
+}
+
+/* The same with the keyway: into the shaft when `bottom` is less than the radius, out into the hub when it is more. */
+static outline keyed_round(double radius, double half, double bottom)
+{
+    outline o = round_for_key(radius, half);
+    o.count = SLOT_KEEPS;
+    add_point(&o, half, bottom);
+    add_point(&o, -half, bottom);
+    return o;
+}
+
+/* The end of a keyway: what the round ring has and the keyed one has not. */
+static ring keyway_end(mesh *m, direction facing, const frame *f, const ring *whole, const outline *keyed, double t)
+{
+    ring r = {.count = keyed->count}, face = {0};
+    for (int i = 0; i < keyed->count; i++)
+        r.at[i] = i < SLOT_KEEPS ? whole->at[i] : put_point(m, f, keyed->at[i][0], keyed->at[i][1], t);
+    for (int i = SLOT_KEEPS - 1; i <= whole->count; i++)
+        face.at[face.count++] = whole->at[i % whole->count];
+    face.at[face.count++] = r.at[SLOT_KEEPS + 1];
+    face.at[face.count++] = r.at[SLOT_KEEPS];
+    cap(m, facing, &face, NULL, 0);
+    return r;
+}
+
+/* A keyway from where the shaft has got to; returns the ring behind it. */
+static ring keyway(mesh *m, const frame *f, const ring *start, double radius, double half, double bottom, double from, double to)
+{
+    outline whole = round_for_key(radius, half), keyed = keyed_round(radius, half, bottom);
+    ring first = keyway_end(m, FRONT, f, start, &keyed, from);
+    ring end = put_ring(m, f, &whole, to);
+    ring last = keyway_end(m, BACK, f, &end, &keyed, to);
+    sew(m, &first, &last);
+    return end;
+}
+
+static const double key_half = 2.5;
+
+static void build_drive_shaft(mesh *m)
+{
+    static const double start[][2] = {{-19.5, 7}, {-18.5, 8}, {3.9, 8}}, middle[][2] = {{61, 8}, {62, 7}, {68, 7}};
+    const frame f = {.along = FRONT};
+    ring at = {0};
+    for (int k = 0; k < 3; k++) {
+        outline o = round_for_key(start[k][1], key_half);
+        ring next = put_ring(m, &f, &o, start[k][0]);
+        if (k == 0)
+            cap(m, BACK, &next, NULL, 0);
+        else
+            sew(m, &at, &next);
+        at = next;
+    }
+    at = keyway(m, &f, &at, 8, key_half, 5, 3.9, 29.1);
+    for (int k = 0; k < 3; k++) {
+        outline o = round_for_key(middle[k][1], key_half);
+        ring next = put_ring(m, &f, &o, middle[k][0]);
+        sew(m, &at, &next);
+        at = next;
+    }
+    at = keyway(m, &f, &at, 7, key_half, 4, 68, 86);
+    outline o = round_for_key(6, key_half);
+    ring last = put_ring(m, &f, &o, 87);
+    sew(m, &at, &last);
+    cap(m, FRONT, &last, NULL, 0);
+}
+
+static void build_idler_shaft(mesh *m)
+{
+    const frame f = {.along = FRONT};
+    LATHE(m, &f, ROUND, NULL, NULL, {-19.5, 0}, {-19.5, 7}, {-18.5, 8}, {44, 8}, {45, 7}, {45, 0});
+}
+
+static void build_gear_key(mesh *m)
+{
+    outline o = rectangle(-key_half + fit, 5 + fit, key_half - fit, 10);
+    extrude(m, &o, NULL, 0, 4, 29);
+}
+
+static void build_coupling_key(mesh *m)
+{
+    outline o = rectangle(-key_half + fit, 4 + fit, key_half - fit, 9);
+    extrude(m, &o, NULL, 0, 68.1, 84.9);
+}
+
+/* How far a flank is from the middle of its tooth at some radius, as an angle. Below the base circle it is radial. */
+static double half_tooth(double radius)
+{
+    double pitch = module * TEETH / 2, pressure = 20 * pi / 180, base = pitch * cos(pressure), backlash = 0.12;
+    double roll = radius > base ? acos(base / radius) : 0;
+    return (pi * module / 2 - backlash) / 2 / pitch + (tan(pressure) - pressure) - (tan(roll) - roll);
+}
+
+static void add_polar(outline *o, double radius, double angle)
+{
+    add_point(o, radius * cos(angle), radius * sin(angle));
+}
+
+/* Involute teeth; a tooth points down and, as their number is odd, a gap up, so that two of these mesh one over the other. */
+static outline gear_outline(void)
+{
+    enum { FLANK = 8, FILLET = 4 };
+    const double pitch = module * TEETH / 2, root = pitch - 1.25 * module, tip = pitch + module, round = 1.1;
+    outline o = {0};
+    for (int k = 0; k < TEETH; k++) {
+        double middle = -pi / 2 + 2 * pi * k / TEETH, foot = half_tooth(root), next = middle + 2 * pi / TEETH;
+        for (int i = 0; i < FLANK; i++) {
+            double radius = root + round + (tip - root - round) * i / FLANK;
+            add_polar(&o, radius, middle - half_tooth(radius));
+        }
+        for (int i = -1; i <= 1; i++)
+            add_polar(&o, tip, middle + i * half_tooth(tip));
+        for (int i = FLANK - 1; i >= 0; i--) {
+            double radius = root + round + (tip - root - round) * i / FLANK;
+            add_polar(&o, radius, middle + half_tooth(radius));
+        }
+        /* Fillet, root, fillet: a curve that leaves the flank radially and arrives along the root circle. */
+        for (int i = 1; i <= FILLET; i++) {
+            double s = (double)i / FILLET, radius = root + round * (1 - s) * (1 - s);
+            add_polar(&o, radius, middle + foot + round / root * s * s);
+        }
+        for (int i = FILLET; i >= 1; i--) {
+            double s = (double)i / FILLET, radius = root + round * (1 - s) * (1 - s);
+            add_polar(&o, radius, next - foot - round / root * s * s);
+        }
+    }
+    return o;
+}
+
+static void build_drive_gear(mesh *m)
+{
+    outline o = gear_outline(), bore = keyed_round(8 + fit, key_half, 10 + fit);
+    extrude(m, &o, &bore, 1, 0.05, cover_back - 0.05);
+}
+
+static void build_idler_gear(mesh *m)
+{
+    outline o = gear_outline(), bore = circle(0, 0, 8 + fit, ROUND);
+    extrude(m, &o, &bore, 1, 0.05, cover_back - 0.05);
+}
+
+/* Half a claw coupling: hub, flange and three claws. */
+static void build_coupling(mesh *m)
+{
+    const frame f = {.along = FRONT};
+    outline o = keyed_round(7 + fit, key_half, 9 + fit);
+    ring back = put_ring(m, &f, &o, 67), front = put_ring(m, &f, &o, 88), low, high, holes[4] = {front};
+    LATHE(m, &f, ROUND, &low, &high, {67, 12}, {68, 13}, {78, 13}, {78, 21}, {79, 22}, {87, 22}, {88, 21});
+    sew(m, &front, &back);
+    cap(m, BACK, &low, &back, 1);
+    for (int k = 0; k < 3; k++) {
+        outline claw = {0};
+        add_arc(&claw, 0, 0, 20, 120 * k + 65, 120 * k + 115, 16);
+        add_arc(&claw, 0, 0, 11, 120 * k + 115, 120 * k + 65, 16);
+        holes[1 + k] = put_ring(m, &f, &claw, 88);
+        ring top = put_ring(m, &f, &claw, 98);
+        sew(m, &holes[1 + k], &top);
+        cap(m, FRONT, &top, NULL, 0);
+    }
+    cap(m, FRONT, &high, holes, 4);
+}
+
+/* --- bearings, seal, valve --------------------------------------------------------------------------------------- */
+
+static void bush(mesh *m, double length)
+{
+    const frame f = {.along = FRONT};
+    ring first, last;
+    const double in = 8 + fit, out = 12 - fit, edge = 0.6;
+    LATHE(m, &f, ROUND, &first, &last, {0, out - edge}, {edge, out}, {length - edge, out}, {length, out - edge},
+          {length, in + edge}, {length - edge, in}, {edge, in}, {0, in + edge});
+    sew(m, &last, &first);
+}
+
+static void build_long_bush(mesh *m)
+{
+    bush(m, 20);
+}
+
+static void build_short_bush(mesh *m)
+{
+    bush(m, 12.5);
+}
+
+/* A lip seal: the lip bends towards the pressure. */
+static void build_seal(mesh *m)
+{
+    const frame f = {.along = FRONT};
+    ring first, last;
+    LATHE(m, &f, ROUND, &first, &last, {0, 14 - fit}, {7, 14 - fit}, {7, 9.2}, {5.2, 9.2}, {3.6, 8 + fit}, {3, 8 + fit}, {1.2, 9},
+          {1.2, 10.4}, {4.6, 10.8}, {4.6, 12.6}, {0, 12.6});
+    sew(m, &last, &first);
+}
+
+static void build_ball(mesh *m)
+{
+    enum { STACKS = 24 };
+    double profile[STACKS + 1][2] = {{-ball_radius, 0}, [STACKS] = {ball_radius, 0}};
+    for (int i = 1; i < STACKS; i++) {
+        profile[i][0] = -ball_radius * cos(pi * i / STACKS);
+        profile[i][1] = ball_radius * sin(pi * i / STACKS);
+    }
+    lathe(m, &(frame){.along = RIGHT}, (const double (*)[2])profile, STACKS + 1, SMALL_ROUND, NULL, NULL);
+}
+
+static const double coil = 3.2, wire = 0.6, turns = 9;
+
+/* How far along x the spring's wire is after so many turns: the first and the last turn lie close, as ground springs have it. */
+static double spring_rise(double turn)
+{
+    double from = sqrt(pow(ball_radius + wire + fit, 2) - coil * coil), to = 25 - ball_place() - wire - fit;
+    double tight = 2 * wire + 0.1, rise = (to - from - 2 * tight) / (turns - 2);
+    return from + (turn < 1 ? tight * turn : turn > turns - 1 ? to - from - tight * (turns - turn) : tight + rise * (turn - 1));
+}
+
+/* Its origin is the ball's middle. */
+static void build_spring(mesh *m)
+{
+    enum { STEPS = 32, AROUND = 12 };
+    const frame f = {.along = RIGHT};
+    ring before = {0};
+    int rows = STEPS * (int)turns;
+    for (int k = 0; k <= rows; k++) {
+        double at = (double)k / STEPS, angle = 2 * pi * at, x = spring_rise(at);
+        double slope = atan2((spring_rise(at + 0.01) - spring_rise(at - 0.01)) / 0.02, 2 * pi * coil);
+        ring here = {.count = AROUND};
+        for (int i = 0; i < AROUND; i++) {
+            double part = 2 * pi * i / AROUND, out = coil + wire * cos(part), side = wire * sin(part);
+            here.at[i] = put_point(m, &f, out * cos(angle) - side * sin(slope) * -sin(angle),
+                                   out * sin(angle) - side * sin(slope) * cos(angle), x + side * cos(slope));
+        }
+        for (int i = 2; i < AROUND && k == 0; i++)
+            put_triangle(m, here.at[0], here.at[i - 1], here.at[i]);
+        for (int i = 2; i < AROUND && k == rows; i++)
+            put_triangle(m, here.at[0], here.at[i], here.at[i - 1]);
+        if (k > 0)
+            sew(m, &here, &before);
+        before = here;
+    }
+}
+
+/* --- the assembly ------------------------------------------------------------------------------------------------ */
+
+typedef enum material { CASTING, COVER, STEEL, GEAR, BRASS, RUBBER, ZINC, FIBRE, MATERIALS } material;
+
+static const struct {
+    const char *name;
+    double      colour[3]; /* linear */
+} materials[MATERIALS] = {
+    [CASTING] = {"Casting", {0.150, 0.210, 0.280}}, [COVER] = {"Machined casting", {0.230, 0.290, 0.350}},
+    [STEEL] = {"Steel", {0.520, 0.540, 0.570}},     [GEAR] = {"Hardened steel", {0.350, 0.370, 0.410}},
+    [BRASS] = {"Brass", {0.600, 0.390, 0.120}},     [RUBBER] = {"Rubber", {0.025, 0.025, 0.030}},
+    [ZINC] = {"Zinc-plated steel", {0.420, 0.410, 0.360}}, [FIBRE] = {"Fibre", {0.260, 0.090, 0.050}},
+};
+
+typedef enum group { CASING, DRIVE, IDLER, BEARINGS, VALVE, GROUPS } group;
+
+/* Drive and idler have their axles as origins, so that they can be turned. */
+static const struct {
+    const char *name;
+    double      at[3];
+} groups[GROUPS] = {
+    [CASING] = {"Casing", {0}},     [DRIVE] = {"Drive", {0, 19.5, 0}},  [IDLER] = {"Idler", {0, -19.5, 0}},
+    [BEARINGS] = {"Bearings", {0}}, [VALVE] = {"Relief valve", {0, 0, -12}},
+};
+
+typedef struct part {
+    const char *name;
+    group       group;
+    material    material;
+    void (*build)(mesh *); /* parts with the same one share a mesh */
+    double at[3];
+} part;
+
+enum { PARTS_MAX = 32 };
+
+typedef struct assembly {
+    part parts[PARTS_MAX];
+    int  count;
+    char names[6][8]; /* of the bolts */
+} assembly;
+
+static void list_parts(assembly *a)
+{
+    static const part rest[] = {
+        {"Drive shaft", DRIVE, STEEL, build_drive_shaft, {0}},
+        {"Gear key", DRIVE, ZINC, build_gear_key, {0}},
+        {"Drive gear", DRIVE, GEAR, build_drive_gear, {0}},
+        {"Coupling key", DRIVE, ZINC, build_coupling_key, {0}},
+        {"Coupling", DRIVE, CASTING, build_coupling, {0}},
+        {"Idler shaft", IDLER, STEEL, build_idler_shaft, {0}},
+        {"Idler gear", IDLER, GEAR, build_idler_gear, {0}},
+        {"Bush 1", BEARINGS, BRASS, build_long_bush, {0, 19.5, -20.2}},
+        {"Bush 2", BEARINGS, BRASS, build_long_bush, {0, -19.5, -20.2}},
+        {"Bush 3", BEARINGS, BRASS, build_short_bush, {0, 19.5, 33.2}},
+        {"Bush 4", BEARINGS, BRASS, build_short_bush, {0, -19.5, 33.2}},
+        {"Seal", BEARINGS, RUBBER, build_seal, {0, 19.5, 51}},
+    };
+    a->parts[a->count++] = (part){"Housing", CASING, CASTING, build_housing, {0}};
+    a->parts[a->count++] = (part){"Gasket", CASING, FIBRE, build_gasket, {0}};
+    a->parts[a->count++] = (part){"Cover", CASING, COVER, build_cover, {0}};
+    for (int b = 0; b < 6; b++) {
+        part *p = &a->parts[a->count++];
+        snprintf(a->names[b], sizeof a->names[b], "Bolt %d", (b + 1) % 10);
+        *p = (part){a->names[b], CASING, ZINC, build_bolt, {0, 0, bolt_seat + fit}};
+        bolt_place(b, p->at);
+    }
+    for (size_t i = 0; i < sizeof rest / sizeof *rest; i++)
+        a->parts[a->count++] = rest[i];
+    a->parts[a->count++] = (part){"Valve ball", VALVE, STEEL, build_ball, {ball_place(), 0, 0}};
+    a->parts[a->count++] = (part){"Valve spring", VALVE, STEEL, build_spring, {ball_place(), 0, 0}};
+    a->parts[a->count++] = (part){"Valve plug", VALVE, ZINC, build_plug, {body_radius + fit, 0, 0}};
+}
+
+/* --- the file ---------------------------------------------------------------------------------------------------- */
+
+typedef struct text {
+    char  *bytes;
+    size_t size;
+    FILE  *stream;
+} text;
+
+/* The binary chunk and the JSON lists that grow while meshes are put into it. */
+typedef struct glb {
+    text bytes, views, accessors, meshes;
+    int  view_count, accessor_count, mesh_count;
+} glb;
+
+static void text_start(text *t)
+{
+    *t = (text){0};
+    t->stream = open_memstream(&t->bytes, &t->size);
+    if (!t->stream)
+        give_up();
+}
+
+static void text_end(text *t)
+{
+    if (fclose(t->stream) != 0)
+        give_up();
+}
+
+/* target: 34962 for vertices, 34963 for indices, 0 for other things. */
+static int put_view(glb *g, const void *bytes, size_t size, int target)
+{
+    static const char zeros[4];
+    fprintf(g->views.stream, "%s{\"buffer\":0,\"byteOffset\":%ld,\"byteLength\":%zu", g->view_count ? "," : "",
+            ftell(g->bytes.stream), size);
+    fprintf(g->views.stream, target ? ",\"target\":%d}" : "}", target);
+    fwrite(bytes, 1, size, g->bytes.stream);
+    fwrite(zeros, 1, (4 - size % 4) % 4, g->bytes.stream);
+    return g->view_count++;
+}
+
+static int put_floats(glb *g, const float *values, uint32_t count, int components, const char *type, int target)
+{
+    int view = put_view(g, values, (size_t)count * (size_t)components * sizeof *values, target);
+    fprintf(g->accessors.stream, "%s{\"bufferView\":%d,\"componentType\":5126,\"count\":%u,\"type\":\"%s\"",
+            g->accessor_count ? "," : "", view, count, type);
+    for (int end = 0; end < 2; end++) {
+        fprintf(g->accessors.stream, end ? ",\"max\":[" : ",\"min\":[");
+        for (int k = 0; k < components; k++) {
+            float most = values[k];
+            for (uint32_t i = 1; i < count; i++) {
+                float value = values[i * (uint32_t)components + (uint32_t)k];
+                most = (end ? value > most : value < most) ? value : most;
+            }
+            fprintf(g->accessors.stream, "%s%.9g", k ? "," : "", (double)most);
+        }
+        fprintf(g->accessors.stream, "]");
+    }
+    fprintf(g->accessors.stream, "}");
+    return g->accessor_count++;
+}
+
+static int put_indices(glb *g, const mesh *m)
+{
+    bool small = m->point_count <= UINT16_MAX;
+    size_t size = small ? sizeof(uint16_t) : sizeof(uint32_t);
+    unsigned char *bytes = malloc(m->index_count * size);
+    if (!bytes)
+        give_up();
+    for (uint32_t i = 0; i < m->index_count; i++)
+        for (size_t k = 0; k < size; k++)
+            bytes[i * size + k] = (unsigned char)(m->indices[i] >> (8 * k));
+    int view = put_view(g, bytes, m->index_count * size, 34963);
+    free(bytes);
+    fprintf(g->accessors.stream, ",{\"bufferView\":%d,\"componentType\":%d,\"count\":%u,\"type\":\"SCALAR\"}", view,
+            small ? 5123 : 5125, m->index_count);
+    return g->accessor_count++;
+}
+
+static void put_mesh(glb *g, const part *p)
+{
+    mesh m = {0};
+    p->build(&m);
+    float *positions = malloc(m.point_count * 3 * sizeof *positions);
+    if (!positions)
+        give_up();
+    for (uint32_t i = 0; i < m.point_count * 3; i++)
+        positions[i] = (float)(m.points[i / 3].at[i % 3] / (grid * 1000)); /* the file's metres */
+    int vertices = put_floats(g, positions, m.point_count, 3, "VEC3", 34962), indices = put_indices(g, &m);
+    fprintf(g->meshes.stream, "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d},\"indices\":%d,\"material\":%d}]}",
+            g->mesh_count ? "," : "", vertices, indices, p->material);
+    free(positions);
+    free(m.points);
+    free(m.indices);
+    g->mesh_count++;
+}
+
+/* One turn of both shafts in four seconds, the driving one the way that brings the oil from the inlet (at +x) to the outlet. */
+static void put_animation(glb *g, FILE *json)
+{
+    enum { KEYS = 4 };
+    static const float times[KEYS] = {0, (float)4 / 3, (float)8 / 3, 4};
+    int input = put_floats(g, times, KEYS, 1, "SCALAR", 0);
+    fprintf(json, "\"animations\":[{\"name\":\"Run\",\"samplers\":[");
+    for (int way = 1; way >= -1; way -= 2) {
+        float values[KEYS][4] = {0};
+        for (int k = 0; k < KEYS; k++) {
+            values[k][2] = (float)(way * round(sin(pi * k / 3) * 1e6) / 1e6);
+            values[k][3] = (float)(round(cos(pi * k / 3) * 1e6) / 1e6);
+        }
+        int output = put_floats(g, values[0], KEYS, 4, "VEC4", 0);
+        fprintf(json, "%s{\"input\":%d,\"output\":%d}", way < 0 ? "," : "", input, output);
+    }
+    fprintf(json, "],\"channels\":[");
+    for (int k = 0; k < 2; k++)
+        fprintf(json, "%s{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"rotation\"}}", k ? "," : "", k,
+                1 + (k ? IDLER : DRIVE));
+    fprintf(json, "]}],");
+}
+
+static void put_translation(FILE *json, const double at[3])
+{
+    if (at[0] != 0 || at[1] != 0 || at[2] != 0)
+        fprintf(json, ",\"translation\":[%.7g,%.7g,%.7g]", at[0] / 1000, at[1] / 1000, at[2] / 1000);
+}
+
+/* Node 0 is the pump, then come the groups, then the parts. */
+static void put_nodes(FILE *json, const assembly *a, const int *mesh_of)
+{
+    fprintf(json, "\"nodes\":[{\"name\":\"Gear pump\",\"children\":[1,2,3,4,5]}");
+    for (int k = 0; k < GROUPS; k++) {
+        fprintf(json, ",{\"name\":\"%s\"", groups[k].name);
+        put_translation(json, groups[k].at);
+        const char *before = ",\"children\":[";
+        for (int i = 0; i < a->count; i++)
+            if ((int)a->parts[i].group == k) {
+                fprintf(json, "%s%d", before, 1 + GROUPS + i);
+                before = ",";
+            }
+        fprintf(json, "]}");
+    }
+    for (int i = 0; i < a->count; i++) {
+        fprintf(json, ",{\"name\":\"%s\",\"mesh\":%d", a->parts[i].name, mesh_of[i]);
+        put_translation(json, a->parts[i].at);
+        fprintf(json, "}");
+    }
+    fprintf(json, "],");
+}
+
+static void put_materials(FILE *json)
+{
+    fprintf(json, "\"materials\":[");
+    for (int k = 0; k < MATERIALS; k++)
+        fprintf(json,
+                "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],\"metallicFactor\":0,"
+                "\"roughnessFactor\":0.6}}",
+                k ? "," : "", materials[k].name, materials[k].colour[0], materials[k].colour[1], materials[k].colour[2]);
+    fprintf(json, "],");
+}
+
+static void put_word(FILE *file, size_t word)
+{
+    for (int k = 0; k < 4; k++)
+        fputc((int)(word >> (8 * k) & 255), file);
+}
+
+static bool save(const char *path, const text *json, const text *bytes)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        return false;
+    size_t padding = (4 - json->size % 4) % 4;
+    fwrite("glTF", 1, 4, file);
+    put_word(file, 2);
+    put_word(file, 12 + 8 + json->size + padding + 8 + bytes->size);
+    put_word(file, json->size + padding);
+    fwrite("JSON", 1, 4, file);
+    fwrite(json->bytes, 1, json->size, file);
+    fwrite("   ", 1, padding, file);
+    put_word(file, bytes->size);
+    fwrite("BIN\0", 1, 4, file);
+    fwrite(bytes->bytes, 1, bytes->size, file);
+    bool good = !ferror(file);
+    return fclose(file) == 0 && good;
+}
+
+int main(int count, char **arguments)
+{
+    if (count != 2)
+        return EXIT_FAILURE;
+    assembly a = {.count = 0};
+    int mesh_of[PARTS_MAX];
+    list_parts(&a);
+    glb g = {0};
+    text json, *lists[] = {&g.bytes, &g.views, &g.accessors, &g.meshes, &json};
+    for (int k = 0; k < 5; k++)
+        text_start(lists[k]);
+    fprintf(json.stream, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner make_pump\",\"copyright\":\"CC0-1.0\"},"
+                         "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],");
+    for (int i = 0; i < a.count; i++) {
+        int like = 0;
+        while (a.parts[like].build != a.parts[i].build)
+            like++;
+        mesh_of[i] = like < i ? mesh_of[like] : g.mesh_count;
+        if (like == i)
+            put_mesh(&g, &a.parts[i]);
+    }
+    put_nodes(json.stream, &a, mesh_of);
+    put_animation(&g, json.stream);
+    put_materials(json.stream);
+    for (int k = 0; k < 4; k++)
+        text_end(lists[k]);
+    fprintf(json.stream, "\"meshes\":[%s],\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}",
+            g.meshes.bytes, g.accessors.bytes, g.views.bytes, g.bytes.size);
+    text_end(&json);
+    bool saved = save(arguments[1], &json, &g.bytes);
+    for (int k = 0; k < 5; k++)
+        free(lists[k]->bytes);
+    return saved ? EXIT_SUCCESS : EXIT_FAILURE;
+}
