@@ -170,6 +170,7 @@ static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap
     draw_item item = upload_item(job, cap->primitive);
     item.world = *world;
     item.is_cut = true;
+    item.nearer = job->nearer;
     item.has_uvs = item.has_colours = false;
     item.surface_id = cap_id(&u->section.cut, cap);
     if (status == LMN_OK)
