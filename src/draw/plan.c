@@ -86,7 +86,7 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
-    f->channels = channels_of(r, f->part_count > 1 || p->has_cut);
+    f->channels = channels_of(r, f->part_count > 1 || p->has_cut) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
