@@ -333,7 +333,7 @@ static int draw_picture(session *s, const lmn_scene *scene, const char *input, l
     if (s->values->verbose)
         message_note("%s: drawn in %.0f ms", input, now_ms() - start);
     if (!s->values->quiet)
-        print_warnings(drawing, v->verbose);
+        print_warnings(drawing, s->values->verbose);
     int status = store_picture(s, drawing, input, frame, load_ms);
     lmn_drawing_destroy(&drawing);
     return status;

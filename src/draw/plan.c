@@ -96,15 +96,13 @@ static void find_solid_parts(plan *p)
             }
 }
 
-static void settle_layers(figure *f, bool has_cut, bool as_sprites)
+static void settle_layers(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
-    f->channels = channels_of(r, f->part_count > 1);
-    if (has_cut)
-        f->channels |= CHANNEL_ID;
+    f->channels = channels_of(r, f->part_count > 1 || p->has_cut) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
@@ -117,7 +115,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
     f->layered = is_seen_through(r);
     if (f->layered) {
-        settle_layers(f, p->has_cut, as_sprites);
+        settle_layers(f, p, as_sprites);
         return;
     }
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
@@ -126,7 +124,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred;
-    f->channels = channels_of(r, f->complement || f->part_count > 1) | CHANNEL_SHADE;
+    f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
     if (f->deferred)

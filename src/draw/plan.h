@@ -33,8 +33,8 @@ typedef struct plan {
     size_t           selected_count, solid_count;
     figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
     size_t           figure_count;
-    bool             has_cut; /* there are cut faces, known by their ids */
-    box3             box; /* of the selection, which the picture is fitted to */
+    box3             box; /* of the selection, which the picture is fitted to, before it is cut */
+    bool             has_cut; /* there are cut faces */
 } plan;
 
 /* Lengths in pixels are multiplied by `pixel_scale`. `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),
