@@ -27,6 +27,10 @@ bool is_own(ivec2 at)
 #endif
 }
 
+#ifdef HAS_CUT
+#include "light/cut.glsl"
+#endif
+
 vec4 layer_fill(ivec2 pixel);
 
 #ifdef HAS_LINES
@@ -42,10 +46,21 @@ float ink_before(ivec2 at)
 }
 #endif
 
+#ifdef HAS_CUT
+float hatch_of(ivec2 pixel)
+{
+    return is_own(pixel) ? cut_hatch(pixel, texelFetch(t_id, pixel, 0).rg) : 0.0;
+}
+#endif
+
 /* Ink of this layer as its place in the stack leaves it. */
 vec4 stacked_ink(ivec2 pixel)
 {
     vec4 ink = layer_ink(ink_at(pixel));
+#ifdef HAS_CUT
+    /* Cut faces are hatched in the ink of the lines. */
+    ink = over(ink, vec4(u_line_colour.rgb, 1.0) * (u_line_colour.a * hatch_of(pixel)));
+#endif
     int hidden = u_layer > 0 && ink.a > 0.0 ? 1 : 0;
     for (int once = 0; once < hidden; once++) {
         ink *= u_hidden_opacity * pow(u_fade, float(u_layer - 1));

@@ -4,6 +4,11 @@
 vec4 layer_fill(ivec2 pixel)
 {
     float opacity = u_opacity;
+#ifdef HAS_CUT
+    /* Cut faces are what the section is made for: nearly solid. */
+    if ((texelFetch(t_id, pixel, 0).g & 0x20000000u) != 0u)
+        opacity = 1.0 - 0.2 * (1.0 - opacity);
+#endif
     int slanted = u_rim > 0.0 ? 1 : 0;
     for (int once = 0; once < slanted; once++) {
         vec3 ray = normalize(vec3((2.0 * gl_FragCoord.xy / u_size - 1.0) * u_unproject * u_perspective, -1.0));

@@ -80,13 +80,15 @@ static bool has_active_pass(const technique_use *use)
     return false;
 }
 
-static void settle_layers(figure *f, bool as_sprites)
+static void settle_layers(figure *f, bool has_cut, bool as_sprites)
 {
     const rule *r = f->rule;
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
     f->channels = channels_of(r, f->part_count > 1);
+    if (has_cut)
+        f->channels |= CHANNEL_ID;
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
@@ -99,7 +101,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS), *compose = rule_use(r, KIND_COMPOSE);
     f->layered = compose && compose->technique->layered;
     if (f->layered) {
-        settle_layers(f, as_sprites);
+        settle_layers(f, p->has_cut, as_sprites);
         return;
     }
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
@@ -348,6 +350,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     out->scene = scene;
     out->look = look;
     out->box = box3_empty();
+    out->has_cut = up->has_cut;
     out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);

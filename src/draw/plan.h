@@ -32,6 +32,7 @@ typedef struct plan {
     size_t           selected_count;
     figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
     size_t           figure_count;
+    bool             has_cut; /* there are cut faces, known by their ids */
     box3             box; /* of the selection, which the picture is fitted to */
 } plan;
 
