@@ -189,7 +189,7 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
     if (s->shared)
         text_append(prelude, "#define SHARED_LAYERS\n");
     if (s->targets[TARGET_ID])
-        text_append(prelude, "#define HAS_ID\n");
+        text_append(prelude, "#define HAS_ID\n%s", f->plan->has_cut ? "#define HAS_CUT\n" : "");
 }
 
 void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)

@@ -28,8 +28,6 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
-    if (f->up->has_cut && s->targets[TARGET_ID])
-        text_append(&prelude, "#define HAS_CUT\n");
     return program_of(f, GPU_FLOOR, s->boxes ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
 }
 

@@ -29,11 +29,12 @@ typedef struct plan {
     rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t           rule_count;
     bool            *selected; /* per part: drawn by some figure */
-    size_t           selected_count;
+    bool            *solid;    /* per part: drawn by a figure that is not seen through, so that it may hide others */
+    size_t           selected_count, solid_count;
     figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
     size_t           figure_count;
-    bool             has_cut; /* there are cut faces, known by their ids */
-    box3             box; /* of the selection, which the picture is fitted to */
+    box3             box; /* of the selection, which the picture is fitted to, before it is cut */
+    bool             has_cut; /* there are cut faces */
 } plan;
 
 /* Lengths in pixels are multiplied by `pixel_scale`. `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),

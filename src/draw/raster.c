@@ -10,7 +10,7 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
 {
     if (f->mirror && f->mirror->designated[item->part_index])
         return false; /* a mirror does not see itself */
-    return fig->designated[item->part_index] || (fig->complement && f->plan->selected[item->part_index]);
+    return fig->designated[item->part_index] || (fig->complement && f->plan->solid[item->part_index]);
 }
 
 /* The item's material; `room` holds it when it is painted in the figure's highlight. */
@@ -283,6 +283,8 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     bool other = job->state && !job->only && !s->figure->designated[item->part_index];
     gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
     gpu_set_uint(f->g, "u_order", last->triangles);
+    if (item->is_cut)
+        gpu_set_float(f->g, "u_nearer", 2 * item->nearer);
     gpu_draw_mesh(f->g, item->mesh);
     last->triangles += gpu_mesh_triangles(item->mesh);
 }
@@ -357,7 +359,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
-    if (f->up->has_cut)
+    if (f->plan->has_cut)
         text_append(&prelude, "#define HAS_CUT\n");
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);

@@ -15,6 +15,7 @@ typedef struct draw_item {
     int32_t   material;
     bool      has_uvs, has_colours;
     bool      is_cut; /* a cut face: unlit, hatched */
+    float     nearer; /* window depth by which it is drawn nearer, so that cut faces of parts that overlap do not flicker */
 } draw_item;
 
 /* What is cut away, and which parts stay whole all the same. */
@@ -29,6 +30,7 @@ typedef struct upload {
     upload_section section;
     size_t        open_parts; /* some of whose sections are not closed */
     bool          has_cut;    /* there are cut faces */
+    double        extent;     /* of the scene at rest */
     mat4         *worlds;
     box3         *part_boxes; /* world axes */
     size_t        part_count;

@@ -32,6 +32,7 @@ typedef struct upload_part_job {
     cut_input  *inputs;
     vec3      **input_positions;
     box3        box;    /* of the pose */
+    float       nearer; /* of its cut faces */
     bool        open;
 } upload_part_job;
 

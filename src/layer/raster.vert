@@ -8,6 +8,9 @@ layout(location = 4) in vec4 a_colour;
 uniform mat4 u_model_view;
 uniform mat3 u_normal_matrix;
 uniform mat4 u_projection;
+#ifdef CUT_FACE
+uniform float u_nearer; /* in clip space */
+#endif
 
 #ifdef LAYERED
 /* Every pass must find the same depth: layers are told apart by it. */
@@ -37,4 +40,7 @@ void main()
     v_colour = a_colour;
 #endif
     gl_Position = u_projection * eye;
+#ifdef CUT_FACE
+    gl_Position.z -= u_nearer * gl_Position.w;
+#endif
 }

@@ -3,16 +3,17 @@ uniform vec4  u_cut_lines;  /* distance and width in pixels, angle in radians */
 uniform vec4  u_cut_colour; /* of the lines, linear, straight alpha */
 uniform vec4  u_cut_fill;   /* w below 0: from the part's own colour */
 
-/* How much of the pixel the hatch covers, 0 where the id is no cut face's. As draughtsmen do, each part turns its lines, and what
- * has the same angle has another distance. */
+/* How much of the pixel the hatch covers, 0 where the id is no cut face's. As draughtsmen do, each part and body turns its lines,
+ * and what has the same angle has another distance; planes that meet in a corner differ as well. */
 float cut_hatch(ivec2 pixel, uvec2 id)
 {
     if ((id.g & 0x20000000u) == 0u || u_cut_lines.x <= 0.0)
         return 0.0;
     const float turns[6] = float[6](0.0, 90.0, -15.0, 105.0, 15.0, 75.0);
+    const float axes[4] = float[4](0.0, 90.0, 50.0, 0.0);
     const float scales[3] = float[3](1.0, 0.8, 1.25);
-    uint index = id.r + ((id.g >> 6) & 0x3FFFu) - 1u;
-    float angle = u_cut_lines.z + radians(turns[index % 6u]);
+    uint index = id.r + ((id.g >> 8) & 0xFFFu) - 1u;
+    float angle = u_cut_lines.z + radians(turns[index % 6u] + axes[(id.g >> 6) & 3u]);
     float apart = u_cut_lines.x * scales[(index / 2u) % 3u];
     float across = dot(vec2(pixel) + 0.5, vec2(-sin(angle), cos(angle))) + 0.37 * float(index);
     float off = abs(mod(across, apart) - 0.5 * apart);

@@ -59,6 +59,7 @@ typedef struct param {
     bool               cpu_only;    /* no uniform */
     bool               along;       /* a length along lines, which makes them no wider */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
+    const char        *example;     /* PARAM_TEXT: a value that does something, for tests */
     const char        *doc;         /* one line, ends in a full stop */
     const char        *since, *was;
 } param;

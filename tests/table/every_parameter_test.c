@@ -121,9 +121,8 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
         for (size_t i = 0; i < 3; i++)
             snprintf(values[count++], TEXT_SIZE, "%s", p->type == PARAM_COLOUR ? colours[i] : axes[i]);
         break;
-    case PARAM_TEXT: /* rooms with texts have tests of their own; these are words that several of them understand */
-        snprintf(values[count++], TEXT_SIZE, "%s", "ball");
-        snprintf(values[count++], TEXT_SIZE, "%s", "x");
+    case PARAM_TEXT:
+        snprintf(values[count++], TEXT_SIZE, "%s", p->example);
         break;
     case PARAM_PALETTE:
         for (size_t i = 0; i < 2; i++)
@@ -148,7 +147,7 @@ static void make_term_hold(lmn_look *look, const kind *k, const technique *t, co
     else if (p->type == PARAM_BOOL)
         snprintf(value, sizeof value, "true");
     else if (p->type == PARAM_TEXT)
-        snprintf(value, sizeof value, "ball");
+        snprintf(value, sizeof value, "%s", p->example);
     else if (p->type == PARAM_ENUM)
         snprintf(value, sizeof value, "%s", p->names[term[length] == '<' ? 0 : (size_t)bound + 1]);
     else

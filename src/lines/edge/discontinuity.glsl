@@ -1,6 +1,7 @@
 /* See discontinuity.c. A pixel is ink when visibility, orientation or part changes between it and one of its four neighbours. */
 #include "lines/edge/edge.glsl"
 
+#include "light/piece.glsl"
 #include "light/point.glsl"
 
 /* Sixteen steps of a float below 1: what the rasteriser's rounding can add up to over the depths that are compared. Where the
@@ -23,7 +24,7 @@ vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uint id, float
     float inner = clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) * crease_weight;
     float between = 0.0;
 #if PARTS && defined(HAS_ID)
-    uint other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).r;
+    uint other_id = piece_of(textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg);
     between = other_id != id ? (across > 0.0 ? 1.0 : far_weight) : 0.0;
 #endif
     return vec2(inner, between);
@@ -70,7 +71,7 @@ void detect_edges()
         tolerance = max(tolerance, DEPTH_NOISE);
         uint id = 0u;
 #if PARTS && defined(HAS_ID)
-        id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).r;
+        id = piece_of(textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg);
 #endif
         float second = clamp(u_line_width - 1.0, 0.0, 1.0);
         vec2 to_right = inner_and_id(vec2(1.0, 0.0), right - depth, normal, ray, id, 1.0, second);

@@ -1,11 +1,12 @@
 /* Ink where any of the four diagonal and four straight neighbours inside the width has another id. Ids are never filtered. */
 #include "lines/edge/edge.glsl"
+#include "light/piece.glsl"
 
 uint id_at(ivec2 off)
 {
     uvec2 id = texelFetch(t_id, clamp(ivec2(gl_FragCoord.xy) + off, ivec2(0), ivec2(u_size) - 1), 0).rg;
 #if OF == 0
-    return id.r;
+    return piece_of(id);
 #else
     return id.r * 4096u + (id.g & 0x3FFFFFFFu);
 #endif
