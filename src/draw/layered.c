@@ -422,14 +422,29 @@ static void draw_bands(frame *f, layer_stack *stack)
     }
 }
 
+/* The depth of all that is to be uncovered, by whatever figure. */
+static void draw_mask(frame *f, layer_stack *stack)
+{
+    size_t count = f->plan->scene->part_count;
+    bool any = false, *parts = mem_calloc(count, sizeof *parts);
+    if (!parts) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    for (int i = 0; i < stack->count; i++)
+        for (size_t part = 0; stack->states[i].figure->focus && part < count; part++)
+            any |= parts[part] |= stack->states[i].figure->focus[part];
+    if (any)
+        raster_mask(f, stack, parts);
+    mem_free(parts);
+}
+
 void layered_draw(frame *f, const figure *figures, int count)
 {
     layer_stack stack;
     stack_open(f, &stack, figures, count);
     if (stack.count && !gpu_failed(f->g)) {
-        for (int i = 0; i < stack.count && !stack.mask; i++)
-            if (stack.states[i].figure->focus)
-                raster_mask(f, &stack, stack.states[i].figure->focus);
+        draw_mask(f, &stack);
         clear_sum(f, &stack);
         draw_bands(f, &stack);
     }
