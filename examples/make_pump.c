@@ -1,388 +1,15 @@
 /* Writes the example model of a gear pump: make_pump OUT.glb
  *
- * Every part is one closed shell. It is sewn from rings of shared points, and each ring is used twice: where one strip or
- * flat face ends, the next begins. So no part needs a boolean operation, and a hole that leads through is simply a longer walk.
- * Points lie on a grid of 0.1 µm and all decisions are made in whole numbers, so that every machine writes the same bytes.
- * Lengths are millimetres; the shafts run along z, the driving end is at +z, +y is up. */
+ * Every part is one closed shell (solid.h), and no part cuts into another: what fits has a clearance of some hundredths. Threads
+ * are left out, as on drawings. Lengths are millimetres; the shafts run along z, the driving end is at +z, +y is up. The inlet is
+ * at +x, the outlet at −x. */
+#include "solid.h"
+
 #include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { RING_MAX = 640, LOOP_MAX = 2400, HOLES_MAX = 16, ROUND = 64, SMALL_ROUND = 40 };
-
-static const double pi = 3.14159265358979323846;
-static const double grid = 10000; /* steps per millimetre */
-
-/* --- meshes and rings -------------------------------------------------------------------------------------------- */
-
-typedef struct point {
-    int32_t at[3];
-} point;
-
-typedef struct mesh {
-    point    *points;
-    uint32_t *indices;
-    uint32_t  point_count, index_count, point_space, index_space;
-} mesh;
-
-/* Directions that a ring can be stood up in, or a flat face look at. */
-typedef enum direction { RIGHT, LEFT, UP, DOWN, FRONT, BACK } direction;
-
-/* A closed plane curve, counter-clockwise. The third number is how far a point stands out of the plane. */
-typedef struct outline {
-    int    count;
-    double at[RING_MAX][3];
-} outline;
-
-/* Points of a mesh, in order. */
-typedef struct ring {
-    int      count;
-    uint32_t at[RING_MAX];
-} ring;
-
-/* Where outlines are placed: u, v and the way along `along` make a right-handed system. */
-typedef struct frame {
-    double    origin[3];
-    direction along;
-} frame;
-
-static const struct {
-    int u, v, t; /* axes */
-    int sign;    /* of t */
-} systems[] = {
-    [RIGHT] = {1, 2, 0, 1}, [LEFT] = {2, 1, 0, -1}, [UP] = {2, 0, 1, 1},
-    [DOWN] = {0, 2, 1, -1}, [FRONT] = {0, 1, 2, 1}, [BACK] = {1, 0, 2, -1},
-};
-
-/* Nothing that fails here can be mended by whoever runs the program, so there are no messages but the exit status. */
-static void give_up(void)
-{
-    exit(EXIT_FAILURE);
-}
-
-static void *grow(void *array, uint32_t count, uint32_t *space, size_t size)
-{
-    if (count < *space)
-        return array;
-    *space = *space ? *space * 2 : 1024;
-    void *bigger = realloc(array, *space * size);
-    if (!bigger)
-        give_up();
-    return bigger;
-}
-
-static uint32_t put_point(mesh *m, const frame *f, double u, double v, double t)
-{
-    m->points = grow(m->points, m->point_count, &m->point_space, sizeof *m->points);
-    point *p = &m->points[m->point_count];
-    double at[3] = {f->origin[0], f->origin[1], f->origin[2]};
-    at[systems[f->along].u] += u;
-    at[systems[f->along].v] += v;
-    at[systems[f->along].t] += systems[f->along].sign * t;
-    for (int k = 0; k < 3; k++)
-        p->at[k] = (int32_t)lround(at[k] * grid);
-    return m->point_count++;
-}
-
-static void put_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c)
-{
-    const uint32_t corners[3] = {a, b, c};
-    for (int k = 0; k < 3; k++) {
-        m->indices = grow(m->indices, m->index_count, &m->index_space, sizeof *m->indices);
-        m->indices[m->index_count++] = corners[k];
-    }
-}
-
-static ring put_ring(mesh *m, const frame *f, const outline *o, double t)
-{
-    ring r = {.count = o->count};
-    for (int i = 0; i < o->count; i++)
-        r.at[i] = put_point(m, f, o->at[i][0], o->at[i][1], t + o->at[i][2]);
-    return r;
-}
-
-/* The columns first … first + count − 1 between two rings. Walk so that the solid is at the left hand of who looks from the
- * axis: outer walls in the frame's direction, holes against it, faces at the far end inwards. */
-static void sew_columns(mesh *m, const ring *a, const ring *b, int first, int count)
-{
-    if (a->count != b->count)
-        give_up();
-    for (int k = first; k < first + count; k++) {
-        int i = k % a->count, j = (k + 1) % a->count;
-        put_triangle(m, a->at[i], a->at[j], b->at[j]);
-        put_triangle(m, a->at[i], b->at[j], b->at[i]);
-    }
-}
-
-static void sew(mesh *m, const ring *a, const ring *b)
-{
-    sew_columns(m, a, b, 0, a->count);
-}
-
-/* --- flat faces -------------------------------------------------------------------------------------------------- */
-
-typedef struct corner {
-    int64_t  u, v;
-    uint32_t index;
-} corner;
-
-typedef struct loop {
-    int    count;
-    corner at[LOOP_MAX];
-} loop;
-
-/* Twice the area of a triangle; exact. */
-static int64_t turn(corner a, corner b, corner c)
-{
-    return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-}
-
-static int64_t distance_squared(corner a, corner b)
-{
-    return (b.u - a.u) * (b.u - a.u) + (b.v - a.v) * (b.v - a.v);
-}
-
-static bool same(corner a, corner b)
-{
-    return a.u == b.u && a.v == b.v;
-}
-
-static bool opposite(int64_t a, int64_t b)
-{
-    return (a <= 0 && b >= 0) || (a >= 0 && b <= 0);
-}
-
-static bool apart(corner p, corner q, corner a, corner b)
-{
-    return (a.u > p.u && a.u > q.u && b.u > p.u && b.u > q.u) || (a.u < p.u && a.u < q.u && b.u < p.u && b.u < q.u) ||
-           (a.v > p.v && a.v > q.v && b.v > p.v && b.v > q.v) || (a.v < p.v && a.v < q.v && b.v < p.v && b.v < q.v);
-}
-
-/* Whether edge a–b stands in the way of the segment p–q. Meeting at an end does not, running along it does. */
-static bool blocks(corner p, corner q, corner a, corner b)
-{
-    if (apart(p, q, a, b))
-        return false;
-    bool at_a = same(a, p) || same(a, q), at_b = same(b, p) || same(b, q);
-    if (at_a && at_b)
-        return false;
-    if (at_a || at_b) {
-        corner shared = at_a ? a : b, other = at_a ? b : a, far = same(shared, p) ? q : p;
-        int64_t ahead = (far.u - shared.u) * (other.u - shared.u) + (far.v - shared.v) * (other.v - shared.v);
-        return turn(p, q, other) == 0 && ahead > 0;
-    }
-    return opposite(turn(p, q, a), turn(p, q, b)) && opposite(turn(a, b, p), turn(a, b, q));
-}
-
-static bool loop_blocks(const loop *l, corner p, corner q)
-{
-    for (int i = 0; i < l->count; i++)
-        if (blocks(p, q, l->at[i], l->at[(i + 1) % l->count]))
-            return true;
-    return false;
-}
-
-/* Whether the way from corner i to a point begins inside the loop, which has its inside at the left. */
-static bool begins_inside(const loop *l, int i, corner to)
-{
-    corner at = l->at[i], before = l->at[(i + l->count - 1) % l->count], after = l->at[(i + 1) % l->count];
-    if (turn(before, at, after) >= 0)
-        return turn(at, to, before) > 0 && turn(to, at, after) > 0;
-    return !(turn(at, to, after) >= 0 && turn(to, at, before) >= 0);
-}
-
-static void loop_of_ring(loop *l, const mesh *m, const ring *r, direction facing, bool hole)
-{
-    int64_t area = 0;
-    l->count = r->count;
-    for (int i = 0; i < r->count; i++) {
-        const int32_t *at = m->points[r->at[i]].at;
-        l->at[i] = (corner){at[systems[facing].u], at[systems[facing].v], r->at[i]};
-    }
-    for (int i = 0; i < l->count; i++) {
-        corner a = l->at[i], b = l->at[(i + 1) % l->count];
-        area += a.u * b.v - a.v * b.u;
-    }
-    if ((area < 0) != hole)
-        for (int i = 0, j = l->count - 1; i < j; i++, j--) {
-            corner kept = l->at[i];
-            l->at[i] = l->at[j];
-            l->at[j] = kept;
-        }
-}
-
-static bool hidden(const loop *main, const loop *holes, int hole_count, corner p, corner q)
-{
-    bool blocked = loop_blocks(main, p, q);
-    for (int h = 0; h < hole_count && !blocked; h++)
-        blocked = loop_blocks(&holes[h], p, q);
-    return blocked;
-}
-
-/* Joins the hole that is nearest to the main loop by a bridge to and fro, and drops it from the list. */
-static void bridge_hole(loop *main, loop *holes, int hole_count)
-{
-    int64_t best = INT64_MAX;
-    int hole = -1, from = 0, to = 0;
-    for (int h = 0; h < hole_count; h++)
-        for (int i = 0; i < main->count; i++)
-            for (int j = 0; j < holes[h].count; j++) {
-                corner p = main->at[i], q = holes[h].at[j];
-                int64_t length = distance_squared(p, q);
-                if (length >= best || !begins_inside(main, i, q) || !begins_inside(&holes[h], j, p) ||
-                    hidden(main, holes, hole_count, p, q))
-                    continue;
-                best = length;
-                hole = h;
-                from = i;
-                to = j;
-            }
-    if (hole < 0 || main->count + holes[hole].count + 2 > LOOP_MAX)
-        give_up();
-    int more = holes[hole].count + 2;
-    memmove(&main->at[from + more], &main->at[from], (size_t)(main->count - from) * sizeof *main->at);
-    for (int k = 0; k <= holes[hole].count; k++)
-        main->at[from + 1 + k] = holes[hole].at[(to + k) % holes[hole].count];
-    main->count += more;
-    holes[hole] = holes[hole_count - 1];
-}
-
-/* Cuts off the ear with the shortest diagonal, which keeps the triangles compact. */
-static void clip_ear(mesh *m, loop *l)
-{
-    int64_t best = INT64_MAX;
-    int ear = -1;
-    for (int i = 0; i < l->count; i++) {
-        int h = (i + l->count - 1) % l->count, j = (i + 1) % l->count;
-        corner a = l->at[h], b = l->at[i], c = l->at[j];
-        int64_t length = distance_squared(a, c);
-        if (length >= best || turn(a, b, c) <= 0)
-            continue;
-        if (l->count > 3 && (!begins_inside(l, h, c) || !begins_inside(l, j, a) || loop_blocks(l, a, c)))
-            continue;
-        best = length;
-        ear = i;
-    }
-    if (ear < 0)
-        give_up();
-    put_triangle(m, l->at[(ear + l->count - 1) % l->count].index, l->at[ear].index, l->at[(ear + 1) % l->count].index);
-    l->count--;
-    memmove(&l->at[ear], &l->at[ear + 1], (size_t)(l->count - ear) * sizeof *l->at);
-}
-
-/* A flat face with holes. The rings may run either way. */
-static void cap(mesh *m, direction facing, const ring *outer, const ring *holes, int hole_count)
-{
-    static loop main, inner[HOLES_MAX];
-    loop_of_ring(&main, m, outer, facing, false);
-    for (int h = 0; h < hole_count; h++)
-        loop_of_ring(&inner[h], m, &holes[h], facing, true);
-    for (; hole_count > 0; hole_count--)
-        bridge_hole(&main, inner, hole_count);
-    while (main.count >= 3)
-        clip_ear(m, &main);
-}
-
-/* --- outlines and solids of revolution --------------------------------------------------------------------------- */
-
-static void add_point(outline *o, double u, double v)
-{
-    if (o->count == RING_MAX)
-        give_up();
-    o->at[o->count][0] = u;
-    o->at[o->count][1] = v;
-    o->at[o->count++][2] = 0;
-}
-
-/* An arc of so many segments with both its ends; angles in degrees. */
-static void add_arc(outline *o, double u, double v, double radius, double from, double to, int segments)
-{
-    for (int i = 0; i <= segments; i++) {
-        double angle = (from + (to - from) * i / segments) * pi / 180;
-        add_point(o, u + radius * cos(angle), v + radius * sin(angle));
-    }
-}
-
-static outline circle(double u, double v, double radius, int segments)
-{
-    outline o = {0};
-    add_arc(&o, u, v, radius, 0, 360, segments);
-    o.count--; /* the end is the start */
-    return o;
-}
-
-/* Two arcs, one over the other, joined by straight sides: the shape of the pump and of its chamber. The arcs begin at angle
- * `from` below the horizontal. Column `segments` is the left side, the last column the right one. */
-static outline double_round(double half_distance, double radius, double from, int segments)
-{
-    outline o = {0};
-    add_arc(&o, 0, half_distance, radius, -from, 180 + from, segments);
-    add_arc(&o, 0, -half_distance, radius, 180 - from, 360 + from, segments);
-    return o;
-}
-
-static outline rectangle(double left, double bottom, double right, double top)
-{
-    outline o = {0};
-    add_point(&o, left, bottom);
-    add_point(&o, right, bottom);
-    add_point(&o, right, top);
-    add_point(&o, left, top);
-    return o;
-}
-
-/* Strips through rings of radius r at t. Radius 0 ends the shell (or begins it) in a point. The first and the last ring are
- * for whoever goes on from there. */
-static void lathe(mesh *m, const frame *f, const double (*profile)[2], int count, int segments, ring *first, ring *last)
-{
-    ring before = {0};
-    for (int k = 0; k < count; k++) {
-        double t = profile[k][0], radius = profile[k][1];
-        outline o = circle(0, 0, radius, segments);
-        ring here = {.count = segments};
-        if (radius > 0) {
-            here = put_ring(m, f, &o, t);
-        } else {
-            uint32_t tip = put_point(m, f, 0, 0, t);
-            for (int i = 0; i < segments; i++)
-                here.at[i] = tip;
-        }
-        for (int i = 0; k > 0 && i < segments; i++) {
-            int j = (i + 1) % segments;
-            if (before.at[i] != before.at[j])
-                put_triangle(m, before.at[i], before.at[j], here.at[j]);
-            if (here.at[i] != here.at[j])
-                put_triangle(m, before.at[i], here.at[j], here.at[i]);
-        }
-        if (k == 0 && first)
-            *first = here;
-        before = here;
-    }
-    if (last)
-        *last = before;
-}
-
-#define LATHE(mesh, frame, segments, first, last, ...)                                                                             \
-    lathe(mesh, frame, (const double[][2]){__VA_ARGS__}, (int)(sizeof((const double[][2]){__VA_ARGS__}) / sizeof(double[2])),      \
-          segments, first, last)
-
-/* A plate with holes between two heights. */
-static void extrude(mesh *m, const outline *outer, const outline *holes, int hole_count, double from, double to)
-{
-    const frame f = {.along = FRONT};
-    ring low = put_ring(m, &f, outer, from), high = put_ring(m, &f, outer, to), low_holes[HOLES_MAX], high_holes[HOLES_MAX];
-    sew(m, &low, &high);
-    for (int h = 0; h < hole_count; h++) {
-        low_holes[h] = put_ring(m, &f, &holes[h], from);
-        high_holes[h] = put_ring(m, &f, &holes[h], to);
-        sew(m, &high_holes[h], &low_holes[h]);
-    }
-    cap(m, BACK, &low, low_holes, hole_count);
-    cap(m, FRONT, &high, high_holes, hole_count);
-}
+enum { ROUND = 64, SMALL_ROUND = 40 };
 
 /* --- dimensions that parts share --------------------------------------------------------------------------------- */
 
@@ -390,27 +17,28 @@ enum { TEETH = 13, BODY_ARC = 48, CHAMBER_ARC = 72 };
 
 static const double module = 3;
 static const double axle = 19.5;          /* the shafts are at y = ±axle: half of module · TEETH */
-static const double body_radius = 37;
+static const double flange_radius = 37, body_radius = 31;
 static const double chamber_radius = 22.55;
 static const double pocket = 8;           /* half the height of the flat walls in which the ports open */
 static const double joint = 32;           /* housing up to here, then the gasket */
 static const double cover_back = 33, cover_front = 50;
 static const double bolt_circle = 29, bolt_seat = 49;
-static const double port_height = 16.5;   /* z of the ports */
-static const double valve_z = -12;        /* the relief valve lies between the bearings */
+static const double port_z = 8.5;
+static const double valve_z = -13;        /* the relief valve lies between the bearings */
 static const double valve_seat = 11;      /* the seat is the cone r = x + valve_seat */
-static const double ball_radius = 4, fit = 0.03;
+static const double ball_radius = 4, plug_tip = 21.5;
+static const double fit = 0.03;           /* clearance of parts that sit tight */
 
 static void bolt_place(int index, double at[2])
 {
-    double angle = (30 + 60 * index) * pi / 180;
+    double angle = (30 + 60 * index) * PI / 180;
     at[0] = bolt_circle * cos(angle);
     at[1] = bolt_circle * sin(angle) + (index < 3 ? axle : -axle);
 }
 
 static double pocket_angle(double radius)
 {
-    return asin((axle - pocket) / radius) * 180 / pi;
+    return asin((axle - pocket) / radius) * 180 / PI;
 }
 
 static double ball_place(void)
@@ -420,19 +48,22 @@ static double ball_place(void)
 
 /* --- housing ----------------------------------------------------------------------------------------------------- */
 
-enum { BODY_RINGS = 5, SIDE_LEFT = BODY_ARC, LOWER_ARC = BODY_ARC + 1, SIDE_RIGHT = 2 * BODY_ARC + 1 };
+/* The body's rings from the back: its edge, its wall with the foot in the middle, then the flange. Rings 1 to 4 bound the sides. */
+enum { BODY_RINGS = 8, WALL_FIRST = 1, FOOT_BACK = 2, FOOT_FRONT = 3, WALL_LAST = 4 };
+
+enum { SIDE_LEFT = BODY_ARC, LOWER_ARC = BODY_ARC + 1, SIDE_RIGHT = 2 * BODY_ARC + 1 };
 
 /* One port from the outside of its boss into the chamber. `base` is where the boss stands on the side of the body, `mouth` the
  * hole in the chamber's wall. */
 static void port(mesh *m, direction side, ring *base, ring *mouth)
 {
-    const frame f = {{0, 0, port_height}, side};
-    double wall = chamber_radius * cos(pocket_angle(chamber_radius) * pi / 180);
-    LATHE(m, &f, ROUND, base, mouth, {body_radius, 14.5}, {42, 14.5}, {43, 13.5}, {43, 10.5}, {42, 9.5}, {29, 9.5}, {27.5, 7},
+    const frame f = {{0, 0, port_z}, side};
+    double wall = chamber_radius * cos(pocket_angle(chamber_radius) * PI / 180);
+    LATHE(m, &f, ROUND, base, mouth, {body_radius, 12.5}, {39, 12.5}, {40, 11.5}, {40, 9.5}, {39, 8.5}, {28, 8.5}, {26.5, 7},
           {wall, 7});
 }
 
-/* A length of a bore along x whose wall has a hole towards +z, drilled from the floor of the chamber. The wall is a grid of
+/* A length of a bore along x whose wall has a hole towards +z, drilled from the floor of the chamber. The wall is a GRID of
  * which a window is left out; the drilled hole's edge has as many points as the window's. */
 static ring branch(mesh *m, const frame *f, const ring *start, double radius, double middle, double half, double drill, int wide,
                    ring *mouth)
@@ -459,7 +90,7 @@ static ring branch(mesh *m, const frame *f, const ring *start, double radius, do
         window.at[window.count++] = rows[j].at[last];
     for (int i = 0; i < window.count; i++) {
         const int32_t *at = m->points[window.at[i]].at;
-        double angle = atan2(at[1] / grid, at[0] / grid - middle);
+        double angle = atan2(at[1] / GRID, at[0] / GRID - middle);
         double y = drill * sin(angle);
         add_point(&edge, middle + drill * cos(angle), y);
         edge.at[i][2] = f->origin[2] + sqrt(radius * radius - y * y);
@@ -496,11 +127,11 @@ static outline foot_outline(void)
 {
     outline o = {0};
     add_point(&o, -body_radius, -axle);
-    add_arc(&o, -43, -50, 6, 0, -90, 8);
-    add_arc(&o, -55, -59, 3, 90, 180, 6);
-    add_point(&o, -58, -66);
-    add_point(&o, -26, -66);
-    add_point(&o, -26, -64.5);
+    add_arc(&o, -37, -50, 6, 0, -90, 8);
+    add_arc(&o, -53, -59, 3, 90, 180, 6);
+    add_point(&o, -56, -66);
+    add_point(&o, -24, -66);
+    add_point(&o, -24, -64.5);
     for (int i = o.count - 1; i >= 0; i--)
         add_point(&o, -o.at[i][0], o.at[i][1]);
     return o;
@@ -533,7 +164,7 @@ static void foot(mesh *m, const ring *back, const ring *front, double from, doub
     for (int side = -1; side <= 1; side += 2) {
         ring upper[2], lower[2];
         for (int h = 0; h < 2; h++) {
-            const frame hole = {{50 * side, 0, h ? to - 8 : from + 8}, UP};
+            const frame hole = {{46 * side, 0, h ? to - 8 : from + 8}, UP};
             LATHE(m, &hole, SMALL_ROUND, &upper[h], &lower[h], {-56, 4.5}, {-66, 4.5});
         }
         for (int level = 0; level < 2; level++) {
@@ -549,9 +180,9 @@ static void body_side(mesh *m, const ring rings[BODY_RINGS], direction facing, c
 {
     ring face = {0};
     int  lower = facing == RIGHT ? SIDE_RIGHT : LOWER_ARC, upper = facing == RIGHT ? 0 : SIDE_LEFT;
-    for (int k = 1; k < BODY_RINGS; k++)
+    for (int k = WALL_FIRST; k <= WALL_LAST; k++)
         face.at[face.count++] = rings[k].at[lower];
-    for (int k = BODY_RINGS - 1; k > 0; k--)
+    for (int k = WALL_LAST; k >= WALL_FIRST; k--)
         face.at[face.count++] = rings[k].at[upper];
     cap(m, facing, &face, holes, hole_count);
 }
@@ -577,21 +208,26 @@ static void chamber(mesh *m, const ring mouths[2], const ring drilled[2], ring *
 
 static void build_housing(mesh *m)
 {
-    static const double heights[BODY_RINGS] = {-28, -26, -16, 22, 32};
+    static const double shape[BODY_RINGS][2] = {{-28, 29}, {-26, 31}, {-16, 31}, {16, 31}, {22, 31}, {22, 36}, {23, 37}, {32, 37}};
     const frame f = {.along = FRONT};
-    ring rings[BODY_RINGS], right[2], left, mouths[2], drilled[2], front[7];
+    ring rings[BODY_RINGS], right[2], left, mouths[2], drilled[2], front[7], back[2];
     for (int k = 0; k < BODY_RINGS; k++) {
-        outline o = double_round(axle, k ? body_radius : body_radius - 2, 0, BODY_ARC);
-        rings[k] = put_ring(m, &f, &o, heights[k]);
+        outline o = double_round(axle, shape[k][1], 0, BODY_ARC);
+        rings[k] = put_ring(m, &f, &o, shape[k][0]);
+        bool wall = k > WALL_FIRST && k <= WALL_LAST;
+        if (wall)
+            sew_columns(m, &rings[k - 1], &rings[k], 0, BODY_ARC);
+        if (wall && k != FOOT_FRONT)
+            sew_columns(m, &rings[k - 1], &rings[k], LOWER_ARC, BODY_ARC);
+        if (!wall && k > 0)
+            sew(m, &rings[k - 1], &rings[k]);
     }
-    cap(m, BACK, &rings[0], NULL, 0);
-    sew(m, &rings[0], &rings[1]);
-    for (int k = 1; k < BODY_RINGS - 1; k++) {
-        sew_columns(m, &rings[k], &rings[k + 1], 0, BODY_ARC);
-        if (k != 2)
-            sew_columns(m, &rings[k], &rings[k + 1], LOWER_ARC, BODY_ARC);
+    for (int k = 0; k < 2; k++) {
+        const frame bearing = {{0, k ? -axle : axle, 0}, BACK};
+        LATHE(m, &bearing, ROUND, &back[k], NULL, {28, 16}, {29.5, 16}, {30.5, 15}, {30.5, 0});
     }
-    foot(m, &rings[2], &rings[3], heights[2], heights[3]);
+    cap(m, BACK, &rings[0], back, 2);
+    foot(m, &rings[FOOT_BACK], &rings[FOOT_FRONT], shape[FOOT_BACK][0], shape[FOOT_FRONT][0]);
     port(m, RIGHT, &right[0], &mouths[0]);
     port(m, LEFT, &left, &mouths[1]);
     valve_bore(m, &right[1], drilled);
@@ -602,7 +238,7 @@ static void build_housing(mesh *m)
         double at[2];
         bolt_place(b, at);
         const frame hole = {{at[0], at[1], 0}, FRONT};
-        LATHE(m, &hole, SMALL_ROUND, &front[1 + b], NULL, {joint, 3.6}, {joint - 0.5, 3.06}, {11, 3.06}, {9.2, 0});
+        LATHE(m, &hole, SMALL_ROUND, &front[1 + b], NULL, {joint, 3.6}, {joint - 0.5, 3.06}, {25, 3.06}, {23.4, 0});
     }
     cap(m, FRONT, &rings[BODY_RINGS - 1], front, 7);
 }
@@ -612,7 +248,7 @@ static void build_housing(mesh *m)
 static void build_gasket(mesh *m)
 {
     double radius = chamber_radius + 0.1;
-    outline outer = double_round(axle, body_radius - 0.1, 0, BODY_ARC), holes[7];
+    outline outer = double_round(axle, flange_radius - 0.1, 0, BODY_ARC), holes[7];
     holes[0] = double_round(axle, radius, pocket_angle(radius), CHAMBER_ARC);
     for (int b = 0; b < 6; b++) {
         double at[2];
@@ -628,7 +264,7 @@ static void build_cover(mesh *m)
     static const double heights[3] = {cover_back, cover_front - 1.2, cover_front};
     ring rings[3], back[8], front[8];
     for (int k = 0; k < 3; k++) {
-        outline o = double_round(axle, k < 2 ? body_radius : body_radius - 1.2, 0, BODY_ARC);
+        outline o = double_round(axle, k < 2 ? flange_radius : flange_radius - 1.2, 0, BODY_ARC);
         rings[k] = put_ring(m, &f, &o, heights[k]);
         if (k > 0)
             sew(m, &rings[k - 1], &rings[k]);
@@ -657,7 +293,7 @@ static outline hexagon(double across, double flat)
 {
     outline o = {0};
     for (int i = 0; i < 48; i++) {
-        double angle = i * pi / 24, side = fmod(i, 8) * pi / 24 - pi / 6, radius = across / 2 / cos(side);
+        double angle = i * PI / 24, side = fmod(i, 8) * PI / 24 - PI / 6, radius = across / 2 / cos(side);
         add_point(&o, radius * cos(angle), radius * sin(angle));
         o.at[i][2] = flat > 0 ? -(radius - flat) * 0.65 : 0; /* steeper than 30°, so that it shows as an edge */
     }
@@ -684,12 +320,12 @@ static void bolt(mesh *m, const frame *f, double radius, double length, double a
 
 static void build_bolt(mesh *m)
 {
-    bolt(m, &(frame){.along = FRONT}, 3, 34, 10, 4);
+    bolt(m, &(frame){.along = FRONT}, 3, 22, 10, 4);
 }
 
 static void build_plug(mesh *m)
 {
-    bolt(m, &(frame){.along = RIGHT}, 4.97, 12, 13, 5);
+    bolt(m, &(frame){.along = RIGHT}, 4.97, body_radius - plug_tip, 13, 5);
 }
 
 /* --- shafts, keys, gears, coupling ------------------------------------------------------------------------------- */
@@ -700,10 +336,10 @@ enum { SHAFT_ARC = 60, SLOT_ARC = 6, SLOT_KEEPS = SHAFT_ARC + 1 };
 static outline round_for_key(double radius, double half)
 {
     outline o = {0};
-    double gap = asin(half / radius) * 180 / pi;
+    double gap = asin(half / radius) * 180 / PI;
     add_arc(&o, 0, 0, radius, 90 + gap, 450 - gap, SHAFT_ARC);
     for (int i = 1; i < SLOT_ARC; i++) {
-        double angle = (90 - gap + 2 * gap * i / SLOT_ARC) * pi / 180;
+        double angle = (90 - gap + 2 * gap * i / SLOT_ARC) * PI / 180;
         add_point(&o, radius * cos(angle), radius * sin(angle));
     }
     return o;
@@ -795,9 +431,9 @@ static void build_coupling_key(mesh *m)
 /* How far a flank is from the middle of its tooth at some radius, as an angle. Below the base circle it is radial. */
 static double half_tooth(double radius)
 {
-    double pitch = module * TEETH / 2, pressure = 20 * pi / 180, base = pitch * cos(pressure), backlash = 0.12;
+    double pitch = module * TEETH / 2, pressure = 20 * PI / 180, base = pitch * cos(pressure), backlash = 0.12;
     double roll = radius > base ? acos(base / radius) : 0;
-    return (pi * module / 2 - backlash) / 2 / pitch + (tan(pressure) - pressure) - (tan(roll) - roll);
+    return (PI * module / 2 - backlash) / 2 / pitch + (tan(pressure) - pressure) - (tan(roll) - roll);
 }
 
 static void add_polar(outline *o, double radius, double angle)
@@ -812,7 +448,7 @@ static outline gear_outline(void)
     const double pitch = module * TEETH / 2, root = pitch - 1.25 * module, tip = pitch + module, round = 1.1;
     outline o = {0};
     for (int k = 0; k < TEETH; k++) {
-        double middle = -pi / 2 + 2 * pi * k / TEETH, foot = half_tooth(root), next = middle + 2 * pi / TEETH;
+        double middle = -PI / 2 + 2 * PI * k / TEETH, foot = half_tooth(root), next = middle + 2 * PI / TEETH;
         for (int i = 0; i < FLANK; i++) {
             double radius = root + round + (tip - root - round) * i / FLANK;
             add_polar(&o, radius, middle - half_tooth(radius));
@@ -906,18 +542,18 @@ static void build_ball(mesh *m)
     enum { STACKS = 24 };
     double profile[STACKS + 1][2] = {{-ball_radius, 0}, [STACKS] = {ball_radius, 0}};
     for (int i = 1; i < STACKS; i++) {
-        profile[i][0] = -ball_radius * cos(pi * i / STACKS);
-        profile[i][1] = ball_radius * sin(pi * i / STACKS);
+        profile[i][0] = -ball_radius * cos(PI * i / STACKS);
+        profile[i][1] = ball_radius * sin(PI * i / STACKS);
     }
     lathe(m, &(frame){.along = RIGHT}, (const double (*)[2])profile, STACKS + 1, SMALL_ROUND, NULL, NULL);
 }
 
-static const double coil = 3.2, wire = 0.6, turns = 9;
+static const double coil = 3.2, wire = 0.6, turns = 8;
 
 /* How far along x the spring's wire is after so many turns: the first and the last turn lie close, as ground springs have it. */
 static double spring_rise(double turn)
 {
-    double from = sqrt(pow(ball_radius + wire + fit, 2) - coil * coil), to = 25 - ball_place() - wire - fit;
+    double from = sqrt(pow(ball_radius + wire + fit, 2) - coil * coil), to = plug_tip - ball_place() - wire - fit;
     double tight = 2 * wire + 0.1, rise = (to - from - 2 * tight) / (turns - 2);
     return from + (turn < 1 ? tight * turn : turn > turns - 1 ? to - from - tight * (turns - turn) : tight + rise * (turn - 1));
 }
@@ -930,11 +566,11 @@ static void build_spring(mesh *m)
     ring before = {0};
     int rows = STEPS * (int)turns;
     for (int k = 0; k <= rows; k++) {
-        double at = (double)k / STEPS, angle = 2 * pi * at, x = spring_rise(at);
-        double slope = atan2((spring_rise(at + 0.01) - spring_rise(at - 0.01)) / 0.02, 2 * pi * coil);
+        double at = (double)k / STEPS, angle = 2 * PI * at, x = spring_rise(at);
+        double slope = atan2((spring_rise(at + 0.01) - spring_rise(at - 0.01)) / 0.02, 2 * PI * coil);
         ring here = {.count = AROUND};
         for (int i = 0; i < AROUND; i++) {
-            double part = 2 * pi * i / AROUND, out = coil + wire * cos(part), side = wire * sin(part);
+            double part = 2 * PI * i / AROUND, out = coil + wire * cos(part), side = wire * sin(part);
             here.at[i] = put_point(m, &f, out * cos(angle) - side * sin(slope) * -sin(angle),
                                    out * sin(angle) - side * sin(slope) * cos(angle), x + side * cos(slope));
         }
@@ -950,15 +586,16 @@ static void build_spring(mesh *m)
 
 /* --- the assembly ------------------------------------------------------------------------------------------------ */
 
-typedef enum material { CASTING, COVER, STEEL, GEAR, BRASS, RUBBER, ZINC, FIBRE, MATERIALS } material;
+typedef enum material { CASTING, COVER, STEEL, GEAR, BRASS, RUBBER, IRON, ZINC, FIBRE, MATERIALS } material;
 
 static const struct {
     const char *name;
     double      colour[3]; /* linear */
 } materials[MATERIALS] = {
-    [CASTING] = {"Casting", {0.150, 0.210, 0.280}}, [COVER] = {"Machined casting", {0.230, 0.290, 0.350}},
+    [CASTING] = {"Casting", {0.110, 0.180, 0.270}}, [COVER] = {"Machined casting", {0.190, 0.270, 0.350}},
     [STEEL] = {"Steel", {0.520, 0.540, 0.570}},     [GEAR] = {"Hardened steel", {0.350, 0.370, 0.410}},
     [BRASS] = {"Brass", {0.600, 0.390, 0.120}},     [RUBBER] = {"Rubber", {0.025, 0.025, 0.030}},
+    [IRON] = {"Black iron", {0.060, 0.065, 0.075}},
     [ZINC] = {"Zinc-plated steel", {0.420, 0.410, 0.360}}, [FIBRE] = {"Fibre", {0.260, 0.090, 0.050}},
 };
 
@@ -970,7 +607,7 @@ static const struct {
     double      at[3];
 } groups[GROUPS] = {
     [CASING] = {"Casing", {0}},     [DRIVE] = {"Drive", {0, 19.5, 0}},  [IDLER] = {"Idler", {0, -19.5, 0}},
-    [BEARINGS] = {"Bearings", {0}}, [VALVE] = {"Relief valve", {0, 0, -12}},
+    [BEARINGS] = {"Bearings", {0}}, [VALVE] = {"Relief valve", {0, 0, -13}},
 };
 
 typedef struct part {
@@ -996,7 +633,7 @@ static void list_parts(assembly *a)
         {"Gear key", DRIVE, ZINC, build_gear_key, {0}},
         {"Drive gear", DRIVE, GEAR, build_drive_gear, {0}},
         {"Coupling key", DRIVE, ZINC, build_coupling_key, {0}},
-        {"Coupling", DRIVE, CASTING, build_coupling, {0}},
+        {"Coupling", DRIVE, IRON, build_coupling, {0}},
         {"Idler shaft", IDLER, STEEL, build_idler_shaft, {0}},
         {"Idler gear", IDLER, GEAR, build_idler_gear, {0}},
         {"Bush 1", BEARINGS, BRASS, build_long_bush, {0, 19.5, -20.2}},
@@ -1103,11 +740,12 @@ static void put_mesh(glb *g, const part *p)
 {
     mesh m = {0};
     p->build(&m);
+    drop_unused(&m);
     float *positions = malloc(m.point_count * 3 * sizeof *positions);
     if (!positions)
         give_up();
     for (uint32_t i = 0; i < m.point_count * 3; i++)
-        positions[i] = (float)(m.points[i / 3].at[i % 3] / (grid * 1000)); /* the file's metres */
+        positions[i] = (float)(m.points[i / 3].at[i % 3] / (GRID * 1000)); /* the file's metres */
     int vertices = put_floats(g, positions, m.point_count, 3, "VEC3", 34962), indices = put_indices(g, &m);
     fprintf(g->meshes.stream, "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d},\"indices\":%d,\"material\":%d}]}",
             g->mesh_count ? "," : "", vertices, indices, p->material);
@@ -1127,8 +765,8 @@ static void put_animation(glb *g, FILE *json)
     for (int way = 1; way >= -1; way -= 2) {
         float values[KEYS][4] = {0};
         for (int k = 0; k < KEYS; k++) {
-            values[k][2] = (float)(way * round(sin(pi * k / 3) * 1e6) / 1e6);
-            values[k][3] = (float)(round(cos(pi * k / 3) * 1e6) / 1e6);
+            values[k][2] = (float)(way * round(sin(PI * k / 3) * 1e6) / 1e6);
+            values[k][3] = (float)(round(cos(PI * k / 3) * 1e6) / 1e6);
         }
         int output = put_floats(g, values[0], KEYS, 4, "VEC4", 0);
         fprintf(json, "%s{\"input\":%d,\"output\":%d}", way < 0 ? "," : "", input, output);

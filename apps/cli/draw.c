@@ -279,12 +279,13 @@ static int store_maps(const lmn_drawing *drawing, const char *folder)
     return lmn_drawing_write_maps(drawing, folder, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
 }
 
-static void print_warnings(const lmn_drawing *drawing)
+/* What only took longer stands in the report, and here for those who asked for more. */
+static void print_warnings(const lmn_drawing *drawing, bool verbose)
 {
     for (size_t i = 0; i < lmn_drawing_warning_count(drawing); i++) {
         size_t times = 1;
         const char *code = NULL, *text = lmn_drawing_warning_at(drawing, i, &code, &times);
-        if (text)
+        if (text && (verbose || strcmp(code, "layer-memory") != 0))
             message_warning(text, times);
     }
 }
@@ -332,7 +333,7 @@ static int draw_picture(session *s, const lmn_scene *scene, const char *input, l
     if (s->values->verbose)
         message_note("%s: drawn in %.0f ms", input, now_ms() - start);
     if (!s->values->quiet)
-        print_warnings(drawing);
+        print_warnings(drawing, s->values->verbose);
     int status = store_picture(s, drawing, input, frame, load_ms);
     lmn_drawing_destroy(&drawing);
     return status;

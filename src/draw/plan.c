@@ -80,6 +80,22 @@ static bool has_active_pass(const technique_use *use)
     return false;
 }
 
+static bool is_seen_through(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    return compose && compose->technique->layered;
+}
+
+static void find_solid_parts(plan *p)
+{
+    for (size_t i = 0; i < p->figure_count; i++)
+        for (size_t part = 0; part < p->scene->part_count && !is_seen_through(p->figures[i].rule); part++)
+            if (p->figures[i].designated[part]) {
+                p->solid[part] = true;
+                p->solid_count++;
+            }
+}
+
 static void settle_layers(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
@@ -96,15 +112,15 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
-    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS), *compose = rule_use(r, KIND_COMPOSE);
-    f->layered = compose && compose->technique->layered;
+    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
+    f->layered = is_seen_through(r);
     if (f->layered) {
         settle_layers(f, p, as_sprites);
         return;
     }
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
     f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
-    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->selected_count;
+    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->solid_count;
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred;
@@ -198,8 +214,7 @@ static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
     p->figures = grown;
     for (size_t i = 0; i < before; i++) {
         const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
-        const technique_use *compose = rule_use(p->figures[i].rule, KIND_COMPOSE);
-        if (!surface || !surface->technique->reflects || (compose && compose->technique->layered))
+        if (!surface || !surface->technique->reflects || is_seen_through(p->figures[i].rule))
             continue;
         for (size_t part = 0; part < p->scene->part_count && p->figures[i].part_count > 1; part++) {
             if (!p->figures[i].designated[part])
@@ -273,6 +288,8 @@ static lmn_status split_focus(plan *p, size_t index, const upload *up, const pee
         use_release(use);
         *use = fresh;
     }
+    /* What lies in front of the focus is drawn by the layers, and must not hide it in its own figure. */
+    ((front_values *)r->uses[KIND_LAYERS][0].values)->complement = false;
     box3 left = box3_empty();
     for (size_t i = 0; i < p->scene->part_count; i++) {
         if (f->designated[i] && f->focus[i]) {
@@ -299,9 +316,9 @@ static lmn_status split_focus(plan *p, size_t index, const upload *up, const pee
 static lmn_status find_focus(plan *p, size_t index, const upload *up, warnings *notes, lmn_error *error)
 {
     figure *f = &p->figures[index];
-    const technique_use *layers = rule_use(f->rule, KIND_LAYERS), *compose = rule_use(f->rule, KIND_COMPOSE);
+    const technique_use *layers = rule_use(f->rule, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
-    if (!peel || !peel->focus.text[0] || !compose || !compose->technique->layered)
+    if (!peel || !peel->focus.text[0])
         return LMN_OK;
     selector *wanted = NULL;
     lmn_status status = selector_parse(&wanted, peel->focus.text, error);
@@ -329,8 +346,7 @@ static lmn_status find_focus(plan *p, size_t index, const upload *up, warnings *
 static lmn_status prepare_layers(plan *p, const upload *up, warnings *notes, lmn_error *error)
 {
     for (size_t i = 0, count = p->figure_count; i < count; i++) {
-        const technique_use *compose = rule_use(p->figures[i].rule, KIND_COMPOSE);
-        if (!compose || !compose->technique->layered)
+        if (!is_seen_through(p->figures[i].rule))
             continue;
         lmn_status status = find_focus(p, i, up, notes, error);
         if (status != LMN_OK)
@@ -350,9 +366,10 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     out->box = box3_empty();
     out->has_cut = up->has_cut;
     out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
+    out->solid = mem_calloc(scene->part_count, sizeof *out->solid);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
-    bool good = out->selected && out->figures && out->rules;
+    bool good = out->selected && out->solid && out->figures && out->rules;
     for (size_t r = 0; good && r < look->rule_count; r++) {
         out->rule_count++;
         if (!copy_rule(&out->rules[r], &look->rules[r], pixel_scale))
@@ -373,6 +390,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
         status = prepare_layers(out, up, notes, error);
     if (status != LMN_OK)
         return status;
+    find_solid_parts(out);
     for (size_t i = 0; i < out->figure_count; i++)
         settle_figure(&out->figures[i], out, as_sprites);
     order_figures(out);
@@ -390,5 +408,6 @@ void plan_release(plan *p)
     mem_free(p->rules);
     mem_free(p->figures);
     mem_free(p->selected);
+    mem_free(p->solid);
     memset(p, 0, sizeof *p);
 }

@@ -10,7 +10,7 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
 {
     if (f->mirror && f->mirror->designated[item->part_index])
         return false; /* a mirror does not see itself */
-    return fig->designated[item->part_index] || (fig->complement && f->plan->selected[item->part_index]);
+    return fig->designated[item->part_index] || (fig->complement && f->plan->solid[item->part_index]);
 }
 
 /* The item's material; `room` holds it when it is painted in the figure's highlight. */

@@ -46,6 +46,20 @@ documented() {
         complain "$(cat .keys)"
 }
 
+# nested: an OBJ model of a cube in a cube.
+nested() {
+    local half at=0 name=outer x y z face
+    for half in 2 1; do
+        echo "o $name"
+        for x in -$half $half; do for y in -$half $half; do for z in -$half $half; do echo "v $x $y $z"; done; done; done
+        for face in '1 2 4 3' '5 7 8 6' '1 5 6 2' '3 4 8 7' '1 3 7 5' '2 6 8 4'; do
+            set -- $face
+            echo "f $(($1 + at)) $(($2 + at)) $(($3 + at)) $(($4 + at))"
+        done
+        at=8 name=inner
+    done
+}
+
 is_png() {
     [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || complain "$1 is no PNG"
 }
@@ -213,6 +227,11 @@ group_report() {
         [ -s .layers/layer$map ] || complain "there is no layer$map"
     done
     [ -e .layers/layer5.depth.pfm ] && complain "there are more layers than were asked for"
+    # A focus shows although the rule's other parts are all around it: the small cube is inside of the large one.
+    nested > in-nested.obj
+    row 0 '' 'x.png' draw in-nested.obj $small --look blueprint --set layers.focus=inner -o x.png && cp x.png in-focus.png
+    row 0 '' 'x.png' draw in-nested.obj $small --look blueprint --set layers.focus=inner --set layers.focus_colour=#00ff00 -o x.png
+    cmp -s x.png in-focus.png && complain "the focus is not to be seen"
     row 0 'selects no part' 'x.png' draw "$gear" $small -o x.png --look xray --set layers.focus=nosuch
     row 1 'selector .a,. is wrong' '' draw "$gear" $small -o x.png --look xray --set layers.focus=a,
     row 0 '' '' bench "$gear" --look edges --look toon $small --repeat 2 --json
