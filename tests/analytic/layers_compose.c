@@ -498,13 +498,15 @@ static void glyphs(void)
 static void focus(void)
 {
     static const uint8_t green[3] = {0x20, 0xc0, 0x40};
-    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"focus\":\"closed1\",\"focus_colour\":\"#20c040\","
-                                    "\"focus_share\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}");
+#define FOCUS_RULE(LINES) "{\"select\":\"*\"," OWN_COLOUR LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"focus\":\"closed1\"," \
+                          "\"focus_colour\":\"#20c040\",\"focus_share\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}"
+    /* With lines, what is seen through must not hide the part in its own figure's edge detection. */
+    static const char *const looks[] = {LOOK(FOCUS_RULE("")), LOOK(FOCUS_RULE("," LINES)), LOOK(FOCUS_RULE(""))};
     for (int v = 0; v < 3; v++) {
         shape s = {0};
         shot  drawing;
         scene_make(&s, SCENE_CLOSED, 21 + (uint32_t)v);
-        if (shot_of_shape(&drawing, &s, "focus.glb", look, NULL, &views[v]))
+        if (shot_of_shape(&drawing, &s, "focus.glb", looks[v], NULL, &views[v]))
             against_opaque("B10", "a designated part amid layers", &s, &drawing, "closed1", paint_of(green, 1), drawing.layers_drawn, own_fill);
         shot_release(&drawing);
         shape_release(&s);
