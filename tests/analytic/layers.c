@@ -500,7 +500,7 @@ static void edges_against_twins(void)
 static void add_plate(shape *s, int k)
 {
     static const double half[] = {1.2, 0.9, 0.65, 0.4}, depth[] = {1.2, 0.4, -0.5, -1.3};
-    char name[16];
+    char name[24];
     snprintf(name, sizeof name, "plate%d", k);
     if (k % 2) {
         shape_terrain(s, name, half[k], 0.3, 32, 40 + (uint32_t)k);
