@@ -288,8 +288,6 @@ static lmn_status split_focus(plan *p, size_t index, const upload *up, const pee
         use_release(use);
         *use = fresh;
     }
-    /* What lies in front of the focus is drawn by the layers, and must not hide it in its own figure. */
-    ((front_values *)r->uses[KIND_LAYERS][0].values)->complement = false;
     box3 left = box3_empty();
     for (size_t i = 0; i < p->scene->part_count; i++) {
         if (f->designated[i] && f->focus[i]) {
