@@ -188,12 +188,15 @@ lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world
 {
     const cut *c = &u->section.cut;
     *verdict = CUT_WHOLE;
-    if (c->cell_count == 0 || (u->section.spared && u->section.spared[job->part_index]))
+    if (c->cell_count == 0)
         return LMN_OK;
     lmn_status status = open_inputs(job, error);
     if (status != LMN_OK)
         return status;
     *verdict = cut_judge_box(c, box3_transform(job->box, world));
+    /* What stays whole goes all the same where it lies in what is cut away. */
+    if (*verdict == CUT_CROSSED && u->section.spared && u->section.spared[job->part_index])
+        *verdict = CUT_WHOLE;
     if (*verdict != CUT_CROSSED)
         return LMN_OK;
     cut_result r;

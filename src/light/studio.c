@@ -17,7 +17,7 @@ static const param params[] = {
     PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%",
                    .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or box=50%,0%,50%:100%,100%,100%; see draw.md."),
     PARAM_TEXT_ROW(scene_values, cut_keep, .example = "ball", .only_if = "cut",
-                   .doc = "Selector of parts that stay whole, as draughtsmen leave shafts and bolts."),
+                   .doc = "Selector of parts that are not cut through, as draughtsmen leave shafts and bolts whole."),
     PARAM_FLOAT_ROW(scene_values, cut_hatch, .def = 9, .min = 0, .max = 200, .soft_max = 30, .unit = UNIT_PX, .cpu_only = true, .only_if = "cut",
                     .doc = "Distance of the lines that hatch cut faces; 0 draws none. Neighbouring parts differ a little."),
     PARAM_FLOAT_ROW(scene_values, cut_angle, .def = 45, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "cut",

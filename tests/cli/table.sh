@@ -120,6 +120,12 @@ group_usage() {
     row 1 'layers.count is .-1.; allowed is a whole number from 0 to 256' '' draw "$gear" --look blueprint --set layers.count=-1
     row 1 'layers.count is .10000.; allowed' '' draw "$gear" --look blueprint --set layers.count=10000
     row 1 'has no lines' '' draw "$gear" --look plain --set lines.width=3
+    row 1 "^limner: cut is 'w': a plane is x, y or z" '' draw "$gear" --cut w
+    row 1 '^hint: for example x, -z=40%' '' draw "$gear" --cut w
+    row 1 "cut is 'x=a%': behind '=' stands a number" '' draw "$gear" --cut x=a%
+    row 1 "cut is 'box=1,2': a box is box=X0,Y0,Z0:X1,Y1,Z1" '' draw "$gear" --cut box=1,2
+    row 1 "planes and boxes are separated by ';'" '' draw "$gear" --set 'scene.cut=x y'
+    row 1 'selector .a,. is wrong' '' draw "$gear" --cut x --set scene.cut_keep=a,
 }
 
 group_draw() {
@@ -138,6 +144,15 @@ group_draw() {
     row 0 '' 'x.png' draw "$gear" $small -o x.png --ortho --fit 0.5 --time 0.5 --seed 7 --samples 4 --up-axis y
     row 0 '' 'x.png' draw "$gear" $small -o x.png --fov 60 --background none --select 'gear*'
     row 0 'drawn in [0-9]+ ms' 'x.png' draw "$gear" $small -o x.png --verbose
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --cut -x=40% && cp x.png in-cut.png
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --set scene.cut=-x=40%
+    cmp -s x.png in-cut.png || complain "--cut is not --set scene.cut"
+    row 0 '' 'x.png' draw "$gear" $small -o x.png
+    cmp -s x.png in-cut.png && complain "--cut changes nothing"
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --cut 'x;1,-1,0@0,0,5;box=50%,0%,50%:100%,100%,100%' --look toon
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --cut x=-1e6
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' > in-open.obj
+    row 0 '1 of 1 parts are not closed' 'x.png' draw in-open.obj $small -o x.png --cut y=0.3
     row 1 'selector .a,. is wrong at character' '' draw "$gear" $small --select 'a,'
     row 1 'colour|background' '' draw "$gear" $small --background nosuch
     row 1 "selection 'nosuch' matches none" '' draw "$gear" $small --select nosuch
