@@ -11,7 +11,7 @@ static const param params[] = {
                   .doc = "Layers that are drawn at most; 0: all there are, up to 256."),
     PARAM_FLOAT_ROW(peel_values, fraction, .def = 0, .min = 0, .max = 1, .soft_max = 0.05, .unit = UNIT_SHARE, .cpu_only = true,
                     .doc = "Ends with the first layer that covers less than this share of the picture; 0 looks at every layer."),
-    PARAM_TEXT_ROW(peel_values, focus, .example = "ball",
+    PARAM_TEXT_ROW(peel_values, focus, .example = "ball", .is_selector = true,
                    .doc = "Selector of parts to be uncovered: as few layers as show them, and they themselves opaque at their true depth."),
     PARAM_FLOAT_ROW(peel_values, focus_share, .def = 0.95, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "focus",
                     .doc = "Share of the focus that must be uncovered."),

@@ -1,7 +1,15 @@
 /* studio: a key light that goes with the viewer and a weaker fill light from the other side, or the file's own lights. */
 #include "light/light.h"
+#include "scene/cut.h"
 
 static const char *const source_names[] = {"studio", "file", NULL};
+
+/* Percentages need no bounds to be well-formed. */
+static lmn_status check_cut(const char *text, lmn_error *error)
+{
+    cut ignored;
+    return cut_parse(&ignored, text, (box3){{0, 0, 0}, {1, 1, 1}}, error);
+}
 
 static const param params[] = {
     PARAM_DIRECTION_ROW(scene_values, light_direction, .def_direction = {-0.45f, 0.75f, 0.85f}, .min = -1e6, .max = 1e6, .cpu_only = true,
@@ -14,9 +22,9 @@ static const param params[] = {
                    .doc = "studio: the two lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,
                     .doc = "Multiplies all lights."),
-    PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%",
+    PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%", .check = check_cut,
                    .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or box=50%,0%,50%:100%,100%,100%; see draw.md."),
-    PARAM_TEXT_ROW(scene_values, cut_keep, .example = "ball", .only_if = "cut",
+    PARAM_TEXT_ROW(scene_values, cut_keep, .example = "ball", .is_selector = true, .only_if = "cut",
                    .doc = "Selector of parts that are not cut through, as draughtsmen leave shafts and bolts whole."),
     PARAM_FLOAT_ROW(scene_values, cut_hatch, .def = 9, .min = 0, .max = 200, .soft_max = 30, .unit = UNIT_PX, .cpu_only = true, .only_if = "cut",
                     .doc = "Distance of the lines that hatch cut faces; 0 draws none. Neighbouring parts differ a little."),

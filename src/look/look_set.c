@@ -1,5 +1,6 @@
 /* Setting one parameter of a look from text: "KIND.PARAM", "KIND[i].PARAM" or "RULE:KIND.PARAM". */
 #include "look/look.h"
+#include "look/value.h"
 
 #include <string.h>
 
@@ -207,11 +208,11 @@ static lmn_status set_in_use(const address *a, technique_use *use, const char *v
     }
     w->met++;
     if (!trying)
-        return param_set_text(p, use->values, value, error);
+        return value_set_text(p, use->values, value, error);
     technique_use scratch;
     if (!use_create(&scratch, a->kind, use->technique))
         return error_memory(error);
-    lmn_status status = param_set_text(p, scratch.values, value, error);
+    lmn_status status = value_set_text(p, scratch.values, value, error);
     use_release(&scratch);
     return status;
 }

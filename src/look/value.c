@@ -1,4 +1,5 @@
 #include "look/value.h"
+#include "look/selector.h"
 
 #include <math.h>
 #include <string.h>
@@ -92,6 +93,18 @@ static bool value_as_text(text *out, const param *p, const json_t *json)
     return true;
 }
 
+lmn_status value_set_text(const param *p, void *values, const char *given, lmn_error *error)
+{
+    if (p->is_selector && given[0]) {
+        selector *tried = NULL;
+        lmn_status status = selector_parse(&tried, given, error);
+        selector_destroy(&tried);
+        if (status != LMN_OK)
+            return status;
+    }
+    return param_set_text(p, values, given, error);
+}
+
 lmn_status value_set_json(const param *p, void *values, const json_t *json, lmn_error *error)
 {
     text as_text = {0};
@@ -102,7 +115,7 @@ lmn_status value_set_json(const param *p, void *values, const json_t *json, lmn_
     else if (!typed)
         status = error_set(error, LMN_USAGE, "%s must be %s", p->key, wanted_type(p));
     else
-        status = param_set_text(p, values, as_text.data ? as_text.data : "", error);
+        status = value_set_text(p, values, as_text.data ? as_text.data : "", error);
     text_release(&as_text);
     return status;
 }

@@ -6,6 +6,9 @@
 
 #include "technique/param.h"
 
+/* Sets a field from text; selectors are checked too. Errors: LMN_USAGE, LMN_MEMORY. */
+lmn_status value_set_text(const param *p, void *values, const char *given, lmn_error *error);
+
 /* Sets a field from a JSON value of the parameter's own type. Errors: LMN_USAGE (key, value and range), LMN_MEMORY. */
 lmn_status value_set_json(const param *p, void *values, const json_t *json, lmn_error *error);
 

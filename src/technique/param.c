@@ -303,6 +303,11 @@ static bool parse_value(const param *p, const char *given, void *field)
 
 lmn_status param_set_text(const param *p, void *values, const char *given, lmn_error *error)
 {
+    if (p->type == PARAM_TEXT && p->check && given[0]) {
+        lmn_status status = p->check(given, error);
+        if (status != LMN_OK)
+            return status;
+    }
     if (parse_value(p, given, field_of(p, values)))
         return LMN_OK;
     return p->type == PARAM_ENUM ? wrong_name(p, given, error) : wrong_value(p, given, error);

@@ -60,6 +60,8 @@ typedef struct param {
     bool               along;       /* a length along lines, which makes them no wider */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
     const char        *example;     /* PARAM_TEXT: a value that does something, for tests */
+    bool               is_selector; /* PARAM_TEXT: selects parts; src/look checks it */
+    lmn_status       (*check)(const char *text, lmn_error *error); /* PARAM_TEXT: LMN_USAGE when it is wrong; NULL: any will do */
     const char        *doc;         /* one line, ends in a full stop */
     const char        *since, *was;
 } param;
