@@ -97,10 +97,14 @@ lmn_status value_set_text(const param *p, void *values, const char *given, lmn_e
 {
     if (p->is_selector && given[0]) {
         selector *tried = NULL;
-        lmn_status status = selector_parse(&tried, given, error);
+        lmn_error inner = {0};
+        lmn_status status = selector_parse(&tried, given, &inner);
         selector_destroy(&tried);
-        if (status != LMN_OK)
+        if (status != LMN_OK) { /* messages begin with the parameter: callers put its kind before */
+            error_set(error, status, "%s: %s", p->key, inner.message);
+            error_hint(error, "%s", inner.hint);
             return status;
+        }
     }
     return param_set_text(p, values, given, error);
 }

@@ -125,7 +125,7 @@ group_usage() {
     row 1 "cut is 'x=a%': behind '=' stands a number" '' draw "$gear" --cut x=a%
     row 1 "cut is 'box=1,2': a box is box=X0,Y0,Z0:X1,Y1,Z1" '' draw "$gear" --cut box=1,2
     row 1 "planes and boxes are separated by ';'" '' draw "$gear" --set 'scene.cut=x y'
-    row 1 'selector .a,. is wrong' '' draw "$gear" --cut x --set scene.cut_keep=a,
+    row 1 '^limner: scene.cut_keep: selector .a,. is wrong' '' draw "$gear" --cut x --set scene.cut_keep=a,
 }
 
 group_draw() {
@@ -233,13 +233,13 @@ group_report() {
     row 0 '' 'x.png' draw in-nested.obj $small --look blueprint --set layers.focus=inner --set layers.focus_colour=#00ff00 -o x.png
     cmp -s x.png in-focus.png && complain "the focus is not to be seen"
     # A wrong text in a look is a wrong look, found where it stands.
-    local wrong
-    for wrong in '"scene": {"cut": "w=3"}' '"scene": {"cut": "x", "cut_keep": "a,"}' '"x-none": 0'; do
-        printf '{"version": 1,\n %s,\n "rules": [{"layers": {"technique": "peel", "focus": "b,"}, "compose": "xray"}]}' "$wrong" > in-wrong.json
+    local bad # "wrong" counts
+    for bad in '"scene": {"cut": "w=3"}' '"scene": {"cut": "x", "cut_keep": "a,"}' '"x-none": 0'; do
+        printf '{"version": 1,\n %s,\n "rules": [{"layers": {"technique": "peel", "focus": "b,"}, "compose": "xray"}]}' "$bad" > in-wrong.json
         row 2 '^limner: in-wrong.json:[23]:[0-9]+: ' '' draw "$gear" $small --look in-wrong.json
     done
     row 0 'selects no part' 'x.png' draw "$gear" $small -o x.png --look xray --set layers.focus=nosuch
-    row 1 'selector .a,. is wrong' '' draw "$gear" $small -o x.png --look xray --set layers.focus=a,
+    row 1 '^limner: layers.focus: selector .a,. is wrong' '' draw "$gear" $small -o x.png --look xray --set layers.focus=a,
     row 0 '' '' bench "$gear" --look edges --look toon $small --repeat 2 --json
     documented .stdout bench.md
     row 0 '' '' bench "$gear" --look edges $small --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
