@@ -195,6 +195,28 @@ static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
     return gpu_check(s->renderer->g, error);
 }
 
+/* What could not be drawn as it was asked for. */
+static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const session *s)
+{
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    const upload *up = &r->up;
+    bool cut_out = false, spares = false;
+    for (size_t i = 0; i < up->item_count && !cut_out; i++) {
+        const draw_item *item = &up->items[i];
+        bool blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;
+        cut_out = blended && s->plan.solid[item->part_index]; /* what is seen through keeps its opacity */
+    }
+    if (cut_out)
+        warnings_add(&d->warnings, WARNING_TRANSPARENCY, "transparent materials are drawn as cut-outs");
+    if (up->open_parts)
+        warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", up->open_parts,
+                     scene->part_count);
+    for (size_t i = 0; up->section.spared && i < scene->part_count; i++)
+        spares = spares || up->section.spared[i];
+    if (up->section.spared && v->cut_keep.text[0] && !spares)
+        warnings_add(&d->warnings, WARNING_NO_MATCH, "scene.cut_keep '%s' selects no part", v->cut_keep.text);
+}
+
 static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                              const session *s, const lmn_draw_desc *desc, lmn_error *error)
 {
@@ -216,16 +238,7 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
         if (!(d->part_names[i] = mem_copy_text(scene->parts[i].name)))
             return error_memory(error);
     warnings_append(&d->warnings, &scene->warnings);
-    for (size_t i = 0; i < r->up.item_count; i++) {
-        int32_t m = r->up.items[i].material;
-        if (m >= 0 && scene->materials[m].alpha == ALPHA_BLEND) {
-            warnings_add(&d->warnings, WARNING_TRANSPARENCY, "transparent materials are drawn as cut-outs");
-            break;
-        }
-    }
-    if (r->up.open_parts)
-        warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", r->up.open_parts,
-                     scene->part_count);
+    keep_notes(d, r, scene, look, s);
     if (desc->time_s != 0 && scene->animation_count)
         warnings_add(&d->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
     return LMN_OK;

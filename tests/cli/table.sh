@@ -240,6 +240,13 @@ group_report() {
     done
     row 0 'selects no part' 'x.png' draw "$gear" $small -o x.png --look xray --set layers.focus=nosuch
     row 1 '^limner: layers.focus: selector .a,. is wrong' '' draw "$gear" $small -o x.png --look xray --set layers.focus=a,
+    row 0 "scene.cut_keep 'nosuch' selects no part" 'x.png' draw "$gear" $small -o x.png --cut x --set scene.cut_keep=nosuch
+    # What is seen through keeps the opacity of its materials; other looks cut it out and say so.
+    printf 'newmtl glass\nKd 0.2 0.5 0.8\nd 0.4\n' > in-glass.mtl
+    { printf 'mtllib in-glass.mtl\nusemtl glass\n'; nested; } > in-glass.obj
+    row 0 'transparent materials are drawn as cut-outs' 'x.png' draw in-glass.obj $small -o x.png --look edges
+    row 0 '' 'x.png' draw in-glass.obj $small -o x.png --look xray
+    grep -q cut-outs .stderr && complain "a transparent material is said to be cut out where it is seen through"
     row 0 '' '' bench "$gear" --look edges --look toon $small --repeat 2 --json
     documented .stdout bench.md
     row 0 '' '' bench "$gear" --look edges $small --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
