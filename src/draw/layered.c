@@ -202,7 +202,7 @@ static void compose_passes(frame *f, figure_state *s)
 
 static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
 {
-    static const target borrowed[] = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_SHADE, TARGET_DEPTH, TARGET_LAYERS};
+    static const target borrowed[] = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_SHADE, TARGET_DEPTH, TARGET_LAYERS};
     figure_state *s = &stack->states[which];
     const figure *visible = s->figure;
     if (layer > 0)

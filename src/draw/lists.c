@@ -1,10 +1,10 @@
 /* Layers from one geometry pass: every fragment goes into a list of its pixel (GL 4.3 storage blocks), and the nearest are sorted
- * out in rounds of up to eight. 32 bytes a fragment, 48 with shade, 4 a pixel; at most one storage block of nodes. */
+ * out in rounds of up to eight. 32 bytes a fragment, 48 with shade or albedo, 4 a pixel; at most one storage block of nodes. */
 #include "draw/frame_private.h"
 
 #include <string.h>
 
-enum { KEPT_MAX = 8, NODE_VECTORS_BARE = 2, NODE_VECTORS_SHADED = 3 };
+enum { KEPT_MAX = 8, NODE_VECTORS_BARE = 2, NODE_VECTORS_COLOURED = 3 };
 
 bool lists_possible(const frame *f)
 {
@@ -36,7 +36,7 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
     size_t pixels = (size_t)stack->around[2] * (size_t)stack->around[3];
     size_t block = (size_t)gpu_facts_of(f->g)->max_storage_mib << 20;
     room = room < block ? room : block;
-    stack->node_vectors = stack->channels & CHANNEL_SHADE ? NODE_VECTORS_SHADED : NODE_VECTORS_BARE;
+    stack->node_vectors = stack->channels & (CHANNEL_SHADE | CHANNEL_ALBEDO) ? NODE_VECTORS_COLOURED : NODE_VECTORS_BARE;
     unsigned limit = (unsigned)(room / (4 * sizeof(uint32_t) * (size_t)stack->node_vectors));
     stack->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
     stack->list = gpu_buffer_acquire(f->g, room);

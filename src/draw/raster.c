@@ -427,6 +427,8 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
     outputs o = no_outputs;
     if (stack->channels & CHANNEL_SHADE)
         o.shade = 0;
+    if (stack->channels & CHANNEL_ALBEDO)
+        o.albedo = 0;
     draw_parts(f, &(raster_job){.stack = stack, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
 }
 

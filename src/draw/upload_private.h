@@ -1,4 +1,4 @@
-/* What the files that put a scene on the GPU share: upload.c and upload_cut.c. */
+/* What the files that put a scene on the GPU share: upload.c, upload_cut.c and upload_mesh.c. */
 #ifndef LIMNER_DRAW_UPLOAD_PRIVATE_H
 #define LIMNER_DRAW_UPLOAD_PRIVATE_H
 
@@ -36,7 +36,7 @@ typedef struct upload_part_job {
     bool        open;
 } upload_part_job;
 
-/* --- upload.c --- */
+/* --- upload_mesh.c --- */
 lmn_status posed_make(posed_mesh *out, const upload *u, const primitive *p, const part_pose *pose, lmn_error *error);
 void       posed_release(posed_mesh *m);
 lmn_status upload_add_mesh(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);

@@ -10,6 +10,9 @@ layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #ifdef AT_ID
 layout(location = AT_ID) out uvec2 out_id;
 #endif
+#ifdef AT_ALBEDO
+layout(location = AT_ALBEDO) out vec4 out_albedo;
+#endif
 #ifdef AT_SHADE
 layout(location = AT_SHADE) out vec4 out_shade;
 #endif
@@ -23,6 +26,9 @@ void main()
 #endif
 #ifdef AT_ID
     out_id = uvec2(0u);
+#endif
+#ifdef AT_ALBEDO
+    out_albedo = vec4(1.0, 1.0, 1.0, 0.0);
 #endif
 #ifdef AT_SHADE
     out_shade = vec4(0.0);
@@ -46,9 +52,14 @@ void main()
 #ifdef AT_ID
         out_id = uvec2(place.w, surface.x);
 #endif
+#if defined(AT_SHADE) || defined(AT_ALBEDO)
+        uvec4 colours = nodes[node + 2u];
+#endif
+#ifdef AT_ALBEDO
+        out_albedo = vec4(unpackHalf2x16(colours.z), unpackHalf2x16(colours.w));
+#endif
 #ifdef AT_SHADE
-        uvec4 shade = nodes[node + 2u];
-        out_shade = vec4(unpackHalf2x16(shade.x), unpackHalf2x16(shade.y));
+        out_shade = vec4(unpackHalf2x16(colours.x), unpackHalf2x16(colours.y));
 #endif
     }
 }

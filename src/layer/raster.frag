@@ -16,7 +16,11 @@ uniform uint u_surface_id;
 layout(location = AT_ID) out uvec2 out_id;
 #endif
 #ifdef AT_ALBEDO
+#ifdef INTO_LISTS
+vec4 out_albedo;
+#else
 layout(location = AT_ALBEDO) out vec4 out_albedo;
+#endif
 #endif
 #ifdef AT_SHADE
 #ifdef INTO_LISTS
@@ -130,10 +134,13 @@ void main()
 #endif
 #endif
 #ifdef INTO_LISTS
+    vec4 shade = vec4(0.0), unlit = vec4(0.0);
 #ifdef AT_SHADE
-    list_add(id, stored_depth(), -v_eye.z, normal, out_shade);
-#else
-    list_add(id, stored_depth(), -v_eye.z, normal, vec4(0.0));
+    shade = out_shade;
 #endif
+#ifdef AT_ALBEDO
+    unlit = out_albedo;
+#endif
+    list_add(id, stored_depth(), -v_eye.z, normal, shade, unlit);
 #endif
 }

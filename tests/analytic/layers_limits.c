@@ -184,10 +184,41 @@ static void little_memory(void)
     }
 }
 
+/* Whatever finds the lines and whatever is made of the layers, both producers give the same picture. */
+static void every_operator(void)
+{
+    static const char *const operators[] = {"discontinuity", "four-tap", "sobel", "saito", "saito-normalised", "denormal", "id", "colour"};
+    static const char *const compositions[] = {"blueprint", "wire", "xray"}, *const producers[] = {"peeling", "lists"};
+    shape s = {0};
+    scene_make(&s, SCENE_CROSSING, 5);
+    for (size_t o = 0; o < sizeof operators / sizeof *operators; o++)
+        for (size_t c = 0; c < 3; c++) {
+            shot   drawings[2];
+            char   look[512];
+            size_t off = 0, count = 4 * (size_t)iso.width * (size_t)iso.height;
+            bool   drawn = true;
+            for (int p = 0; p < 2; p++) {
+                shot_view view = iso;
+                view.without_maps = true;
+                snprintf(look, sizeof look, LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"lines\":\"%s\",\"compose\":\"%s\","
+                                                 "\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"}}"),
+                         operators[o], compositions[c], producers[p]);
+                drawn = shot_of_shape(&drawings[p], &s, "operators.glb", look, NULL, &view) && drawn;
+            }
+            for (size_t i = 0; i < count && drawn; i++)
+                off += abs(drawings[0].picture[i] - drawings[1].picture[i]) > 1;
+            check_that("B01", drawn, "%s with %s is drawn", compositions[c], operators[o]);
+            check_at_most("B01", (double)off, 0, "values that the producers give differently, %s with %s", compositions[c], operators[o]);
+            shot_release(&drawings[0]);
+            shot_release(&drawings[1]);
+        }
+    shape_release(&s);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"bad", bad_values}, {"nothing", nothing_and_nonsense}, {"inside", from_inside}, {"memory", little_memory},
+        {"bad", bad_values}, {"nothing", nothing_and_nonsense}, {"inside", from_inside}, {"memory", little_memory}, {"operators", every_operator},
     };
     int status = check_main(argc, argv, "layers_limits", cases, sizeof cases / sizeof *cases);
     shot_end();
