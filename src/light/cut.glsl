@@ -23,6 +23,6 @@ float cut_hatch(ivec2 pixel, uvec2 id)
 /* The cut face's colour, opaque and unlit. */
 vec4 cut_colour(ivec2 pixel, uvec2 id, vec3 albedo)
 {
-    vec3 fill = u_cut_fill.w < 0.0 ? mix(albedo, vec3(1.0), 0.72) : u_cut_fill.rgb;
+    vec3 fill = u_cut_fill.w < 0.0 ? mix(albedo, vec3(1.0), 0.72) : mix(vec3(1.0), u_cut_fill.rgb, u_cut_fill.w);
     return vec4(mix(fill, u_cut_colour.rgb, cut_hatch(pixel, id) * u_cut_colour.a), 1.0);
 }

@@ -35,7 +35,7 @@ static const param params[] = {
     PARAM_COLOUR_ROW(scene_values, cut_colour, .def_colour = {0.13f, 0.13f, 0.15f, 1}, .cpu_only = true, .only_if = "cut",
                      .doc = "Colour of these lines."),
     PARAM_COLOUR_ROW(scene_values, cut_fill, .can_auto = true, .def_auto = true, .cpu_only = true, .only_if = "cut",
-                     .doc = "Colour of cut faces; auto takes the part's own, nearly white."),
+                     .doc = "Colour of cut faces; auto takes the part's own, nearly white, none leaves them white."),
 };
 
 static const technique studio = {
