@@ -21,7 +21,7 @@ uniform int   u_figure;
 bool is_own(ivec2 at)
 {
 #ifdef SHARED_LAYERS
-    return int((texelFetch(t_id, at, 0).g >> 20) & 0xFFu) == u_figure;
+    return int((texelFetch(t_id, at, 0).g >> SURFACE_INDEX_BITS) & SURFACE_FIGURE_MASK) == u_figure;
 #else
     return true;
 #endif

@@ -8,7 +8,7 @@ layout(location = 0) out vec4 out_0;
 bool is_own(ivec2 at)
 {
 #ifdef HAS_COMPLEMENT
-    return (texelFetch(t_id, at, 0).g & 0x80000000u) == 0u;
+    return (texelFetch(t_id, at, 0).g & SURFACE_COMPLEMENT) == 0u;
 #else
     return true;
 #endif

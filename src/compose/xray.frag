@@ -6,7 +6,7 @@ vec4 layer_fill(ivec2 pixel)
     float opacity = u_opacity;
 #ifdef HAS_CUT
     /* Cut faces are what the section is made for: nearly solid. */
-    if ((texelFetch(t_id, pixel, 0).g & 0x20000000u) != 0u)
+    if ((texelFetch(t_id, pixel, 0).g & SURFACE_CUT) != 0u)
         opacity = 1.0 - 0.2 * (1.0 - opacity);
 #endif
     int slanted = u_rim > 0.0 ? 1 : 0;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layer/layer.h"
 #include "light/light.h"
 
 /* How cut faces are hatched. Lengths count supersamples. */
@@ -145,8 +146,18 @@ const pass *rule_merged_detection(const rule *r)
     return only;
 }
 
+/* Names for the bits of the surface id, as src/layer/layer.h has them. */
+static void declare_id_bits(text *prelude)
+{
+    text_append(prelude, "#define SURFACE_INDEX_BITS %d\n#define SURFACE_INDEX_MASK %uu\n#define SURFACE_FIGURE_MASK %uu\n", SURFACE_INDEX_BITS,
+                (1u << SURFACE_INDEX_BITS) - 1, (unsigned)FIGURES_TOGETHER_MAX);
+    text_append(prelude, "#define SURFACE_COMPLEMENT %uu\n#define SURFACE_TURNED %uu\n#define SURFACE_CUT %uu\n#define SURFACE_BACK %uu\n",
+                SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK);
+}
+
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
+    declare_id_bits(prelude);
     char *finished = text_take(prelude);
     gpu_program *p = finished ? gpu_program_of(f->g, dialect, vertex, fragment, finished) : NULL;
     if (!finished)

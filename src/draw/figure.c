@@ -3,6 +3,15 @@
 
 #include <math.h>
 
+void box_widen(int box[4], const int other[4])
+{
+    for (int k = 0; k < 2; k++) {
+        int low = other[k] < box[k] ? other[k] : box[k], high = other[k] + other[2 + k], own = box[k] + box[2 + k];
+        box[2 + k] = (high > own ? high : own) - low;
+        box[k] = low;
+    }
+}
+
 /* The sum of the lengths that matter with these values. */
 static float lengths_of(const param *params, size_t count, const void *values)
 {

@@ -64,6 +64,8 @@ typedef struct layer_stack {
 /* --- figure.c --- */
 /* Sets range and pixels; false when nothing of it is on the page. */
 bool figure_open(frame *f, figure_state *s, const figure *fig);
+/* Widens a box of pixels (x, y, width, height) by another. */
+void box_widen(int box[4], const int other[4]);
 /* How far the figure's lines reach beyond it, pixels. */
 int  figure_reach(const figure *fig);
 

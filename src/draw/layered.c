@@ -16,15 +16,6 @@ static const peel_values *peel_of(const figure *fig)
     return layers && layers->technique == &layers_peel ? layers->values : NULL;
 }
 
-static void widen(int box[4], const int other[4])
-{
-    for (int k = 0; k < 2; k++) {
-        int low = other[k] < box[k] ? other[k] : box[k], high = other[k] + other[2 + k], own = box[k] + box[2 + k];
-        box[2 + k] = (high > own ? high : own) - low;
-        box[k] = low;
-    }
-}
-
 static void stack_open(frame *f, layer_stack *stack, const figure *figures, int count)
 {
     *stack = (layer_stack){.states = mem_calloc((size_t)count, sizeof *stack->states),
@@ -49,7 +40,7 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
         stack->reach = reach > stack->reach ? reach : stack->reach;
         if (stack->count == 0)
             memcpy(stack->box, s->pixels, sizeof stack->box);
-        widen(stack->box, s->pixels);
+        box_widen(stack->box, s->pixels);
         stack->count++;
     }
     for (int i = 0; i < stack->count; i++)

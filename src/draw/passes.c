@@ -98,12 +98,7 @@ static void box_of_interest(const figure_state *s, int out[4])
 {
     memcpy(out, s->boxes && s->box_count ? s->boxes[0] : s->pixels, 4 * sizeof *out);
     for (size_t i = 1; s->boxes && i < s->box_count; i++)
-        for (int k = 0; k < 2; k++) {
-            const int *other = s->boxes[i];
-            int low = other[k] < out[k] ? other[k] : out[k], end = out[k] + out[2 + k], other_end = other[k] + other[2 + k];
-            out[2 + k] = (other_end > end ? other_end : end) - low;
-            out[k] = low;
-        }
+        box_widen(out, s->boxes[i]);
 }
 
 /* A pass on the CPU. Outside the box its picture is undefined: nothing is inked there. */

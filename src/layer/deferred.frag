@@ -14,18 +14,18 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     uvec2 id = texelFetch(t_id, pixel, 0).rg;
-    if (id.r == 0u || (id.g & 0x80000000u) != 0u) {
+    if (id.r == 0u || (id.g & SURFACE_COMPLEMENT) != 0u) {
         out_shade = vec4(0.0);
         return;
     }
     vec4 normal_depth = texelFetch(t_normal_depth, pixel, 0);
     vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
     vec3 eye = vec3(ndc * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
-    vec3 normal = (id.g & 0x40000000u) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
+    vec3 normal = (id.g & SURFACE_TURNED) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
     out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false));
 #ifdef HAS_CUT
-    if ((id.g & 0x20000000u) != 0u)
+    if ((id.g & SURFACE_CUT) != 0u)
         out_shade = cut_colour(pixel, id, albedo.rgb);
 #endif
 }

@@ -21,7 +21,7 @@ typedef enum layer_producer { PRODUCER_AUTO, PRODUCER_PEELING, PRODUCER_LISTS } 
 /* Layers that are drawn at most, however deep the model is. */
 enum { LAYERS_MAX = 256 };
 
-/* Bits of the surface id in the id buffer. */
+/* Bits of the surface id in the id buffer; every program gets them by the same names. */
 enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = (1 << SURFACE_FIGURE_BITS) - 1 };
 #define SURFACE_COMPLEMENT 0x80000000u /* a part that another figure draws */
 #define SURFACE_TURNED     0x40000000u /* seen from inside: the normal points away */

@@ -16,7 +16,7 @@ const uint NONE = 0xFFFFFFFFu; /* deeper than any depth */
 
 uint order_at(uint node)
 {
-    return nodes[node].w << 1 | (nodes[node + 1u].x >> 28 & 1u);
+    return nodes[node].w << 1 | ((nodes[node + 1u].x & SURFACE_BACK) != 0u ? 1u : 0u);
 }
 
 /* First round only: is what the list has nearest told apart by depth alone? Then nothing else of the nodes is read. */
@@ -60,7 +60,7 @@ void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEP
     while (i != 0u) {
         uint at = (i - 1u) * uint(NODE_VECTORS);
         uvec4 node = nodes[at];
-        uint depth = node.y, age = node.z, order = node.w << 1 | (nodes[at + 1u].x >> 28 & 1u), mine = i;
+        uint depth = node.y, age = node.z, order = order_at(at), mine = i;
         bool behind = depth > least_depth || (depth == least_depth && order >= least_order);
         depth = behind ? depth : NONE;
         for (int k = 0; k < KEPT; k++) {

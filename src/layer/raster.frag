@@ -51,14 +51,14 @@ float stored_depth()
 /* Orders what lies at the same depth: by part, then front faces before back faces. */
 uint order_of(uvec2 id)
 {
-    return id.r << 1 | (id.g >> 28 & 1u);
+    return id.r << 1 | ((id.g & SURFACE_BACK) != 0u ? 1u : 0u);
 }
 #endif
 
 void main()
 {
 #ifdef LAYERED
-    uvec2 id = uvec2(u_part_id, u_surface_id | (gl_FrontFacing ? 0u : 0x10000000u));
+    uvec2 id = uvec2(u_part_id, u_surface_id | (gl_FrontFacing ? 0u : SURFACE_BACK));
 #endif
 #ifdef PEELED
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -111,7 +111,7 @@ void main()
 #endif
 #ifdef DEFERRED
     if (turned)
-        out_id.g |= 0x40000000u;
+        out_id.g |= SURFACE_TURNED;
 #endif
 #endif
 #ifdef AT_ALBEDO

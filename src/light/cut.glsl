@@ -7,7 +7,7 @@ uniform vec4  u_cut_fill;   /* w below 0: from the part's own colour */
  * and what has the same angle has another distance; planes that meet in a corner differ as well. */
 float cut_hatch(ivec2 pixel, uvec2 id)
 {
-    if ((id.g & 0x20000000u) == 0u || u_cut_lines.x <= 0.0)
+    if ((id.g & SURFACE_CUT) == 0u || u_cut_lines.x <= 0.0)
         return 0.0;
     const float turns[6] = float[6](0.0, 90.0, -15.0, 105.0, 15.0, 75.0);
     const float axes[4] = float[4](0.0, 90.0, 50.0, 0.0);

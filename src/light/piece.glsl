@@ -2,8 +2,8 @@
 uint piece_of(uvec2 id)
 {
 #ifdef HAS_CUT
-    if ((id.g & 0x20000000u) != 0u)
-        return id.r ^ ((id.g & 0xFFFFFu) + 1u) * 2654435761u;
+    if ((id.g & SURFACE_CUT) != 0u)
+        return id.r ^ ((id.g & SURFACE_INDEX_MASK) + 1u) * 2654435761u;
 #endif
     return id.r;
 }

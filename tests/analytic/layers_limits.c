@@ -215,10 +215,32 @@ static void every_operator(void)
     shape_release(&s);
 }
 
+/* The borders of surfaces are where they are in the visible layer, too: facing and figure are no part of a surface's name. */
+static void borders_of_surfaces(void)
+{
+    static const char id[] = "\"lines\":{\"operator\":\"id\",\"of\":\"surface\"}";
+    char  layered[512], front[512];
+    shape s = {0};
+    shot  one, other;
+    scene_make(&s, SCENE_OPEN, 3);
+    snprintf(front, sizeof front, LOOK("{\"select\":\"*\"," OWN_COLOUR ",%s}"), id);
+    snprintf(layered, sizeof layered, LOOK("{\"select\":\"*\"," OWN_COLOUR ",%s,\"layers\":{\"technique\":\"peel\",\"count\":1},\"compose\":\"wire\"}"), id);
+    bool ok = shot_of_shape(&one, &s, "surfaces.glb", front, NULL, &iso);
+    if (shot_of_shape(&other, &s, "surfaces.glb", layered, NULL, &iso) && ok) {
+        size_t off = 0, count = 4 * (size_t)iso.width * (size_t)iso.height;
+        for (size_t i = 0; i < count; i++)
+            off += one.edge[i] != other.edge[i];
+        check_at_most("B02", (double)off, 0, "bytes of the edge map between surfaces that a layer has differently");
+    }
+    shot_release(&one);
+    shot_release(&other);
+    shape_release(&s);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"bad", bad_values}, {"nothing", nothing_and_nonsense}, {"inside", from_inside}, {"memory", little_memory}, {"operators", every_operator},
+        {"bad", bad_values}, {"nothing", nothing_and_nonsense}, {"inside", from_inside}, {"memory", little_memory}, {"operators", every_operator}, {"surfaces", borders_of_surfaces},
     };
     int status = check_main(argc, argv, "layers_limits", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -8,7 +8,7 @@ uint id_at(ivec2 off)
 #if OF == 0
     return piece_of(id);
 #else
-    return id.r * 4096u + (id.g & 0x3FFFFFFFu);
+    return id.r * 4096u + (id.g & (SURFACE_INDEX_MASK | SURFACE_CUT));
 #endif
 }
 
