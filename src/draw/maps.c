@@ -56,33 +56,48 @@ static lmn_status write_ids(const frame_maps *m, const layer_map *layer, size_t 
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
 }
 
-/* RGBA, row 0 on top; frees the pixels. */
-static lmn_status store_picture(const frame_maps *m, uint8_t *pixels, const char *directory, const char *name, lmn_error *error)
+typedef void texel_fn(const void *source, size_t index, uint8_t out[4]);
+
+static void raw_texel(const void *source, size_t index, uint8_t out[4])
 {
+    for (size_t k = 0; k < 4; k++)
+        out[k] = byte_of(((const float *)source)[4 * index + k]);
+}
+
+/* Linear premultiplied colour as sRGB, straight alpha. */
+static void colour_texel(const void *source, size_t index, uint8_t out[4])
+{
+    const float *v = &((const float *)source)[4 * index];
+    for (size_t k = 0; k < 3; k++)
+        out[k] = byte_of(colour_from_linear(v[3] > 0 ? v[k] / v[3] : 0));
+    out[3] = byte_of(v[3]);
+}
+
+static void layer_edge_texel(const void *source, size_t index, uint8_t out[4])
+{
+    memcpy(out, ((const layer_map *)source)[index].edge, 4);
+}
+
+static void layer_shade_texel(const void *source, size_t index, uint8_t out[4])
+{
+    memcpy(out, ((const layer_map *)source)[index].shade, 4);
+}
+
+/* An RGBA picture, row 0 on top, of a source whose row 0 is at the bottom. */
+static lmn_status write_picture(const frame_maps *m, texel_fn *texel, const void *source, const char *directory, const char *name,
+                                lmn_error *error)
+{
+    size_t width = (size_t)m->width, height = (size_t)m->height;
+    uint8_t *pixels = mem_alloc(width * height * 4);
+    if (!pixels)
+        return error_memory(error);
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 0; x < width; x++)
+            texel(source, (height - 1 - y) * width + x, &pixels[4 * (y * width + x)]);
     export_bytes bytes;
     lmn_status status = export_png_raw(&bytes, pixels, m->width, m->height, error);
     mem_free(pixels);
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
-}
-
-static lmn_status write_rgba(const frame_maps *m, const float *values, bool is_colour, const char *directory, const char *name,
-                             lmn_error *error)
-{
-    size_t count = (size_t)m->width * (size_t)m->height;
-    uint8_t *pixels = mem_alloc(count * 4);
-    if (!pixels)
-        return error_memory(error);
-    for (int y = 0; y < m->height; y++)
-        for (int x = 0; x < m->width; x++) {
-            const float *v = &values[4 * ((size_t)(m->height - 1 - y) * (size_t)m->width + (size_t)x)];
-            uint8_t *p = &pixels[4 * ((size_t)y * (size_t)m->width + (size_t)x)];
-            for (int k = 0; k < 3; k++) {
-                float straight = is_colour ? (v[3] > 0 ? v[k] / v[3] : 0) : v[k];
-                p[k] = byte_of(is_colour ? colour_from_linear(straight) : straight);
-            }
-            p[3] = byte_of(v[3]);
-        }
-    return store_picture(m, pixels, directory, name, error);
 }
 
 static lmn_status write_layer_floats(const frame_maps *m, const layer_map *layer, int channels, const char *directory, const char *name,
@@ -100,21 +115,6 @@ static lmn_status write_layer_floats(const frame_maps *m, const layer_map *layer
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
 }
 
-static lmn_status write_layer_bytes(const frame_maps *m, const layer_map *layer, bool shade, const char *directory, const char *name,
-                                    lmn_error *error)
-{
-    size_t count = (size_t)m->width * (size_t)m->height;
-    uint8_t *pixels = mem_alloc(count * 4);
-    if (!pixels)
-        return error_memory(error);
-    for (int y = 0; y < m->height; y++)
-        for (int x = 0; x < m->width; x++) {
-            const layer_map *from = &layer[(size_t)(m->height - 1 - y) * (size_t)m->width + (size_t)x];
-            memcpy(&pixels[4 * ((size_t)y * (size_t)m->width + (size_t)x)], shade ? from->shade : from->edge, 4);
-        }
-    return store_picture(m, pixels, directory, name, error);
-}
-
 /* layerK.depth.pfm, .normal.pfm, .id.png, .edge.png, .shade.png */
 static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_count, const char *directory, lmn_error *error)
 {
@@ -130,9 +130,9 @@ static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_cou
         status = write_ids(m, layer, part_count, directory, name, error);
     snprintf(name, sizeof name, "layer%zu.edge.png", index);
     if (status == LMN_OK)
-        status = write_layer_bytes(m, layer, false, directory, name, error);
+        status = write_picture(m, layer_edge_texel, layer, directory, name, error);
     snprintf(name, sizeof name, "layer%zu.shade.png", index);
-    return status == LMN_OK ? write_layer_bytes(m, layer, true, directory, name, error) : status;
+    return status == LMN_OK ? write_picture(m, layer_shade_texel, layer, directory, name, error) : status;
 }
 
 lmn_status maps_write(const frame_maps *m, size_t part_count, const char *directory, lmn_error *error)
@@ -150,9 +150,9 @@ lmn_status maps_write(const frame_maps *m, size_t part_count, const char *direct
     if (status == LMN_OK)
         status = write_ids(m, NULL, part_count, directory, "id.png", error);
     if (status == LMN_OK)
-        status = write_rgba(m, m->edge, false, directory, "edge.png", error);
+        status = write_picture(m, raw_texel, m->edge, directory, "edge.png", error);
     if (status == LMN_OK)
-        status = write_rgba(m, m->shade, true, directory, "shade.png", error);
+        status = write_picture(m, colour_texel, m->shade, directory, "shade.png", error);
     for (size_t i = 0; i < m->layer_count && status == LMN_OK; i++)
         status = write_layer(m, i, part_count, directory, error);
     return status;

@@ -14,10 +14,7 @@ layout(location = 1) out uvec4 out_more;
 
 const uint NONE = 0xFFFFFFFFu; /* deeper than any depth */
 
-uint order_at(uint node)
-{
-    return nodes[node].w << 1 | ((nodes[node + 1u].x & SURFACE_BACK) != 0u ? 1u : 0u);
-}
+#include "layer/order.glsl"
 
 /* First round only: is what the list has nearest told apart by depth alone? Then nothing else of the nodes is read. */
 bool sort_by_depth(uint head, out uint kept[KEPT])
@@ -60,7 +57,7 @@ void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEP
     while (i != 0u) {
         uint at = (i - 1u) * uint(NODE_VECTORS);
         uvec4 node = nodes[at];
-        uint depth = node.y, age = node.z, order = order_at(at), mine = i;
+        uint depth = node.y, age = node.z, order = order_of(uvec2(node.w, nodes[at + 1u].x)), mine = i;
         bool behind = depth > least_depth || (depth == least_depth && order >= least_order);
         depth = behind ? depth : NONE;
         for (int k = 0; k < KEPT; k++) {
@@ -93,8 +90,10 @@ void main()
     uint last = texelFetch(t_last, ivec2(gl_FragCoord.xy), 0).LAST, least_depth = 0u, least_order = 0u;
     int some = last != 0u ? 1 : 0;
     for (int once = 0; once < some; once++) {
-        least_depth = nodes[(last - 1u) * uint(NODE_VECTORS)].y;
-        least_order = order_at((last - 1u) * uint(NODE_VECTORS)) + 1u;
+        uint at = (last - 1u) * uint(NODE_VECTORS);
+        uvec4 node = nodes[at];
+        least_depth = node.y;
+        least_order = order_of(uvec2(node.w, nodes[at + 1u].x)) + 1u;
     }
     sort_fully(some == 1 ? head : 0u, least_depth, least_order, kept);
 #else

@@ -48,11 +48,7 @@ float stored_depth()
     return clamp(gl_FragCoord.z, 0.0, 1.0);
 }
 
-/* Orders what lies at the same depth: by part, then front faces before back faces. */
-uint order_of(uvec2 id)
-{
-    return id.r << 1 | ((id.g & SURFACE_BACK) != 0u ? 1u : 0u);
-}
+#include "layer/order.glsl"
 #endif
 
 void main()
