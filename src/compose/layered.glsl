@@ -1,14 +1,10 @@
 /* One layer of a figure, put under those in front of it: fill, and ink over it. The composition's own file says what the fill is
  * and what becomes of the ink. */
+#include "compose/places.glsl"
 #ifdef HAS_LINES
 #include "lines/ink.glsl"
 #endif
 layout(location = 0) out vec4 out_0;
-
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 
 uniform int   u_layer; /* 0 = visible */
 uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
@@ -31,7 +27,7 @@ bool is_own(ivec2 at)
 #include "light/cut.glsl"
 #endif
 
-vec4 layer_fill(ivec2 pixel);
+vec4 layer_fill(vec2 place);
 
 #ifdef HAS_LINES
 #include "compose/reach.glsl"
@@ -54,9 +50,10 @@ float hatch_of(ivec2 pixel)
 #endif
 
 /* Ink of this layer as its place in the stack leaves it. */
-vec4 stacked_ink(ivec2 pixel)
+vec4 stacked_ink(vec2 place)
 {
-    vec4 ink = layer_ink(ink_at(pixel));
+    ivec2 pixel = pixel_at(place);
+    vec4 ink = layer_ink(ink_at(place));
 #ifdef HAS_CUT
     /* Cut faces are hatched in the ink of the lines. */
     ink = over(ink, vec4(u_line_colour.rgb, 1.0) * (u_line_colour.a * hatch_of(pixel)));
@@ -65,7 +62,7 @@ vec4 stacked_ink(ivec2 pixel)
     for (int once = 0; once < hidden; once++) {
         ink *= u_hidden_opacity * pow(u_fade, float(u_layer - 1));
         /* Outlines and borders of parts carry the shape, creases the detail: those go first. */
-        vec4 edge = edge_at(pixel);
+        vec4 edge = edge_at(place);
         float important = max(1.0 - edge.r, 1.0 - edge.a);
         ink *= pow(1.0 - u_clutter * mix(0.5, 0.15, important), float(u_layer));
 #if defined(MAP_OF_BEFORE) && ONCE
@@ -87,22 +84,34 @@ vec4 stacked_ink(ivec2 pixel)
 }
 #endif
 
+float own_depth(ivec2 at)
+{
+    float depth = texelFetch(t_depth, at, 0).r;
+    return is_own(at) ? depth : 1.0;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(t_depth, pixel, 0).r;
-    if (!is_own(pixel))
-        depth = 1.0;
-    vec4 colour = depth < 1.0 && u_filled ? layer_fill(pixel) : vec4(0.0);
+    find_places(pixel);
+    float depth = own_depth(pixel_at(fill_place()));
+    vec4 fill = depth < 1.0 && u_filled ? layer_fill(fill_place()) : vec4(0.0), ink = vec4(0.0);
 #ifdef HAS_LINES
 #ifdef MERGED
     detect_edges();
 #endif
-    colour = over(stacked_ink(pixel), colour);
-    int search = depth >= 1.0 && colour.a > 0.0 ? 1 : 0;
-    for (int once = 0; once < search; once++)
-        depth = neighbour_depth(pixel);
+    for (int i = LINE_COPIES - 1; i >= 0; i--) {
+        vec2 place = line_place(i);
+        float line_depth = own_depth(pixel_at(place));
+        vec4 own_ink = copy_ink(stacked_ink(place), i);
+        int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
+        for (int once = 0; once < search; once++)
+            line_depth = neighbour_depth(pixel_at(place));
+        depth = min(depth, line_depth);
+        ink = over(own_ink, ink);
+    }
 #endif
+    vec4 colour = ink + fill * (1.0 - ink.a);
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour * u_rear;

@@ -5,7 +5,7 @@
 
 static const pass passes[] = {
     {.name = "sprite", .shader = "compose/sprite.frag",
-     .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_DASH, TARGET_GROUND}, .writes = TARGET_PAGE,
+     .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_DASH, TARGET_GROUND, TARGET_UNCERTAINTY}, .writes = TARGET_PAGE,
      .blend = BLEND_OVER, .depth = true},
 };
 
@@ -13,5 +13,5 @@ const technique compose_opaque = {
     .name = "opaque", .doc = "Colour with true depth, lines on top.", .example = "{\"compose\": \"opaque\", \"lines\": \"four-tap\"}",
     .channels = CHANNEL_SHADE, .passes = passes,
     /* Detecting here saves writing and reading the map, a tenth of a frame. */
-    .merges_when = "contrast=none", .pass_count = PARAM_COUNT(passes),
+    .merges_when = "contrast=none", .pass_count = PARAM_COUNT(passes), .perturbable = true,
 };

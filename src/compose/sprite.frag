@@ -1,8 +1,10 @@
-/* A figure as a depth sprite. */
+/* A figure as a depth sprite. What is drawn lies as deep as the nearer of what the lines and the fill show. */
+#include "compose/places.glsl"
 #ifdef HAS_LINES
 #include "lines/ink.glsl"
 #endif
 layout(location = 0) out vec4 out_0;
+uniform bool u_filled; /* with the fill, not only the lines */
 
 /* Parts that other figures draw are here for their edges alone. */
 bool is_own(ivec2 at)
@@ -14,29 +16,54 @@ bool is_own(ivec2 at)
 #endif
 }
 
+float own_depth(ivec2 at)
+{
+    float depth = texelFetch(t_depth, at, 0).r;
+    return is_own(at) ? depth : 1.0;
+}
+
 #ifdef HAS_LINES
 #include "compose/reach.glsl"
+#endif
+
+#ifdef PERTURBED
+/* Paper where the fill fell short of the outline; not where a surface has none. Seed 000, section 6.4. */
+vec4 fallback_at(ivec2 at)
+{
+    return vec4(u_perturb_fallback.rgb, 1.0) * (u_perturb_fallback.a * texelFetch(t_shade, at, 0).a);
+}
 #endif
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(t_depth, pixel, 0).r;
-    vec4 colour = texelFetch(t_shade, pixel, 0);
-    if (!is_own(pixel)) {
-        depth = 1.0;
-        colour = vec4(0.0);
-    }
+    find_places(pixel);
+    float fill_depth = own_depth(pixel_at(fill_place())), depth = fill_depth;
+    vec4 fill = fill_depth < 1.0 ? shade_at(fill_place()) : vec4(0.0), ink = vec4(0.0);
+#ifdef PERTURBED
+    depth = fill.a > 0.0 ? depth : 1.0;
+#endif
 #ifdef HAS_LINES
 #ifdef MERGED
     detect_edges();
 #endif
-    vec4 ink = ink_at(pixel);
-    colour = over(ink, colour);
-    int search = depth >= 1.0 && colour.a > 0.0 ? 1 : 0;
-    for (int once = 0; once < search; once++)
-        depth = neighbour_depth(pixel);
+    for (int i = LINE_COPIES - 1; i >= 0; i--) {
+        vec2 place = line_place(i);
+        float line_depth = own_depth(pixel_at(place));
+        vec4 own_ink = copy_ink(ink_at(place), i);
+        int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
+#ifdef PERTURBED
+        int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
+        for (int once = 0; once < bare; once++)
+            fill = fallback_at(pixel_at(place));
 #endif
+        for (int once = 0; once < search; once++)
+            line_depth = neighbour_depth(pixel_at(place));
+        depth = min(depth, line_depth);
+        ink = over(own_ink, ink);
+    }
+#endif
+    vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour;

@@ -1,6 +1,6 @@
 #include "compose/layered.glsl"
 
-vec4 layer_fill(ivec2 pixel)
+vec4 layer_fill(vec2 place)
 {
     return vec4(0.0);
 }

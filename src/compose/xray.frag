@@ -1,8 +1,9 @@
 #include "light/point.glsl"
 #include "compose/layered.glsl"
 
-vec4 layer_fill(ivec2 pixel)
+vec4 layer_fill(vec2 place)
 {
+    ivec2 pixel = pixel_at(place);
     float opacity = u_opacity;
 #ifdef HAS_CUT
     /* Cut faces are what the section is made for: nearly solid. */
@@ -11,11 +12,11 @@ vec4 layer_fill(ivec2 pixel)
 #endif
     int slanted = u_rim > 0.0 ? 1 : 0;
     for (int once = 0; once < slanted; once++) {
-        vec3 ray = normalize(vec3((2.0 * gl_FragCoord.xy / u_size - 1.0) * u_unproject * u_perspective, -1.0));
+        vec3 ray = normalize(vec3((2.0 * (vec2(pixel) + 0.5) / u_size - 1.0) * u_unproject * u_perspective, -1.0));
         float facing = abs(dot(texelFetch(t_normal_depth, pixel, 0).xyz, ray));
         opacity = mix(opacity, 1.0, u_rim * (1.0 - facing) * (1.0 - facing));
     }
-    return texelFetch(t_shade, pixel, 0) * opacity;
+    return shade_at(place) * opacity;
 }
 
 #ifdef HAS_LINES

@@ -21,6 +21,41 @@ static void set_cut(frame *f)
     gpu_set_vec4(f->g, "u_cut_fill", fill);
 }
 
+/* From eye space to the scene's rest pose, measured from its middle. */
+static void set_rest(frame *f)
+{
+    const double *view = f->camera.view.m;
+    const double middle[3] = {(f->plan->box.min.x + f->plan->box.max.x) / 2, (f->plan->box.min.y + f->plan->box.max.y) / 2,
+                              (f->plan->box.min.z + f->plan->box.max.z) / 2};
+    float rest[16] = {0};
+    for (int row = 0; row < 3; row++) {
+        double moved = -middle[row];
+        for (int k = 0; k < 3; k++) {
+            rest[4 * k + row] = (float)view[4 * row + k];
+            moved -= view[4 * row + k] * view[12 + k];
+        }
+        rest[12 + row] = (float)moved;
+    }
+    rest[15] = 1;
+    gpu_set_mat4(f->g, "u_rest_from_eye", rest);
+}
+
+/* What the coarse pictures of a perturbation are measured in. */
+static void set_field(frame *f, const figure_state *s)
+{
+    const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
+    const perturbation *p = use ? use->technique->perturbs : NULL;
+    if (!p)
+        return;
+    int size[2];
+    coarse_size(f, s, size);
+    gpu_set_float(f->g, "u_cell", p->cell(use->values));
+    gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
+    gpu_set_float(f->g, "u_reach", fmaxf(p->reach(use->values), 1));
+    gpu_set_uint(f->g, "u_seed", p->seed(use->values, f->seed, f->time_s));
+    set_rest(f);
+}
+
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
@@ -34,6 +69,8 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_int(g, "u_figure", s->index);
     gpu_set_float(g, "u_rear", s->rear);
     gpu_set_int(g, "u_filled", s->filled);
+    if (gpu_has_uniform(g, "u_cell"))
+        set_field(f, s);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);
     if (gpu_has_uniform(g, "u_cut_lines"))
@@ -42,7 +79,7 @@ void frame_set_common(frame *f, const figure_state *s)
 
 static const char *prefix_of(kind_id id)
 {
-    return id == KIND_LINES ? "u_line_" : "u_";
+    return id == KIND_LINES ? "u_line_" : id == KIND_PERTURB ? "u_perturb_" : "u_";
 }
 
 param_set use_own_set(kind_id id, const technique_use *use)
@@ -62,15 +99,42 @@ const technique_use *rule_inked_lines(const rule *r)
     return count ? &r->uses[KIND_LINES][count - 1] : NULL;
 }
 
+static const gpu_format formats[TARGET_COUNT] = {
+    [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,           [TARGET_ALBEDO] = GPU_RGBA16F,
+    [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F,      [TARGET_FILTERED] = GPU_RGBA16F,
+    [TARGET_EDGE] = GPU_RGBA16F,         [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_NEARER_ROW] = GPU_RGBA16F,
+    [TARGET_NEARER] = GPU_RGBA16F,       [TARGET_DASH] = GPU_R8,             [TARGET_GROUND] = GPU_RGBA16F,
+    [TARGET_ENLARGED] = GPU_RGBA32F,     [TARGET_TRACES] = GPU_RGBA32F,      [TARGET_TRACES_ROW] = GPU_RGBA32F,
+    [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
+    [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,
+};
+
 gpu_texture *frame_acquire(frame *f, target t)
 {
-    static const gpu_format formats[TARGET_COUNT] = {
-        [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,     [TARGET_ALBEDO] = GPU_RGBA16F,
-        [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F, [TARGET_FILTERED] = GPU_RGBA16F, [TARGET_EDGE] = GPU_RGBA16F,
-        [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_NEARER_ROW] = GPU_RGBA16F, [TARGET_NEARER] = GPU_RGBA16F, [TARGET_LAYERS] = GPU_RGBA16F,
-        [TARGET_DASH] = GPU_R8,              [TARGET_GROUND] = GPU_RGBA16F,       [TARGET_REFLECTION] = GPU_RGBA16F, [TARGET_PAGE] = GPU_RGBA16F,
-    };
     return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
+}
+
+bool target_is_coarse(target t)
+{
+    return t == TARGET_TRACES || t == TARGET_TRACES_ROW || t == TARGET_UNCERTAINTY;
+}
+
+void coarse_size(const frame *f, const figure_state *s, int out[2])
+{
+    const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
+    float cell = use->technique->perturbs->cell(use->values);
+    /* One more, so that every pixel lies between two texels. */
+    out[0] = (int)ceilf((float)f->width / cell) + 1;
+    out[1] = (int)ceilf((float)f->height / cell) + 1;
+}
+
+gpu_texture *frame_acquire_for(frame *f, const figure_state *s, target t)
+{
+    if (!target_is_coarse(t))
+        return frame_acquire(f, t);
+    int size[2];
+    coarse_size(f, s, size);
+    return gpu_target_acquire(f->g, size[0], size[1], formats[t]);
 }
 
 gpu_texture *target_of(const frame *f, const figure_state *s, target t)
@@ -131,7 +195,7 @@ static bool needs_map(const technique_use *compose)
 const pass *rule_merged_detection(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
-    if (!compose || !compose->technique->merges_when || needs_map(compose) || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
+    if (!compose || !compose->technique->merges_when || needs_map(compose) || rule_use(r, KIND_PERTURB) || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
         !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
         return NULL;
     const pass *only = NULL;
@@ -197,6 +261,8 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
         text_append(prelude, "#define MAP_OF_BEFORE\n");
     if (s->targets[TARGET_NEARER])
         text_append(prelude, "#define HAS_NEARER\n");
+    if (s->targets[TARGET_SHADE])
+        text_append(prelude, "#define HAS_SHADE\n");
     if (s->shared)
         text_append(prelude, "#define SHARED_LAYERS\n");
     if (s->targets[TARGET_ID])
@@ -209,7 +275,8 @@ void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
     int count = union_of_reads(a, b, reads);
     for (int i = 0; i < count; i++) {
         /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
-        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE || reads[i] == TARGET_FILTERED;
+        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE || reads[i] == TARGET_FILTERED ||
+                      reads[i] == TARGET_UNCERTAINTY;
         gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
     }
 }

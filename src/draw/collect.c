@@ -37,6 +37,7 @@ void frame_maps_release(frame_maps *m)
     mem_free(m->id);
     mem_free(m->edge);
     mem_free(m->shade);
+    mem_free(m->uncertainty);
     for (size_t i = 0; i < m->layer_count; i++)
         mem_free(m->layers[i]);
     mem_free(m->layers);
@@ -123,6 +124,27 @@ void collect_edges(frame *f, figure_state *s)
     for (size_t i = 0; i < count; i++)
         s->edges[i] = fminf(s->edges[i], edge[i]);
     mem_free(edge);
+}
+
+/* Takes the field over, where no figure before has one. */
+void collect_uncertainty(frame *f, figure_state *s)
+{
+    frame_maps *m = f->maps;
+    size_t count = (size_t)f->width * (size_t)f->height;
+    float *field = mem_alloc(count * 4 * sizeof *field);
+    if (!m->uncertainty)
+        m->uncertainty = mem_calloc(count, 3 * sizeof *m->uncertainty);
+    if (!field || !m->uncertainty) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    } else {
+        gpu_read(f->g, s->targets[TARGET_FIELD], field);
+        for (size_t i = 0; i < count; i++) {
+            float *own = &m->uncertainty[3 * i];
+            if (own[0] == 0 && own[1] == 0 && own[2] == 0)
+                memcpy(own, &field[4 * i], 3 * sizeof *own);
+        }
+    }
+    mem_free(field);
 }
 
 static layer_map *layer_at(frame *f, size_t index)

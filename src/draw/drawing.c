@@ -122,6 +122,16 @@ static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_dra
     return LMN_OK;
 }
 
+static lmn_status find_ground(colour *out, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
+{
+    *out = ((const sheet_values *)look->wide[KIND_FINISH].values)->ground;
+    if (!desc->background || colour_parse(desc->background, out))
+        return LMN_OK;
+    lmn_status status = error_set(error, LMN_USAGE, "'%s' is not a colour", desc->background);
+    error_hint(error, "give #rgb, #rrggbb, #rrggbbaa, a basic colour name, or none");
+    return status;
+}
+
 lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                         bool maps, warnings *notes, lmn_error *error)
 {
@@ -130,8 +140,11 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     gpu_make_current(r->g);
     lmn_status status = bring_scene(r, scene, look, desc, error);
     int side = maps ? 1 : square_root(desc->samples);
+    plan_wishes wishes = {.select = desc->select, .pixel_scale = side, .as_sprites = maps};
     if (status == LMN_OK)
-        status = plan_create(&s->plan, scene, look, &r->up, desc->select, side, maps, notes, error);
+        status = find_ground(&wishes.ground, look, desc, error);
+    if (status == LMN_OK)
+        status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
     if (status == LMN_OK)
         status = place_camera(s, scene, desc, error);
     if (status != LMN_OK)
@@ -156,12 +169,9 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->samples = side;
     f->width = desc->width * side;
     f->height = desc->height * side;
-    f->ground = ((const sheet_values *)look->wide[KIND_FINISH].values)->ground;
-    if (desc->background && !colour_parse(desc->background, &f->ground)) {
-        status = error_set(error, LMN_USAGE, "'%s' is not a colour", desc->background);
-        error_hint(error, "give #rgb, #rrggbb, #rrggbbaa, a basic colour name, or none");
-        return status;
-    }
+    f->ground = wishes.ground;
+    f->seed = desc->seed;
+    f->time_s = desc->time_s;
     if (!maps)
         s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);
     return gpu_check(r->g, error);

@@ -34,6 +34,9 @@ int figure_reach(const figure *fig)
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
     if (compose && fig->layered)
         widest += lengths_of(compose->technique->params, compose->technique->param_count, compose->values);
+    const technique_use *perturb = rule_use(r, KIND_PERTURB);
+    if (perturb)
+        widest += perturb->technique->perturbs->reach(perturb->values);
     return (int)ceilf(widest) + 2;
 }
 

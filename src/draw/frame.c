@@ -42,6 +42,23 @@ static void draw_reflection(frame *f, figure_state *s)
     watch_stop(f, w, "surface", "reflection");
 }
 
+/* From the figure's G-buffer to its sprite, or to its maps. */
+static void draw_sprite(frame *f, figure_state *s)
+{
+    /* Lines that are folded into the fill would move with it. */
+    bool one_by_one = !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
+    s->filled = true;
+    for (int k = KIND_LAYERS; k < KIND_FINISH; k++) {
+        bool wanted = !f->maps || (f->maps->whole && k != KIND_COMPOSE);
+        if (wanted && !(one_by_one && (k == KIND_LINES || k == KIND_COMPOSE)))
+            passes_run_kind(f, s, (kind_id)k);
+    }
+    if (one_by_one)
+        passes_compose_lines(f, s, false);
+    if (f->maps)
+        collect_figure(f, s);
+}
+
 static void draw_figure(frame *f, const figure *fig)
 {
     figure_state s;
@@ -56,11 +73,7 @@ static void draw_figure(frame *f, const figure *fig)
         s.geometry = s.targets[TARGET_NORMAL_DEPTH];
         if (fig->deferred)
             raster_shade_deferred(f, &s);
-        for (int k = KIND_LAYERS; k < KIND_FINISH; k++)
-            if (!f->maps || (f->maps->whole && k != KIND_COMPOSE))
-                passes_run_kind(f, &s, (kind_id)k);
-        if (f->maps)
-            collect_figure(f, &s);
+        draw_sprite(f, &s);
         mem_free(s.edges);
     }
     release_targets(f, &s);

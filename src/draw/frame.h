@@ -24,6 +24,8 @@ typedef struct frame {
     int              width, height;   /* of the page, supersamples counted */
     int              samples;         /* a side */
     colour           ground;
+    uint32_t         seed;
+    double           time_s;
     bool             profile;         /* finish after each pass and keep its time */
     frame_maps      *maps;            /* collects the figures' buffers when not NULL */
     gpu_texture     *page, *page_depth;
@@ -55,6 +57,7 @@ struct frame_maps {
     uint32_t *id;
     float    *edge;    /* 4 */
     float    *shade;   /* 4, linear premultiplied */
+    float    *uncertainty; /* 3; NULL while nothing is perturbed */
     bool       whole;   /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
     layer_map **layers; /* of figures that are seen through, nearest first */
     size_t     layer_count, layer_capacity;

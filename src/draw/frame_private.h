@@ -35,7 +35,7 @@ typedef struct figure_state {
     float         rear;      /* layered: opacity */
     int         (*boxes)[4]; /* layered: where passes are drawn; NULL: all of `pixels` */
     size_t        box_count;
-    bool          filled;    /* layered: the fill is drawn with these lines */
+    bool          filled;    /* the fill is drawn with these lines */
     double        near, far;
 } figure_state;
 
@@ -83,6 +83,10 @@ void lights_set(frame *f);
 
 /* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);
+/* The same, coarse pictures in the size that the figure's perturbation asks for. */
+gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
+bool                 target_is_coarse(target t);
+void                 coarse_size(const frame *f, const figure_state *s, int out[2]); /* the rule perturbs */
 void                 frame_set_common(frame *f, const figure_state *s);
 /* The program of these files with this prelude, which is used up; NULL after an error. */
 gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
@@ -105,6 +109,8 @@ void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the pa
 void raster_shade_deferred(frame *f, figure_state *s);
 /* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
+/* The figure's parts with their surfaces moved outwards by some pixels: normals and eye depth. */
+void raster_enlarged(frame *f, figure_state *s, float pixels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */
@@ -127,6 +133,8 @@ void lists_release(frame *f, layer_stack *stack);
 
 /* --- passes.c: declared passes --- */
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
+/* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
+void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
 
 /* --- mirror.c --- */
 /* Makes a frame of what the mirror's plane shows, without pictures to draw into; false when the part has no plane. */
@@ -136,5 +144,6 @@ bool mirror_prepare(const frame *f, const figure *mirror, frame *inner);
 void collect_edges(frame *f, figure_state *s);
 void collect_figure(frame *f, figure_state *s);
 void collect_layer(frame *f, figure_state *s); /* of layer s->layer */
+void collect_uncertainty(frame *f, figure_state *s);
 
 #endif

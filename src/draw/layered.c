@@ -56,7 +56,8 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
 /* Gives back what the figures keep of the lines in front. */
 static void forget_lines(frame *f, layer_stack *stack)
 {
-    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH};
+    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH,
+                                 TARGET_ENLARGED, TARGET_TRACES, TARGET_TRACES_ROW, TARGET_UNCERTAINTY, TARGET_FIELD};
     for (int i = 0; i < stack->count; i++)
         for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
             gpu_target_release(f->g, stack->states[i].targets[own[k]]);
@@ -163,34 +164,6 @@ static coverage count_coverage(frame *f, layer_stack *stack)
     return out;
 }
 
-/* A figure's lines and colour of the current layer: the last line technique's ink, under it those before, under all the fill. */
-static void compose_passes(frame *f, figure_state *s)
-{
-    const figure *whole = s->figure;
-    const rule *r = whole->rule;
-    size_t lines = r->use_counts[KIND_LINES];
-    for (size_t i = lines > 1 ? lines : 1; i-- > 0;) {
-        rule single = *r;
-        figure alone = *whole;
-        alone.rule = &single;
-        if (lines)
-            single.uses[KIND_LINES] = &r->uses[KIND_LINES][i];
-        single.use_counts[KIND_LINES] = lines > 0;
-        s->figure = &alone;
-        s->filled = i == 0;
-        passes_run_kind(f, s, KIND_LINES);
-        passes_run_kind(f, s, KIND_COMPOSE);
-        gpu_target_release(f->g, s->targets[TARGET_EDGE_BEFORE]);
-        s->targets[TARGET_EDGE_BEFORE] = NULL;
-        if (lines == 1)
-            s->targets[TARGET_EDGE_BEFORE] = s->targets[TARGET_EDGE];
-        else
-            gpu_target_release(f->g, s->targets[TARGET_EDGE]);
-        s->targets[TARGET_EDGE] = NULL;
-    }
-    s->figure = whole;
-}
-
 static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
 {
     static const target borrowed[] = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_SHADE, TARGET_DEPTH, TARGET_LAYERS};
@@ -204,12 +177,15 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
     if (!(stack->channels & CHANNEL_ID)) /* peeling has ids of its own need */
         s->targets[TARGET_ID] = NULL;
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
+    /* One field for all layers: they move together, and their order stays. Seed 000, section 6.8. */
+    if (layer == 0 && (!f->maps || f->maps->whole))
+        passes_run_kind(f, s, KIND_PERTURB);
     if (f->maps) {
         if (f->maps->whole)
             passes_run_kind(f, s, KIND_LINES);
         collect_layer(f, s);
     } else {
-        compose_passes(f, s);
+        passes_compose_lines(f, s, true);
     }
     for (size_t k = 0; k < sizeof borrowed / sizeof *borrowed; k++)
         s->targets[borrowed[k]] = NULL;
@@ -349,7 +325,8 @@ static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
             continue;
         if (peel->producer == PRODUCER_PEELING || (peel->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
             out.lists = false;
-        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) || rule_traces_lines(stack->hidden[i].rule);
+        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) ||
+                    rule_traces_lines(stack->hidden[i].rule) || rule_use(r, KIND_PERTURB);
         size_t bytes = (size_t)peel->memory << 20;
         out.bytes = bytes < out.bytes ? bytes : out.bytes;
     }

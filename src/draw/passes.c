@@ -7,10 +7,22 @@
 #include "base/memory.h"
 
 typedef struct pass_params {
-    param_set   sets[4];
+    param_set   sets[5];
     const pass *merged; /* line detection that this pass does too, or NULL */
+    const perturbation *perturbed; /* moves what this pass looks up, or NULL */
     size_t      count;
 } pass_params;
+
+static bool goes_onto_page(const pass *p)
+{
+    return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS;
+}
+
+/* Is the pass drawn in the tiles that have something, instead of everywhere? */
+static bool in_boxes(const figure_state *s, const pass *p)
+{
+    return s->boxes && !target_is_coarse(p->writes) && p->writes != TARGET_FIELD;
+}
 
 static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
 {
@@ -28,7 +40,11 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
-    return program_of(f, GPU_FLOOR, s->boxes ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
+    if (params->perturbed && goes_onto_page(p)) {
+        text_append(&prelude, "#define PERTURBED\n");
+        snprintf(path, sizeof path, "%s+%s", params->perturbed->places, p->shader);
+    }
+    return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
 }
 
 /* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
@@ -43,25 +59,56 @@ static void set_outside(const figure_state *s, const pass *p, float out[4])
         memcpy(out, filtered, sizeof filtered);
 }
 
-static void run_geometry(frame *f, figure_state *s, const pass *p, const char *group)
+/* The value of a technique's parameter that is a length. */
+static float length_of(const technique_use *use, const char *key)
+{
+    const technique *t = use->technique;
+    for (size_t i = 0; i < t->param_count; i++)
+        if (strcmp(t->params[i].key, key) == 0)
+            return *(const float *)param_field(&t->params[i], use->values);
+    return 0;
+}
+
+static void run_geometry(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     stopwatch w = watch_start(f);
-    raster_inked(f, s, p);
+    if (p->enlarge)
+        raster_enlarged(f, s, length_of(use, p->enlarge));
+    else
+        raster_inked(f, s, p);
     watch_stop(f, w, group, p->name);
+}
+
+/* Where a pass draws: the figure's pixels, or the coarse texels over them. */
+static void set_scissor(const frame *f, const figure_state *s, const pass *p, gpu_pass *out)
+{
+    memcpy(out->scissor, p->writes == TARGET_LAYERS ? s->band : s->pixels, sizeof out->scissor);
+    memcpy(out->clear_box, s->around, sizeof out->clear_box);
+    if (!target_is_coarse(p->writes))
+        return;
+    int size[2];
+    coarse_size(f, s, size);
+    const int limits[2] = {f->width, f->height};
+    memset(out->clear_box, 0, sizeof out->clear_box);
+    for (int k = 0; k < 2; k++) { /* lookups between texels need those beside */
+        int low = (int)((int64_t)s->pixels[k] * (size[k] - 1) / limits[k]) - 1;
+        int high = (int)((int64_t)(s->pixels[k] + s->pixels[2 + k]) * (size[k] - 1) / limits[k]) + 2;
+        out->scissor[k] = low > 0 ? low : 0;
+        out->scissor[2 + k] = (high < size[k] ? high : size[k]) - out->scissor[k];
+    }
 }
 
 static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group, int iteration)
 {
     stopwatch w = watch_start(f);
     gpu_program *program = pass_program(f, s, p, params);
-    bool layers = p->writes == TARGET_LAYERS, page = p->writes == TARGET_PAGE || layers; /* pictures that are added to */
-    gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire(f, p->writes);
+    bool layers = p->writes == TARGET_LAYERS, page = goes_onto_page(p); /* pictures that are added to */
+    gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
     if (program && written && !gpu_failed(f->g)) {
         gpu_pass target = {.colours = {written}, .colour_count = 1, .depth = p->depth ? f->page_depth : NULL,
                            .clear = !page, .keep_depth = true};
         set_outside(s, p, target.clear_values[0]);
-        memcpy(target.scissor, layers ? s->band : s->pixels, sizeof target.scissor);
-        memcpy(target.clear_box, s->around, sizeof target.clear_box);
+        set_scissor(f, s, p, &target);
         gpu_pass_begin(f->g, &target);
         gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth && !layers,
                                            .blend = p->blend == BLEND_OVER ? GPU_BLEND_OVER
@@ -73,7 +120,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
         gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
-        if (s->boxes)
+        if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
         else
             gpu_draw_screen(f->g);
@@ -137,12 +184,17 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         if (params.merged)
             params.sets[params.count++] = use_own_set(KIND_LINES, lines);
     }
+    const technique_use *perturb = rule_use(s->figure->rule, KIND_PERTURB);
+    if (id == KIND_COMPOSE && perturb) {
+        params.sets[params.count++] = use_own_set(KIND_PERTURB, perturb);
+        params.perturbed = perturb->technique->perturbs;
+    }
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
         if (!pass_applies(id, p, use))
             continue;
         if (p->geometry)
-            run_geometry(f, s, p, kinds[id]->name);
+            run_geometry(f, s, p, use, kinds[id]->name);
         else if (p->process && !f->maps) /* maps show what was detected */
             run_process(f, s, p, use, kinds[id]->name);
         else if (p->process)
@@ -153,10 +205,16 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
     }
 }
 
+/* Takes what a line technique found into the picture before the next one looks. */
+static void fold_lines(frame *f, figure_state *s, kind_id id, const technique_use *use)
+{
+    pass_params params = {.sets = {use_common_set(id, use)}, .count = 1};
+    run_pass(f, s, kinds[id]->fold, &params, kinds[id]->name, 0);
+}
+
 void passes_run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
-    const kind *k = kinds[id];
     if (id == KIND_LINES && !f->maps && rule_merged_detection(r)) {
         forget_dashes(f, s);
         return;
@@ -164,15 +222,46 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
     for (size_t i = 0; i < r->use_counts[id]; i++) {
         const technique_use *use = &r->uses[id][i];
         run_use(f, s, id, use);
-        if (f->maps && id == KIND_LINES) {
+        if (f->maps && id == KIND_LINES)
             collect_edges(f, s);
-        } else if (k->fold && i + 1 < r->use_counts[id]) {
-            pass_params params = {.sets = {use_common_set(id, use)}, .count = 1};
-            run_pass(f, s, k->fold, &params, k->name, 0);
-        }
+        else if (kinds[id]->fold && i + 1 < r->use_counts[id])
+            fold_lines(f, s, id, use);
         if (s->targets[TARGET_NORMAL_DEPTH] != s->geometry) {
             gpu_target_release(f->g, s->targets[TARGET_NORMAL_DEPTH]);
             s->targets[TARGET_NORMAL_DEPTH] = s->geometry;
         }
     }
+    if (f->maps && id == KIND_PERTURB && rule_use(r, id)) {
+        const technique_use *use = rule_use(r, id);
+        run_pass(f, s, use->technique->perturbs->map, &(pass_params){.sets = {use_own_set(id, use)}, .count = 1}, kinds[id]->name, 0);
+        collect_uncertainty(f, s);
+    }
+}
+
+void passes_compose_lines(frame *f, figure_state *s, bool nearest_first)
+{
+    const figure *whole = s->figure;
+    const rule *r = whole->rule;
+    size_t lines = r->use_counts[KIND_LINES], count = lines > 1 ? lines : 1;
+    for (size_t k = 0; k < count; k++) {
+        size_t i = nearest_first ? count - 1 - k : k;
+        rule single = *r;
+        figure alone = *whole;
+        alone.rule = &single;
+        if (lines)
+            single.uses[KIND_LINES] = &r->uses[KIND_LINES][i];
+        single.use_counts[KIND_LINES] = lines > 0;
+        s->figure = &alone;
+        s->filled = i == 0;
+        passes_run_kind(f, s, KIND_LINES);
+        passes_run_kind(f, s, KIND_COMPOSE);
+        gpu_target_release(f->g, s->targets[TARGET_EDGE_BEFORE]);
+        s->targets[TARGET_EDGE_BEFORE] = NULL;
+        if (lines == 1)
+            s->targets[TARGET_EDGE_BEFORE] = s->targets[TARGET_EDGE];
+        else
+            gpu_target_release(f->g, s->targets[TARGET_EDGE]);
+        s->targets[TARGET_EDGE] = NULL;
+    }
+    s->figure = whole;
 }

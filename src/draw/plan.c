@@ -43,6 +43,35 @@ static bool copy_rule(rule *out, const rule *from, int pixel_scale)
     return true;
 }
 
+/* Leaves a perturbation out that moves nothing, so that such a picture is exactly the one without it; and where a composition cannot
+ * look anything up elsewhere. */
+static void settle_perturbation(rule *r, warnings *notes)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    technique_use *perturb = r->use_counts[KIND_PERTURB] ? &r->uses[KIND_PERTURB][0] : NULL;
+    if (!perturb)
+        return;
+    bool active = perturb->technique->perturbs->active(perturb->values), able = !compose || compose->technique->perturbable;
+    if (active && able)
+        return;
+    if (!able)
+        warnings_add(notes, WARNING_UNUSED, "compose '%s' cannot be perturbed; 'opaque' and those of layers can", compose->technique->name);
+    use_release(perturb);
+    r->use_counts[KIND_PERTURB] = 0;
+}
+
+/* Colours that are the page's ground unless they are set. */
+static void settle_grounds(rule *r, colour ground)
+{
+    for (int k = 0; k < KIND_COUNT; k++)
+        for (size_t i = 0; i < r->use_counts[k]; i++) {
+            const technique *t = r->uses[k][i].technique;
+            for (size_t n = 0; n < t->param_count; n++)
+                if (t->params[n].auto_ground && param_is_auto(&t->params[n], r->uses[k][i].values))
+                    memcpy((char *)r->uses[k][i].values + t->params[n].offset, &ground, sizeof ground);
+        }
+}
+
 static void release_rule(rule *r)
 {
     for (int k = 0; k < KIND_COUNT; k++) {
@@ -122,8 +151,9 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
     f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->solid_count;
     f->reflects = surface && surface->technique->reflects;
+    bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
-    f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred;
+    f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
     f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
@@ -355,8 +385,8 @@ static lmn_status prepare_layers(plan *p, const upload *up, warnings *notes, lmn
     return LMN_OK;
 }
 
-lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
-                       int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error)
+lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const plan_wishes *wishes,
+                       warnings *notes, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->scene = scene;
@@ -370,8 +400,10 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     bool good = out->selected && out->solid && out->figures && out->rules;
     for (size_t r = 0; good && r < look->rule_count; r++) {
         out->rule_count++;
-        if (!copy_rule(&out->rules[r], &look->rules[r], pixel_scale))
+        if (!copy_rule(&out->rules[r], &look->rules[r], wishes->pixel_scale))
             return error_memory(error);
+        settle_perturbation(&out->rules[r], notes);
+        settle_grounds(&out->rules[r], wishes->ground);
         figure *f = &out->figures[out->figure_count++];
         *f = (figure){.rule = &out->rules[r], .box = box3_empty()};
         f->designated = mem_calloc(scene->part_count, sizeof *f->designated);
@@ -379,7 +411,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     }
     if (!good)
         return error_memory(error);
-    lmn_status status = select_parts(out, select, error);
+    lmn_status status = select_parts(out, wishes->select, error);
     if (status != LMN_OK)
         return status;
     share_parts(out, up, notes);
@@ -390,7 +422,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
         return status;
     find_solid_parts(out);
     for (size_t i = 0; i < out->figure_count; i++)
-        settle_figure(&out->figures[i], out, as_sprites);
+        settle_figure(&out->figures[i], out, wishes->as_sprites);
     order_figures(out);
     return LMN_OK;
 }

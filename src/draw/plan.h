@@ -37,10 +37,18 @@ typedef struct plan {
     bool             has_cut; /* there are cut faces */
 } plan;
 
-/* Lengths in pixels are multiplied by `pixel_scale`. `as_sprites` keeps figures from being drawn directly (maps need their buffers). Errors: LMN_USAGE (bad selector),
- * LMN_FORMAT (nothing to draw), LMN_MEMORY. Warnings (rules that select nothing) go to `notes`. */
-lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const char *select,
-                       int pixel_scale, bool as_sprites, warnings *notes, lmn_error *error);
+/* How a drawing wants its plan. */
+typedef struct plan_wishes {
+    const char *select;      /* restricts what is drawn, or NULL */
+    int         pixel_scale; /* lengths in pixels are multiplied by it */
+    bool        as_sprites;  /* no figure is drawn directly (maps need their buffers) */
+    colour      ground;      /* of the page */
+} plan_wishes;
+
+/* Errors: LMN_USAGE (bad selector), LMN_FORMAT (nothing to draw), LMN_MEMORY. Warnings (rules that select nothing, settings without
+ * effect) go to `notes`. */
+lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, const upload *up, const plan_wishes *wishes,
+                       warnings *notes, lmn_error *error);
 void       plan_release(plan *p);
 
 /* The use of a kind that holds one technique; NULL when the rule has none. */

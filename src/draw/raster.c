@@ -129,6 +129,7 @@ typedef struct raster_job {
     outputs             at;
     const pass         *inking; /* lines on top and no complement */
     const bool         *only;   /* per part: all others are left out */
+    float               enlarge; /* not 0: surfaces are moved outwards by this many pixels */
     bool                peeled; /* nothing that the layer before had */
     int                 node_vectors; /* not 0: into lists, nodes of this size */
     unsigned            node_limit;
@@ -149,6 +150,8 @@ static void declare_outputs(text *prelude, const raster_job *job)
         text_append(prelude, "#define LAYERED\n");
     if (job->peeled)
         text_append(prelude, "#define PEELED\n");
+    if (job->enlarge > 0)
+        text_append(prelude, "#define ENLARGED\n");
     if (job->node_vectors)
         text_append(prelude, "#define INTO_LISTS\n#define NODE_VECTORS %d\n", job->node_vectors);
 }
@@ -283,6 +286,8 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     bool other = job->state && !job->only && !s->figure->designated[item->part_index];
     gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
     gpu_set_uint(f->g, "u_order", last->triangles);
+    if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
+        gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
     if (item->is_cut)
         gpu_set_float(f->g, "u_nearer", 2 * item->nearer);
     gpu_draw_mesh(f->g, item->mesh);
@@ -348,6 +353,20 @@ void raster_figure(frame *f, figure_state *s)
         draw_parts(f, &(raster_job){.state = s, .at = o});
     }
     watch_stop(f, w, "", "geometry");
+}
+
+void raster_enlarged(frame *f, figure_state *s, float pixels)
+{
+    gpu_pass pass = {.clear = true, .colour_count = 1};
+    gpu_texture *depth = frame_acquire(f, TARGET_DEPTH);
+    gpu_target_release(f->g, s->targets[TARGET_ENLARGED]);
+    pass.colours[0] = s->targets[TARGET_ENLARGED] = frame_acquire(f, TARGET_ENLARGED);
+    pass.depth = depth;
+    if (!gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &pass);
+        draw_parts(f, &(raster_job){.state = s, .at = {0, -1, -1, -1}, .enlarge = pixels});
+    }
+    gpu_target_release(f->g, depth);
 }
 
 void raster_shade_deferred(frame *f, figure_state *s)

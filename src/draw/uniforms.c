@@ -6,10 +6,14 @@
 #include <string.h>
 
 static const char *const target_names[TARGET_COUNT] = {
-    [TARGET_NONE] = "",          [TARGET_NORMAL_DEPTH] = "t_normal_depth", [TARGET_ID] = "t_id",
-    [TARGET_ALBEDO] = "t_albedo", [TARGET_SHADE] = "t_shade",              [TARGET_DEPTH] = "t_depth",
-    [TARGET_FILTERED] = "t_filtered", [TARGET_EDGE] = "t_edge", [TARGET_EDGE_BEFORE] = "t_edge_before", [TARGET_NEARER_ROW] = "t_nearer_row", [TARGET_NEARER] = "t_nearer",    [TARGET_DASH] = "t_dash",    [TARGET_GROUND] = "t_ground",             [TARGET_REFLECTION] = "t_reflection",
-    [TARGET_LAYERS] = "t_layers", [TARGET_PAGE] = "t_page",
+    [TARGET_NONE] = "",
+    [TARGET_NORMAL_DEPTH] = "t_normal_depth", [TARGET_ID] = "t_id",                   [TARGET_ALBEDO] = "t_albedo",
+    [TARGET_SHADE] = "t_shade",               [TARGET_DEPTH] = "t_depth",             [TARGET_FILTERED] = "t_filtered",
+    [TARGET_EDGE] = "t_edge",                 [TARGET_EDGE_BEFORE] = "t_edge_before", [TARGET_NEARER_ROW] = "t_nearer_row",
+    [TARGET_NEARER] = "t_nearer",             [TARGET_DASH] = "t_dash",               [TARGET_GROUND] = "t_ground",
+    [TARGET_ENLARGED] = "t_enlarged",         [TARGET_TRACES] = "t_traces",           [TARGET_TRACES_ROW] = "t_traces_row",
+    [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
+    [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",
 };
 
 const char *target_name(target t)

@@ -123,7 +123,7 @@ void main()
     detect_edges();
 #endif
 #ifdef INKED
-    out_shade = over(ink_at(ivec2(gl_FragCoord.xy)), out_shade);
+    out_shade = over(ink_at(floor(gl_FragCoord.xy)), out_shade);
 #endif
 #ifdef LAYERED
     out_shade *= alpha;

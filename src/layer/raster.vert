@@ -11,6 +11,11 @@ uniform mat4 u_projection;
 #ifdef CUT_FACE
 uniform float u_nearer; /* in clip space */
 #endif
+#ifdef ENLARGED
+/* Seed 000, section 6.7, "enlarging the geometry": as wide on the page at any distance. */
+uniform float u_enlarge; /* length at distance 1 */
+uniform float u_perspective;
+#endif
 
 #ifdef LAYERED
 /* Every pass must find the same depth: layers are told apart by it. */
@@ -30,8 +35,11 @@ out vec4 v_colour;
 void main()
 {
     vec4 eye = u_model_view * vec4(a_position, 1.0);
-    v_eye = eye.xyz;
     v_normal = u_normal_matrix * a_normal;
+#ifdef ENLARGED
+    eye.xyz += normalize(v_normal + vec3(0.0, 0.0, 1e-12)) * (u_enlarge * mix(1.0, -eye.z, u_perspective));
+#endif
+    v_eye = eye.xyz;
 #ifdef HAS_UV
     v_uv0 = a_uv0;
     v_uv1 = a_uv1;

@@ -5,5 +5,5 @@ layout(location = 0) out vec4 out_0;
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    out_0 = over(ink_at(pixel), texelFetch(t_shade, pixel, 0));
+    out_0 = over(ink_at(vec2(pixel)), texelFetch(t_shade, pixel, 0));
 }

@@ -5,20 +5,27 @@
 uniform vec2 u_size;
 #endif
 
-vec4 edge_at(ivec2 pixel)
+/* Integer places are the centres of pixels; a perturbation looks in between. */
+vec4 edge_at(vec2 place)
 {
 #ifdef MERGED
     return out_edge;
+#elif defined(PERTURBED)
+    vec4 edge = textureLod(t_edge, (place + 0.5) / u_size, 0.0);
+    int pressed = u_perturb_pressure > 0.0 ? 1 : 0;
+    for (int once = 0; once < pressed; once++)
+        edge = min(edge, textureLod(t_edge, (pressed_place(place) + 0.5) / u_size, 0.0));
+    return edge;
 #else
-    return texelFetch(t_edge, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0);
+    return texelFetch(t_edge, clamp(ivec2(place), ivec2(0), ivec2(u_size) - 1), 0);
 #endif
 }
 
 /* Share of the lines' ink that dashes leave. */
-float dash_at(ivec2 pixel)
+float dash_at(vec2 place)
 {
 #ifdef HAS_DASHES
-    return texelFetch(t_dash, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0).r;
+    return texelFetch(t_dash, clamp(ivec2(floor(place + 0.5)), ivec2(0), ivec2(u_size) - 1), 0).r;
 #else
     return 1.0;
 #endif
@@ -47,22 +54,25 @@ float lightness(vec3 colour)
 }
 #endif
 
-vec4 ink_at(ivec2 pixel)
+vec4 ink_at(vec2 place)
 {
-    vec4 edge = edge_at(pixel);
-    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour) * dash_at(pixel);
+    vec4 edge = edge_at(place);
+    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour) * dash_at(place);
+#if CONTRAST >= 2
+    ivec2 pixel = ivec2(floor(place + 0.5));
+#endif
 #if CONTRAST == 1
     /* Seed 001, section 8.6.1: the same contour once more in the second colour, moved; the first lies on top. */
-    ivec2 moved = ivec2(floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5));
-    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(pixel - moved));
+    vec2 moved = place - floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5);
+    ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #elif CONTRAST == 2
     /* Section 8.6.2: dark on light ground and light on dark, by the blurred picture; where the picture shows the edge by itself the
      * line may be left out. */
-    float ground = lightness(texelFetch(t_ground, pixel, 0).rgb);
+    float ground = lightness(texelFetch(t_ground, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0).rgb);
     float light_distance = abs(lightness(u_line_light_colour.rgb) - ground);
     float dark_distance = abs(lightness(u_line_colour.rgb) - ground);
     if (light_distance > dark_distance)
-        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(pixel);
+        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(place);
     if (u_line_suppress > 0.0) {
         ivec2 reach = ivec2(2, 0);
         float across = lightness(texelFetch(t_shade, clamp(pixel + reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
@@ -80,8 +90,8 @@ vec4 ink_at(ivec2 pixel)
                             texelFetch(t_depth, clamp(pixel - ivec2(0, 2), ivec2(0), last), 0).r);
     float size = length(outward);
     vec2 unit = size > 1e-7 ? outward / size : vec2(0.0);
-    ivec2 moved = ivec2(floor(unit * max(u_line_width, 1.0) + 0.5));
-    ink = over(ink, ink_of(edge_at(pixel - moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(pixel - moved));
+    vec2 moved = place - floor(unit * max(u_line_width, 1.0) + 0.5);
+    ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #endif
     return ink;
 }

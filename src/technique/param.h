@@ -53,6 +53,7 @@ typedef struct param {
     bool               can_auto; /* the word "auto" is allowed */
     bool               def_auto;
     const char        *auto_from;   /* colours: "auto" takes the value of this key */
+    bool               auto_ground; /* colours: "auto" takes the page's ground */
     bool               logarithmic; /* slider curve */
     bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */

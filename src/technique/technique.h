@@ -28,13 +28,18 @@ typedef enum target {
     TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
+    TARGET_ENLARGED,   /* RGBA32F: normal and eye depth of the figure with all surfaces moved outwards; depth 0 where empty */
+    TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */
+    TARGET_TRACES_ROW, /* coarse RGBA32F: on the way to the next */
+    TARGET_UNCERTAINTY, /* coarse RGBA16F: r, g = offset of lookups, −1 … 1; b = a third value of the same kind */
+    TARGET_FIELD,      /* RGBA32F: uncertainty at each pixel, for maps */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
     TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
     TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 9 };
+enum { PASS_READS_MAX = 10 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
@@ -52,7 +57,8 @@ typedef struct pass {
     target      writes;
     pass_blend  blend;
     bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
-    bool        geometry; /* draws the figure's parts again, shaded and inked by the shader file's ink_at, instead of a full screen */
+    bool        geometry; /* draws the figure's parts again instead of a full screen: shaded and inked by the shader file's ink_at */
+    const char *enlarge;  /* with geometry: key of the length in pixels by which surfaces are moved along their normals; no shader */
     /* Instead of a shader: work on the CPU, from the first picture that is read (of floats) to the written one (R8). Gets the
      * technique's values; false when memory is gone. */
     bool      (*process)(const pass_pixels *in, uint8_t *out, const void *values);
@@ -60,6 +66,18 @@ typedef struct pass {
     const char *when;   /* condition on the technique's parameters; NULL: always */
     bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
 } pass;
+
+struct pass;
+
+/* What a technique that moves lookups must tell. */
+typedef struct perturbation {
+    const char *places; /* GLSL file with find_places, fill_place, line_place, copy_ink and LINE_COPIES; see compose/places.glsl */
+    bool      (*active)(const void *values); /* false: pictures are what they are without it */
+    float     (*reach)(const void *values);  /* how far it moves anything, pixels */
+    float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
+    uint32_t  (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
+    const struct pass *map; /* writes TARGET_FIELD */
+} perturbation;
 
 typedef struct technique {
     const char  *name, *doc;  /* doc: one line that ends in a full stop */
@@ -76,9 +94,11 @@ typedef struct technique {
                                * technique's `detect` itself instead of reading its map; NULL: never */
     const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */
     bool         layered;     /* layers: gives several, nearest first; compose: takes them one by one */
+    bool         perturbable; /* compose: its passes onto the page look maps up where compose/places.glsl says */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
+    const perturbation *perturbs; /* perturb: how lookups are moved */
 } technique;
 
 typedef enum kind_id {
@@ -86,6 +106,7 @@ typedef enum kind_id {
     KIND_LAYERS,
     KIND_SURFACE,
     KIND_LINES,
+    KIND_PERTURB,
     KIND_COMPOSE,
     KIND_FINISH,  /* look-wide: the sheet */
     KIND_COUNT

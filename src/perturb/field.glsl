@@ -1,0 +1,26 @@
+/* The field of uncertainty at a pixel, out of its coarse picture. */
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
+uniform float u_cell;  /* side of a texel, pixels */
+uniform vec2  u_grid;  /* texels */
+uniform float u_reach; /* largest displacement, pixels */
+uniform uint  u_seed;
+
+/* Shrinks displacements towards the page's border so that none leaves it. */
+float border_share(ivec2 pixel)
+{
+    vec2 room = min(vec2(pixel), u_size - 1.0 - vec2(pixel));
+    return clamp(min(room.x, room.y) / (2.0 * u_reach), 0.0, 1.0);
+}
+
+vec3 uncertainty_at(ivec2 pixel)
+{
+    vec2 place = vec2(pixel) + 0.5;
+#if LOCK == 1
+    if (u_perturb_tile > 0.0)
+        place = mod(place, u_perturb_tile);
+#endif
+    return textureLod(t_uncertainty, place / (u_cell * u_grid), 0.0).xyz * border_share(pixel);
+}

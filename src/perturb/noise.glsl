@@ -1,0 +1,82 @@
+/* Gradient noise (Perlin's): three independent values at once. Seed 000, section 6.2. */
+
+/* Three hashes of three numbers: a permuted congruential generator. */
+uvec3 hash_of(uvec3 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+vec3 fade_of(vec3 t)
+{
+    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+}
+
+/* What the gradients of one corner of the lattice give at `offset` from it. */
+vec3 corner_of(uvec3 corner, uint seed, vec3 offset)
+{
+    uvec3 hash = hash_of(corner ^ (seed * uvec3(0x9e3779b9u, 0x85ebca6bu, 0xc2b2ae35u)));
+    vec3 x = vec3(hash & 1023u) * (2.0 / 1023.0) - 1.0;
+    vec3 y = vec3((hash >> 10u) & 1023u) * (2.0 / 1023.0) - 1.0;
+    vec3 z = vec3((hash >> 20u) & 1023u) * (2.0 / 1023.0) - 1.0;
+    return x * offset.x + y * offset.y + z * offset.z;
+}
+
+/* In the plane; the lattice repeats after `period` places unless that is 0. */
+vec3 noise_of(vec2 place, int period, uint seed)
+{
+    vec2 low = floor(place), inside = place - low;
+    vec3 share = fade_of(vec3(inside, 0.0));
+    ivec2 first = ivec2(low), second = first + 1;
+    if (period > 0) {
+        first = ((first % period) + period) % period;
+        second = (first + 1) % period;
+    }
+    vec3 a = corner_of(uvec3(first, 0), seed, vec3(inside, 0.0));
+    vec3 b = corner_of(uvec3(second.x, first.y, 0), seed, vec3(inside - vec2(1.0, 0.0), 0.0));
+    vec3 c = corner_of(uvec3(first.x, second.y, 0), seed, vec3(inside - vec2(0.0, 1.0), 0.0));
+    vec3 d = corner_of(uvec3(second, 0), seed, vec3(inside - 1.0, 0.0));
+    return mix(mix(a, b, share.x), mix(c, d, share.x), share.y);
+}
+
+/* In space. */
+vec3 noise_of(vec3 place, uint seed)
+{
+    vec3 low = floor(place), inside = place - low, share = fade_of(inside);
+    uvec3 first = uvec3(ivec3(low));
+    vec3 sum = vec3(0.0);
+    for (int z = 0; z < 2; z++)
+        for (int y = 0; y < 2; y++)
+            for (int x = 0; x < 2; x++) {
+                uvec3 step = uvec3(x, y, z);
+                vec3 part = mix(1.0 - share, share, vec3(step));
+                sum += part.x * part.y * part.z * corner_of(first + step, seed, inside - vec3(step));
+            }
+    return sum;
+}
+
+/* A sum of octaves, whose squared weights add up to 1, as an uncertainty. */
+vec3 uncertainty_of(vec3 sum)
+{
+#if FIELD == 1
+    sum = 1.6 * (sum - TURBULENCE_MEAN);
+#endif
+    sum *= NOISE_GAIN;
+    return sum * inversesqrt(1.0 + sum * sum);
+}
+
+vec3 octave_of(vec3 noise)
+{
+#if FIELD == 1
+    return abs(noise);
+#else
+    return noise;
+#endif
+}

@@ -1,0 +1,28 @@
+/* The field that stays on the sheet. */
+uniform float u_cell;
+uniform uint  u_seed;
+layout(location = 0) out vec4 out_0;
+#define NOISE_GAIN 2.6
+#define TURBULENCE_MEAN 0.2
+#include "perturb/noise.glsl"
+
+void main()
+{
+    vec2 place = gl_FragCoord.xy * u_cell;
+    float wave = u_perturb_scale;
+    int period = 0;
+    if (u_perturb_tile > 0.0) {
+        period = max(int(u_perturb_tile / u_perturb_scale + 0.5), 1);
+        wave = u_perturb_tile / float(period);
+    }
+    vec3 sum = vec3(0.0);
+    float weight = 1.0, squares = 0.0;
+    for (int i = 0; i < OCTAVES; i++) {
+        sum += weight * octave_of(noise_of(place / wave, period, u_seed + uint(i) * 0x51ed270bu));
+        squares += weight * weight;
+        weight *= 0.5;
+        wave *= 0.5;
+        period *= 2;
+    }
+    out_0 = vec4(uncertainty_of(sum * inversesqrt(squares)), 1.0);
+}

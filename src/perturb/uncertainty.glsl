@@ -1,0 +1,72 @@
+/* Where lines and fill are looked up. Seed 000, section 6.3 and listing 6-1; seed 003, section 4. */
+#include "perturb/field.glsl"
+
+#define LINE_COPIES REPEAT
+
+vec3  s_uncertainty;
+vec2  s_place;
+vec4  s_grain; /* displacement of this grain: of lines, of fill */
+
+uvec3 grain_hash(uvec3 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+/* To be called first. */
+void find_places(ivec2 pixel)
+{
+    s_place = vec2(pixel);
+    s_uncertainty = uncertainty_at(pixel);
+    s_grain = vec4(0.0);
+    int frayed = u_perturb_rough > 0.0 ? 1 : 0;
+    for (int once = 0; once < frayed; once++) {
+        uvec3 hash = grain_hash(uvec3(uvec2(vec2(pixel) / u_perturb_grain), u_seed));
+        s_grain = (vec4(hash.xy & 65535u, hash.xy >> 16u) * (2.0 / 65535.0) - 1.0) * (u_perturb_rough * border_share(pixel));
+    }
+}
+
+vec2 fill_place()
+{
+    mat2 degree = mat2(u_perturb_shades_xx, u_perturb_shades_yx, u_perturb_shades_xy, u_perturb_shades_yy);
+    return s_place + u_perturb_amount * (degree * s_uncertainty.xy) + s_grain.zw;
+}
+
+/* Of the i-th repetition. Section 6.6: each has a degree of uncertainty of its own. */
+vec2 line_place(int i)
+{
+    mat2 degree = mat2(u_perturb_edges_xx, u_perturb_edges_yx, u_perturb_edges_xy, u_perturb_edges_yy);
+    vec2 way = s_uncertainty.xy;
+#if REPEAT > 1
+    float angle = 6.2831853 * float(i) / float(REPEAT);
+    way = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * way * pow(u_perturb_repeat_degree, float(i));
+#endif
+    return s_place + u_perturb_amount * (degree * way) + s_grain.xy;
+}
+
+#ifdef HAS_LINES
+/* A second place whose ink joins the line's: lines are thicker where it is farther away. */
+vec2 pressed_place(vec2 place)
+{
+    return place + 0.4 * u_line_width * u_perturb_pressure * s_uncertainty.zx;
+}
+#endif
+
+/* The ink that the i-th repetition leaves. */
+vec4 copy_ink(vec4 ink, int i)
+{
+    float side = (i & 1) == 0 ? 1.0 : -1.0;
+    ink *= 1.0 - u_perturb_pressure * smoothstep(-0.2, 0.9, side * s_uncertainty.z);
+    if (i > 0) {
+        vec4 colour = u_perturb_repeat_colours[(i - 1) % u_perturb_repeat_colours_count];
+        ink = vec4(colour.rgb, 1.0) * (ink.a * colour.a);
+    }
+    return ink;
+}
