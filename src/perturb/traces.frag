@@ -7,6 +7,7 @@ uniform vec2  u_size;
 uniform vec2  u_texel;
 uniform float u_cell;
 uniform uint  u_seed;
+uniform float u_empty; /* depth where nothing is drawn */
 uniform mat4  u_rest_from_eye;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 3.0
@@ -20,7 +21,7 @@ vec4 surface_at(ivec2 pixel)
     return texelFetch(t_enlarged, pixel, 0);
 #else
     vec4 found = texelFetch(t_normal_depth, pixel, 0);
-    return texelFetch(t_depth, pixel, 0).r < 1.0 ? found : vec4(found.xyz, 0.0);
+    return vec4(found.xyz, found.w < u_empty ? found.w : 0.0);
 #endif
 }
 
@@ -91,57 +92,42 @@ vec3 trace_of(ivec2 pixel, vec4 surface)
 }
 
 #if OUTWARD == 0
-/* Share of the say that a surface keeps beside nearer ones: none within two texels of a nearer one, all from four on. A step of depth
- * counts by the length of the waves: across smaller ones noise in space hardly changes. */
+/* How much a surface has to say about its surroundings, 0 … 1: beside a nearer one nothing up to a texel away and all from three on; on its own
+ * border less and less, so that nothing jumps as the border passes over texels; and less where it is seen at a grazing angle, since
+ * waves crowd there. A step of depth counts by the length of the waves: across smaller ones noise in space hardly changes. */
 float say_of(ivec2 pixel, vec4 surface)
 {
     ivec2 last = ivec2(u_size) - 1;
-    vec3 own = place_of(vec2(pixel), surface.w);
-    float wave = u_perturb_scale * pixel_size(surface.w), say = 1.0;
-    for (int ring = 1; ring <= 3; ring++) {
-        float kept = float(ring - 1) * 0.5;
-        for (int i = 0; i < 8; i++) {
-            float angle = 0.7853982 * float(i) + 0.3926991 * float(ring);
-            ivec2 at = clamp(pixel + ivec2(floor(float(ring + 1) * u_cell * vec2(cos(angle), sin(angle)) + 0.5)), ivec2(0), last);
-            vec4 other = surface_at(at);
-            /* How far the neighbour lies in front of this surface's plane, looked at along its ray. */
-            float nearer = dot(surface.xyz, place_of(vec2(at), other.w) - own) * sign(dot(surface.xyz, vec3(0.0, 0.0, 1.0)) + 1e-6);
-            float step = min(nearer, surface.w - other.w) / wave;
-            if (other.w > 0.0)
-                say = min(say, mix(1.0, kept, smoothstep(0.15, 0.6, step)));
-        }
+    vec3 own = place_of(vec2(pixel), surface.w), ray = normalize(mix(vec3(0.0, 0.0, -1.0), own, u_perspective));
+    vec3 facing = surface.xyz * (dot(surface.xyz, ray) > 0.0 ? -1.0 : 1.0);
+    float wave = u_perturb_scale * pixel_size(surface.w), yielded = 1.0, inside = 0.0;
+    for (int i = 0; i < 16; i++) {
+        float angle = 0.7853982 * float(i), away = i < 8 ? 1.2 : 2.4;
+        ivec2 at = clamp(pixel + ivec2(floor(away * u_cell * vec2(cos(angle), sin(angle)) + 0.5)), ivec2(0), last);
+        vec4 other = surface_at(at);
+        /* How far the neighbour lies in front of this surface's plane, or behind it. */
+        float front = dot(facing, place_of(vec2(at), other.w) - own) / wave;
+        float step = min(front, (surface.w - other.w) / wave);
+        float nearer = other.w > 0.0 ? smoothstep(0.1, 0.5, step) : 0.0;
+        yielded = min(yielded, mix(1.0, i < 8 ? 0.0 : 0.5, nearer));
+        inside += i < 8 ? (other.w > 0.0 ? 1.0 - smoothstep(0.1, 0.5, (other.w - surface.w) / wave + min(front, 0.0)) : 0.0) : 0.0;
     }
-    return say;
+    return yielded * (inside / 8.0) * smoothstep(0.0, 0.4, -dot(facing, ray));
 }
 #endif
 
 void main()
 {
-    ivec2 last = ivec2(u_size) - 1;
-    vec3 sum = vec3(0.0);
-    float count = 0.0;
-    vec4 nearest = vec4(0.0);
-    ivec2 nearest_pixel = ivec2(0);
-    for (int i = 0; i < 4; i++) {
-        vec2 inside = (vec2(float(i & 1), float(i >> 1)) + 0.5) * 0.5;
-        ivec2 pixel = min(ivec2((gl_FragCoord.xy - 0.5 + inside) * u_cell), last);
-        vec4 surface = surface_at(pixel);
-        int some = surface.w > 0.0 ? 1 : 0;
-        for (int once = 0; once < some; once++) {
-            sum += trace_of(pixel, surface);
-            count += 1.0;
-            bool first = nearest.w <= 0.0 || surface.w < nearest.w;
-            nearest = first ? surface : nearest;
-            nearest_pixel = first ? pixel : nearest_pixel;
-        }
-    }
-    float say = 0.25 * count;
+    ivec2 pixel = min(ivec2(gl_FragCoord.xy * u_cell), ivec2(u_size) - 1);
+    vec4 surface = surface_at(pixel);
+    out_0 = vec4(0.0);
+    int some = surface.w > 0.0 ? 1 : 0;
+    for (int once = 0; once < some; once++) {
+        float say = 1.0;
 #if OUTWARD == 0
-    int some = count > 0.0 ? 1 : 0;
-    for (int once = 0; once < some; once++)
-        say *= say_of(nearest_pixel, nearest);
+        /* A surface without a say still counts where there is no other. */
+        say = max(say_of(pixel, surface), 0.002);
 #endif
-    /* A surface without a say still counts where there is no other. */
-    say = count > 0.0 ? max(say, 0.002) : 0.0;
-    out_0 = vec4(sum / max(count, 1.0) * say, say);
+        out_0 = vec4(trace_of(pixel, surface) * say, say);
+    }
 }
