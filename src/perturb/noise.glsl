@@ -54,13 +54,14 @@ vec3 noise_of(vec3 place, uint seed)
     return sum;
 }
 
-/* A sum of octaves, whose squared weights add up to 1, as an uncertainty. */
-vec3 uncertainty_of(vec3 sum)
+/* A sum of octaves as an uncertainty, −1 … 1 with a mean square around 0.4; `weights` and `squares`: sums of the octaves' weights. */
+vec3 uncertainty_of(vec3 sum, float weights, float squares)
 {
 #if FIELD == 1
-    sum = 1.6 * (sum - TURBULENCE_MEAN);
+    /* Of one octave's absolute values the mean is 0.157. */
+    sum = 1.6 * (sum - 0.157 * weights);
 #endif
-    sum *= NOISE_GAIN;
+    sum *= NOISE_GAIN * inversesqrt(squares);
     return sum * inversesqrt(1.0 + sum * sum);
 }
 

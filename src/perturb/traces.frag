@@ -11,7 +11,6 @@ uniform float u_empty; /* depth where nothing is drawn */
 uniform mat4  u_rest_from_eye;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 3.0
-#define TURBULENCE_MEAN 0.16
 #include "perturb/noise.glsl"
 
 /* A surface's normal and eye depth; depth 0 where there is none. */
@@ -49,27 +48,29 @@ vec3 noise_at(vec3 place, float depth)
 {
     float level = log2(u_perturb_scale * pixel_size(depth)), top = floor(level) + 1.0;
     vec3 sum = vec3(0.0);
-    float squares = 0.0;
+    float weights = 0.0, squares = 0.0;
     for (int i = 0; i <= OCTAVES; i++) {
         float octave = top - float(i), above = octave - level;
         float weight = exp2(min(above, 0.0)) * clamp(1.0 - above, 0.0, 1.0) * clamp(above + float(OCTAVES), 0.0, 1.0);
         sum += weight * octave_of(noise_of(place * exp2(-octave), u_seed + uint(int(octave) + 64) * 0x51ed270bu));
+        weights += weight;
         squares += weight * weight;
     }
-    return uncertainty_of(sum * inversesqrt(squares));
+    return uncertainty_of(sum, weights, squares);
 }
 #else
-vec3 noise_at(vec3 place, float ignored)
+vec3 noise_at(vec3 place)
 {
     vec3 sum = vec3(0.0);
-    float weight = 1.0, squares = 0.0;
+    float weight = 1.0, weights = 0.0, squares = 0.0;
     for (int i = 0; i < OCTAVES; i++) {
         sum += weight * octave_of(noise_of(place, u_seed + uint(i) * 0x51ed270bu));
+        weights += weight;
         squares += weight * weight;
         weight *= 0.5;
         place *= 2.0;
     }
-    return uncertainty_of(sum * inversesqrt(squares));
+    return uncertainty_of(sum, weights, squares);
 }
 #endif
 
@@ -80,39 +81,46 @@ vec3 trace_of(ivec2 pixel, vec4 surface)
     vec3 eye = place_of(vec2(pixel), surface.w);
     return noise_at((u_rest_from_eye * vec4(eye, 1.0)).xyz, surface.w);
 #elif BY == 1
-    return noise_at(2.0 * (turn * surface.xyz), 0.0);
+    return noise_at(2.0 * (turn * surface.xyz));
 #else
     /* How much the normal turns over a twelfth of a wave. */
     int way = max(int(u_perturb_scale / 24.0 + 0.5), 1);
     ivec2 last = ivec2(u_size) - 1;
     float bend = surface_at(clamp(pixel + ivec2(way, 0), ivec2(0), last)).x - surface_at(clamp(pixel - ivec2(way, 0), ivec2(0), last)).x +
                  surface_at(clamp(pixel + ivec2(0, way), ivec2(0), last)).y - surface_at(clamp(pixel - ivec2(0, way), ivec2(0), last)).y;
-    return noise_at(vec3(4.0 * bend, 0.37, 0.61), 0.0);
+    return noise_at(vec3(4.0 * bend, 0.37, 0.61));
 #endif
 }
 
 #if OUTWARD == 0
+/* How much nearer (positive) or farther than this surface its neighbour is, beyond what the slope to the neighbour on the other side
+ * explains; in lengths of the shortest wave, since noise in space hardly changes across less. 0 where one is missing. */
+float step_to(float neighbour, float depth, float opposite)
+{
+    float step = depth - neighbour, slope = opposite > 0.0 ? opposite - depth : 0.0;
+    return neighbour > 0.0 ? sign(step) * max(abs(step) - max(sign(step) * slope, 0.0), 0.0) : 0.0;
+}
+
 /* How much a surface has to say about its surroundings, 0 … 1: beside a nearer one nothing up to a texel away and all from three on; on its own
  * border less and less, so that nothing jumps as the border passes over texels; and less where it is seen at a grazing angle, since
- * waves crowd there. A step of depth counts by the length of the waves: across smaller ones noise in space hardly changes. */
+ * waves crowd there. */
 float say_of(ivec2 pixel, vec4 surface)
 {
+    const vec2 ways[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.7071, 0.7071), vec2(0.7071, -0.7071));
     ivec2 last = ivec2(u_size) - 1;
-    vec3 own = place_of(vec2(pixel), surface.w), ray = normalize(mix(vec3(0.0, 0.0, -1.0), own, u_perspective));
-    vec3 facing = surface.xyz * (dot(surface.xyz, ray) > 0.0 ? -1.0 : 1.0);
-    float wave = u_perturb_scale * pixel_size(surface.w), yielded = 1.0, inside = 0.0;
-    for (int i = 0; i < 16; i++) {
-        float angle = 0.7853982 * float(i), away = i < 8 ? 1.2 : 2.4;
-        ivec2 at = clamp(pixel + ivec2(floor(away * u_cell * vec2(cos(angle), sin(angle)) + 0.5)), ivec2(0), last);
-        vec4 other = surface_at(at);
-        /* How far the neighbour lies in front of this surface's plane, or behind it. */
-        float front = dot(facing, place_of(vec2(at), other.w) - own) / wave;
-        float step = min(front, (surface.w - other.w) / wave);
-        float nearer = other.w > 0.0 ? smoothstep(0.1, 0.5, step) : 0.0;
-        yielded = min(yielded, mix(1.0, i < 8 ? 0.0 : 0.5, nearer));
-        inside += i < 8 ? (other.w > 0.0 ? 1.0 - smoothstep(0.1, 0.5, (other.w - surface.w) / wave + min(front, 0.0)) : 0.0) : 0.0;
-    }
-    return yielded * (inside / 8.0) * smoothstep(0.0, 0.4, -dot(facing, ray));
+    float wave = u_perturb_scale * pixel_size(surface.w) * exp2(1.0 - float(OCTAVES)), yielded = 1.0, inside = 0.0;
+    for (int ring = 0; ring < 2; ring++)
+        for (int i = 0; i < 4; i++) {
+            ivec2 way = ivec2(floor((ring == 0 ? 1.2 : 2.4) * u_cell * ways[i] + 0.5));
+            float ahead = surface_at(clamp(pixel + way, ivec2(0), last)).w, behind = surface_at(clamp(pixel - way, ivec2(0), last)).w;
+            vec2 steps = vec2(step_to(ahead, surface.w, behind), step_to(behind, surface.w, ahead)) / wave;
+            float nearer = smoothstep(0.15, 0.6, max(steps.x, steps.y));
+            vec2 same = (1.0 - smoothstep(vec2(0.15), vec2(0.6), -steps)) * vec2(greaterThan(vec2(ahead, behind), vec2(0.0)));
+            yielded = min(yielded, mix(1.0, ring == 0 ? 0.0 : 0.5, nearer));
+            inside += ring == 0 ? same.x + same.y : 0.0;
+        }
+    vec3 ray = normalize(mix(vec3(0.0, 0.0, -1.0), place_of(vec2(pixel), surface.w), u_perspective));
+    return yielded * (inside / 8.0) * smoothstep(0.0, 0.4, abs(dot(surface.xyz, ray)));
 }
 #endif
 
