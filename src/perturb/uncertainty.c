@@ -144,7 +144,7 @@ static const pass passes[] = {
 
 const technique perturb_uncertainty = {
     .name = "uncertainty", .doc = "Lines and fill waver apart, as drawn by hand.",
-    .example = "{\"perturb\": \"uncertainty\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
+    .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty), .channels = CHANNEL_NORMAL_DEPTH,
     .passes = passes, .pass_count = PARAM_COUNT(passes), .perturbs = &perturbs,
 };
