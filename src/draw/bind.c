@@ -53,6 +53,8 @@ static void set_field(frame *f, const figure_state *s)
     gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
     gpu_set_float(f->g, "u_reach", fmaxf(p->reach(use->values), 1));
     gpu_set_uint(f->g, "u_seed", p->seed(use->values, f->seed, f->time_s));
+    /* What the pictures of normals and depth were cleared to. */
+    gpu_set_float(f->g, "u_empty", (float)(s->figure->layered ? f->camera.far : s->far));
     set_rest(f);
 }
 

@@ -11,11 +11,7 @@ vec4 edge_at(vec2 place)
 #ifdef MERGED
     return out_edge;
 #elif defined(PERTURBED)
-    vec4 edge = textureLod(t_edge, (place + 0.5) / u_size, 0.0);
-    int pressed = u_perturb_pressure > 0.0 ? 1 : 0;
-    for (int once = 0; once < pressed; once++)
-        edge = min(edge, textureLod(t_edge, (pressed_place(place) + 0.5) / u_size, 0.0));
-    return edge;
+    return textureLod(t_edge, (place + 0.5) / u_size, 0.0);
 #else
     return texelFetch(t_edge, clamp(ivec2(place), ivec2(0), ivec2(u_size) - 1), 0);
 #endif

@@ -1,17 +1,11 @@
 /* Gradient noise (Perlin's): three independent values at once. Seed 000, section 6.2. */
 
-/* Three hashes of three numbers: a permuted congruential generator. */
-uvec3 hash_of(uvec3 v)
+uint hash_of(uvec3 v, uint seed)
 {
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v;
+    uint hash = v.x * 0x9e3779b1u ^ v.y * 0x85ebca77u ^ v.z * 0xc2b2ae3du ^ seed;
+    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
+    hash = (hash ^ (hash >> 12u)) * 0x297a2d39u;
+    return hash ^ (hash >> 15u);
 }
 
 vec3 fade_of(vec3 t)
@@ -19,14 +13,12 @@ vec3 fade_of(vec3 t)
     return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
-/* What the gradients of one corner of the lattice give at `offset` from it. */
+/* What the gradients of one corner of the lattice give at `offset` from it. Three bits a component: 512 directions are enough. */
 vec3 corner_of(uvec3 corner, uint seed, vec3 offset)
 {
-    uvec3 hash = hash_of(corner ^ (seed * uvec3(0x9e3779b9u, 0x85ebca6bu, 0xc2b2ae35u)));
-    vec3 x = vec3(hash & 1023u) * (2.0 / 1023.0) - 1.0;
-    vec3 y = vec3((hash >> 10u) & 1023u) * (2.0 / 1023.0) - 1.0;
-    vec3 z = vec3((hash >> 20u) & 1023u) * (2.0 / 1023.0) - 1.0;
-    return x * offset.x + y * offset.y + z * offset.z;
+    uvec3 bits = uvec3(hash_of(corner, seed)) >> uvec3(0u, 9u, 18u);
+    vec3 along = vec3(bits & 7u) * offset.x + vec3((bits >> 3u) & 7u) * offset.y + vec3((bits >> 6u) & 7u) * offset.z;
+    return along * (2.0 / 7.0) - (offset.x + offset.y + offset.z);
 }
 
 /* In the plane; the lattice repeats after `period` places unless that is 0. */
@@ -62,13 +54,14 @@ vec3 noise_of(vec3 place, uint seed)
     return sum;
 }
 
-/* A sum of octaves, whose squared weights add up to 1, as an uncertainty. */
-vec3 uncertainty_of(vec3 sum)
+/* A sum of octaves as an uncertainty, −1 … 1 with a mean square around 0.4; `weights` and `squares`: sums of the octaves' weights. */
+vec3 uncertainty_of(vec3 sum, float weights, float squares)
 {
 #if FIELD == 1
-    sum = 1.6 * (sum - TURBULENCE_MEAN);
+    /* Of one octave's absolute values the mean is 0.157. */
+    sum = 1.6 * (sum - 0.157 * weights);
 #endif
-    sum *= NOISE_GAIN;
+    sum *= NOISE_GAIN * inversesqrt(squares);
     return sum * inversesqrt(1.0 + sum * sum);
 }
 

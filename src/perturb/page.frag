@@ -3,7 +3,6 @@ uniform float u_cell;
 uniform uint  u_seed;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 2.6
-#define TURBULENCE_MEAN 0.2
 #include "perturb/noise.glsl"
 
 void main()
@@ -16,13 +15,14 @@ void main()
         wave = u_perturb_tile / float(period);
     }
     vec3 sum = vec3(0.0);
-    float weight = 1.0, squares = 0.0;
+    float weight = 1.0, weights = 0.0, squares = 0.0;
     for (int i = 0; i < OCTAVES; i++) {
         sum += weight * octave_of(noise_of(place / wave, period, u_seed + uint(i) * 0x51ed270bu));
+        weights += weight;
         squares += weight * weight;
         weight *= 0.5;
         wave *= 0.5;
         period *= 2;
     }
-    out_0 = vec4(uncertainty_of(sum * inversesqrt(squares)), 1.0);
+    out_0 = vec4(uncertainty_of(sum, weights, squares), 1.0);
 }

@@ -9,9 +9,9 @@ void main()
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 own = texelFetch(t_traces, at, 0);
 #if OUTWARD == 0
-    vec4 around = spread_along(t_traces_row, at, ivec2(0, 1));
-    own += 0.1 * around;
-    out_0 = vec4(own.rgb / (own.a + 1e-5), 1.0);
+    /* Its own say counts once more, so that where it is doubtful the surroundings decide. */
+    own = own * own.a * 0.5 + spread_along(t_traces_row, at, ivec2(0, 1));
+    out_0 = vec4(own.rgb / (own.a + 1e-9), 1.0);
 #else
     /* Seed 000, section 6.7: outside the enlarged model there is no uncertainty. */
     out_0 = vec4(own.rgb, 1.0);

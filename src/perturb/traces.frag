@@ -7,10 +7,10 @@ uniform vec2  u_size;
 uniform vec2  u_texel;
 uniform float u_cell;
 uniform uint  u_seed;
+uniform float u_empty; /* depth where nothing is drawn */
 uniform mat4  u_rest_from_eye;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 3.0
-#define TURBULENCE_MEAN 0.16
 #include "perturb/noise.glsl"
 
 /* A surface's normal and eye depth; depth 0 where there is none. */
@@ -20,7 +20,7 @@ vec4 surface_at(ivec2 pixel)
     return texelFetch(t_enlarged, pixel, 0);
 #else
     vec4 found = texelFetch(t_normal_depth, pixel, 0);
-    return texelFetch(t_depth, pixel, 0).r < 1.0 ? found : vec4(found.xyz, 0.0);
+    return vec4(found.xyz, found.w < u_empty ? found.w : 0.0);
 #endif
 }
 
@@ -48,27 +48,29 @@ vec3 noise_at(vec3 place, float depth)
 {
     float level = log2(u_perturb_scale * pixel_size(depth)), top = floor(level) + 1.0;
     vec3 sum = vec3(0.0);
-    float squares = 0.0;
+    float weights = 0.0, squares = 0.0;
     for (int i = 0; i <= OCTAVES; i++) {
         float octave = top - float(i), above = octave - level;
         float weight = exp2(min(above, 0.0)) * clamp(1.0 - above, 0.0, 1.0) * clamp(above + float(OCTAVES), 0.0, 1.0);
         sum += weight * octave_of(noise_of(place * exp2(-octave), u_seed + uint(int(octave) + 64) * 0x51ed270bu));
+        weights += weight;
         squares += weight * weight;
     }
-    return uncertainty_of(sum * inversesqrt(squares));
+    return uncertainty_of(sum, weights, squares);
 }
 #else
-vec3 noise_at(vec3 place, float ignored)
+vec3 noise_at(vec3 place)
 {
     vec3 sum = vec3(0.0);
-    float weight = 1.0, squares = 0.0;
+    float weight = 1.0, weights = 0.0, squares = 0.0;
     for (int i = 0; i < OCTAVES; i++) {
         sum += weight * octave_of(noise_of(place, u_seed + uint(i) * 0x51ed270bu));
+        weights += weight;
         squares += weight * weight;
         weight *= 0.5;
         place *= 2.0;
     }
-    return uncertainty_of(sum * inversesqrt(squares));
+    return uncertainty_of(sum, weights, squares);
 }
 #endif
 
@@ -79,69 +81,61 @@ vec3 trace_of(ivec2 pixel, vec4 surface)
     vec3 eye = place_of(vec2(pixel), surface.w);
     return noise_at((u_rest_from_eye * vec4(eye, 1.0)).xyz, surface.w);
 #elif BY == 1
-    return noise_at(2.0 * (turn * surface.xyz), 0.0);
+    return noise_at(2.0 * (turn * surface.xyz));
 #else
     /* How much the normal turns over a twelfth of a wave. */
     int way = max(int(u_perturb_scale / 24.0 + 0.5), 1);
     ivec2 last = ivec2(u_size) - 1;
     float bend = surface_at(clamp(pixel + ivec2(way, 0), ivec2(0), last)).x - surface_at(clamp(pixel - ivec2(way, 0), ivec2(0), last)).x +
                  surface_at(clamp(pixel + ivec2(0, way), ivec2(0), last)).y - surface_at(clamp(pixel - ivec2(0, way), ivec2(0), last)).y;
-    return noise_at(vec3(4.0 * bend, 0.37, 0.61), 0.0);
+    return noise_at(vec3(4.0 * bend, 0.37, 0.61));
 #endif
 }
 
 #if OUTWARD == 0
-/* Share of the say that a surface keeps beside nearer ones: none within two texels of a nearer one, all from four on. A step of depth
- * counts by the length of the waves: across smaller ones noise in space hardly changes. */
+/* How much nearer (positive) or farther than this surface its neighbour is, beyond what the slope to the neighbour on the other side
+ * explains; in lengths of the shortest wave, since noise in space hardly changes across less. 0 where one is missing. */
+float step_to(float neighbour, float depth, float opposite)
+{
+    float step = depth - neighbour, slope = opposite > 0.0 ? opposite - depth : 0.0;
+    return neighbour > 0.0 ? sign(step) * max(abs(step) - max(sign(step) * slope, 0.0), 0.0) : 0.0;
+}
+
+/* How much a surface has to say about its surroundings, 0 … 1: beside a nearer one nothing up to a texel away and all from three on; on its own
+ * border less and less, so that nothing jumps as the border passes over texels; and less where it is seen at a grazing angle, since
+ * waves crowd there. */
 float say_of(ivec2 pixel, vec4 surface)
 {
+    const vec2 ways[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.7071, 0.7071), vec2(0.7071, -0.7071));
     ivec2 last = ivec2(u_size) - 1;
-    vec3 own = place_of(vec2(pixel), surface.w);
-    float wave = u_perturb_scale * pixel_size(surface.w), say = 1.0;
-    for (int ring = 1; ring <= 3; ring++) {
-        float kept = float(ring - 1) * 0.5;
-        for (int i = 0; i < 8; i++) {
-            float angle = 0.7853982 * float(i) + 0.3926991 * float(ring);
-            ivec2 at = clamp(pixel + ivec2(floor(float(ring + 1) * u_cell * vec2(cos(angle), sin(angle)) + 0.5)), ivec2(0), last);
-            vec4 other = surface_at(at);
-            /* How far the neighbour lies in front of this surface's plane, looked at along its ray. */
-            float nearer = dot(surface.xyz, place_of(vec2(at), other.w) - own) * sign(dot(surface.xyz, vec3(0.0, 0.0, 1.0)) + 1e-6);
-            float step = min(nearer, surface.w - other.w) / wave;
-            if (other.w > 0.0)
-                say = min(say, mix(1.0, kept, smoothstep(0.15, 0.6, step)));
+    float wave = u_perturb_scale * pixel_size(surface.w) * exp2(1.0 - float(OCTAVES)), yielded = 1.0, inside = 0.0;
+    for (int ring = 0; ring < 2; ring++)
+        for (int i = 0; i < 4; i++) {
+            ivec2 way = ivec2(floor((ring == 0 ? 1.2 : 2.4) * u_cell * ways[i] + 0.5));
+            float ahead = surface_at(clamp(pixel + way, ivec2(0), last)).w, behind = surface_at(clamp(pixel - way, ivec2(0), last)).w;
+            vec2 steps = vec2(step_to(ahead, surface.w, behind), step_to(behind, surface.w, ahead)) / wave;
+            float nearer = smoothstep(0.15, 0.6, max(steps.x, steps.y));
+            vec2 same = (1.0 - smoothstep(vec2(0.15), vec2(0.6), -steps)) * vec2(greaterThan(vec2(ahead, behind), vec2(0.0)));
+            yielded = min(yielded, mix(1.0, ring == 0 ? 0.0 : 0.5, nearer));
+            inside += ring == 0 ? same.x + same.y : 0.0;
         }
-    }
-    return say;
+    vec3 ray = normalize(mix(vec3(0.0, 0.0, -1.0), place_of(vec2(pixel), surface.w), u_perspective));
+    return yielded * (inside / 8.0) * smoothstep(0.0, 0.4, abs(dot(surface.xyz, ray)));
 }
 #endif
 
 void main()
 {
-    ivec2 last = ivec2(u_size) - 1;
-    vec3 sum = vec3(0.0);
-    float count = 0.0;
-    vec4 nearest = vec4(0.0);
-    ivec2 nearest_pixel = ivec2(0);
-    for (int i = 0; i < 4; i++) {
-        vec2 inside = (vec2(float(i & 1), float(i >> 1)) + 0.5) * 0.5;
-        ivec2 pixel = min(ivec2((gl_FragCoord.xy - 0.5 + inside) * u_cell), last);
-        vec4 surface = surface_at(pixel);
-        int some = surface.w > 0.0 ? 1 : 0;
-        for (int once = 0; once < some; once++) {
-            sum += trace_of(pixel, surface);
-            count += 1.0;
-            bool first = nearest.w <= 0.0 || surface.w < nearest.w;
-            nearest = first ? surface : nearest;
-            nearest_pixel = first ? pixel : nearest_pixel;
-        }
-    }
-    float say = 0.25 * count;
+    ivec2 pixel = min(ivec2(gl_FragCoord.xy * u_cell), ivec2(u_size) - 1);
+    vec4 surface = surface_at(pixel);
+    out_0 = vec4(0.0);
+    int some = surface.w > 0.0 ? 1 : 0;
+    for (int once = 0; once < some; once++) {
+        float say = 1.0;
 #if OUTWARD == 0
-    int some = count > 0.0 ? 1 : 0;
-    for (int once = 0; once < some; once++)
-        say *= say_of(nearest_pixel, nearest);
+        /* A surface without a say still counts where there is no other. */
+        say = max(say_of(pixel, surface), 0.002);
 #endif
-    /* A surface without a say still counts where there is no other. */
-    say = count > 0.0 ? max(say, 0.002) : 0.0;
-    out_0 = vec4(sum / max(count, 1.0) * say, say);
+        out_0 = vec4(trace_of(pixel, surface) * say, say);
+    }
 }

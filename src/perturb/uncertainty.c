@@ -105,11 +105,11 @@ static float reach_of(const void *values)
     return v->amount * fmaxf(edges, shades) + v->rough;
 }
 
-/* Twelve texels a wave, the shortest octave has three at least; a tile has a whole number of them. */
+/* Twenty texels a wave; a tile has a whole number of them. */
 static float cell_of(const void *values)
 {
     const uncertainty *v = values;
-    float cell = fmaxf(v->scale / 12, 1);
+    float cell = fmaxf(v->scale / 20, 1);
     return v->lock == 1 && v->tile > 0 ? v->tile / ceilf(v->tile / cell) : cell;
 }
 
@@ -132,8 +132,8 @@ static const perturbation perturbs = {
 static const pass passes[] = {
     {.name = "noise", .shader = "perturb/page.frag", .writes = TARGET_UNCERTAINTY, .when = "lock=screen"},
     {.name = "enlarged", .geometry = true, .enlarge = "enlarge", .writes = TARGET_ENLARGED, .when = "lock=object&outward=enlarged"},
-    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_DEPTH, TARGET_ENLARGED},
-     .writes = TARGET_TRACES, .when = "lock=object"},
+    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ENLARGED}, .writes = TARGET_TRACES,
+     .when = "lock=object"},
     {.name = "spread across", .shader = "perturb/spread_row.frag", .reads = {TARGET_TRACES}, .writes = TARGET_TRACES_ROW,
      .when = "lock=object&outward=continuous"},
     {.name = "spread", .shader = "perturb/spread.frag", .reads = {TARGET_TRACES, TARGET_TRACES_ROW}, .writes = TARGET_UNCERTAINTY,

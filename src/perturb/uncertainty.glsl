@@ -51,19 +51,12 @@ vec2 line_place(int i)
     return s_place + u_perturb_amount * (degree * way) + s_grain.xy;
 }
 
-#ifdef HAS_LINES
-/* A second place whose ink joins the line's: lines are thicker where it is farther away. */
-vec2 pressed_place(vec2 place)
-{
-    return place + 0.4 * u_line_width * u_perturb_pressure * s_uncertainty.zx;
-}
-#endif
-
 /* The ink that the i-th repetition leaves. */
 vec4 copy_ink(vec4 ink, int i)
 {
+    /* Lines have soft rims, so that more ink makes them wider, too. */
     float side = (i & 1) == 0 ? 1.0 : -1.0;
-    ink *= 1.0 - u_perturb_pressure * smoothstep(-0.2, 0.9, side * s_uncertainty.z);
+    ink *= min(exp2(-2.2 * u_perturb_pressure * side * s_uncertainty.z), 1.0 / max(ink.a, 1e-4));
     if (i > 0) {
         vec4 colour = u_perturb_repeat_colours[(i - 1) % u_perturb_repeat_colours_count];
         ink = vec4(colour.rgb, 1.0) * (ink.a * colour.a);
