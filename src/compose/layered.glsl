@@ -111,7 +111,7 @@ void main()
         ink = over(own_ink, ink);
     }
 #endif
-    vec4 colour = ink + fill * (1.0 - ink.a);
+    vec4 colour = ink + fill * (fill_share() * (1.0 - ink.a));
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour * u_rear;

@@ -28,6 +28,11 @@ vec4 copy_ink(vec4 ink, int i)
 {
     return ink;
 }
+
+float fill_share()
+{
+    return 1.0;
+}
 #endif
 
 /* The pixel at a place. */

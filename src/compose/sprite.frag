@@ -39,9 +39,13 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     find_places(pixel);
     float fill_depth = own_depth(pixel_at(fill_place())), depth = fill_depth;
-    vec4 fill = fill_depth < 1.0 ? shade_at(fill_place()) : vec4(0.0), ink = vec4(0.0);
+    vec4 ink = vec4(0.0);
 #ifdef PERTURBED
+    vec4 fill = fill_depth < 1.0 ? shade_at(fill_place()) : vec4(0.0);
     depth = fill.a > 0.0 ? depth : 1.0;
+#else
+    /* Ink of further line techniques is folded into the fill, outside the boundary, too. */
+    vec4 fill = is_own(pixel) ? shade_at(fill_place()) : vec4(0.0);
 #endif
 #ifdef HAS_LINES
 #ifdef MERGED
@@ -51,11 +55,13 @@ void main()
         vec2 place = line_place(i);
         float line_depth = own_depth(pixel_at(place));
         vec4 own_ink = copy_ink(ink_at(place), i);
-        int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
 #ifdef PERTURBED
+        int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
         for (int once = 0; once < bare; once++)
             fill = fallback_at(pixel_at(place));
+#else
+        int search = line_depth >= 1.0 && max(own_ink.a, fill.a) > 0.0 ? 1 : 0;
 #endif
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(place));
@@ -63,7 +69,7 @@ void main()
         ink = over(own_ink, ink);
     }
 #endif
-    vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
+    vec4 colour = u_filled ? ink + fill * (fill_share() * (1.0 - ink.a)) : ink;
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour;

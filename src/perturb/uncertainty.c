@@ -19,7 +19,7 @@ typedef struct uncertainty {
     int32_t octaves, seed, by, outward;
     float   enlarge;
     float   edges_xx, edges_xy, edges_yx, edges_yy, shades_xx, shades_xy, shades_yx, shades_yy;
-    float   rough, grain;
+    float   rough, tooth, grain;
     int32_t repeat;
     float   repeat_degree, pressure;
     palette repeat_colours;
@@ -68,7 +68,9 @@ static const param params[] = {
     DEGREE_ROW(shades_yy, -0.75, "Of fill: share of the second noise in the way up."),
     PARAM_FLOAT_ROW(uncertainty, rough, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,
                     .doc = "Displacement of every grain of the paper by itself: borders fray as chalk's do."),
-    PARAM_FLOAT_ROW(uncertainty, grain, .def = 1, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_PX, .along = true, .only_if = "rough",
+    PARAM_FLOAT_ROW(uncertainty, tooth, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Share of the paper's grains that the fill leaves bare; lines, drawn with more force, leave half as many."),
+    PARAM_FLOAT_ROW(uncertainty, grain, .def = 1, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_PX, .along = true,
                     .doc = "Size of the paper's grains."),
     PARAM_INT_ROW(uncertainty, repeat, .def = 1, .min = 1, .max = 8, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "How often lines are drawn, each time displaced in another direction."),
@@ -87,7 +89,7 @@ static bool is_active(const void *values)
     const uncertainty *v = values;
     bool moves = v->edges_xx != 0 || v->edges_xy != 0 || v->edges_yx != 0 || v->edges_yy != 0 || v->shades_xx != 0 ||
                  v->shades_xy != 0 || v->shades_yx != 0 || v->shades_yy != 0;
-    return v->amount > 0 && (moves || v->rough > 0 || v->pressure > 0);
+    return v->amount > 0 && (moves || v->rough > 0 || v->tooth > 0 || v->pressure > 0);
 }
 
 static float row_sum(float a, float b)
@@ -142,7 +144,7 @@ static const pass passes[] = {
 
 const technique perturb_uncertainty = {
     .name = "uncertainty", .doc = "Lines and fill waver apart, as drawn by hand.",
-    .example = "{\"perturb\": \"uncertainty\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
+    .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty), .channels = CHANNEL_NORMAL_DEPTH,
     .passes = passes, .pass_count = PARAM_COUNT(passes), .perturbs = &perturbs,
 };

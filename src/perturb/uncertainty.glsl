@@ -6,6 +6,7 @@
 vec3  s_uncertainty;
 vec2  s_place;
 vec4  s_grain; /* displacement of this grain: of lines, of fill */
+vec2  s_bare;  /* what is left of lines and of fill */
 
 uvec3 grain_hash(uvec3 v)
 {
@@ -26,11 +27,19 @@ void find_places(ivec2 pixel)
     s_place = vec2(pixel);
     s_uncertainty = uncertainty_at(pixel);
     s_grain = vec4(0.0);
-    int frayed = u_perturb_rough > 0.0 ? 1 : 0;
-    for (int once = 0; once < frayed; once++) {
+    s_bare = vec2(1.0);
+    int grainy = u_perturb_rough + u_perturb_tooth > 0.0 ? 1 : 0;
+    for (int once = 0; once < grainy; once++) {
         uvec3 hash = grain_hash(uvec3(uvec2(vec2(pixel) / u_perturb_grain), u_seed));
         s_grain = (vec4(hash.xy & 65535u, hash.xy >> 16u) * (2.0 / 65535.0) - 1.0) * (u_perturb_rough * border_share(pixel));
+        float height = float(hash.z >> 8u) / 16777215.0;
+        s_bare = clamp(1.0 + 5.0 * (height - u_perturb_tooth * vec2(0.5, 1.0)), 0.0, 1.0);
     }
+}
+
+float fill_share()
+{
+    return s_bare.y;
 }
 
 vec2 fill_place()
@@ -56,7 +65,7 @@ vec4 copy_ink(vec4 ink, int i)
 {
     /* Lines have soft rims, so that more ink makes them wider, too. */
     float side = (i & 1) == 0 ? 1.0 : -1.0;
-    ink *= min(exp2(-2.2 * u_perturb_pressure * side * s_uncertainty.z), 1.0 / max(ink.a, 1e-4));
+    ink *= s_bare.x * min(exp2(-2.2 * u_perturb_pressure * side * s_uncertainty.z), 1.0 / max(ink.a, 1e-4));
     if (i > 0) {
         vec4 colour = u_perturb_repeat_colours[(i - 1) % u_perturb_repeat_colours_count];
         ink = vec4(colour.rgb, 1.0) * (ink.a * colour.a);

@@ -71,7 +71,7 @@ struct pass;
 
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
-    const char *places; /* GLSL file with find_places, fill_place, line_place, copy_ink and LINE_COPIES; see compose/places.glsl */
+    const char *places; /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl */
     bool      (*active)(const void *values); /* false: pictures are what they are without it */
     float     (*reach)(const void *values);  /* how far it moves anything, pixels */
     float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
