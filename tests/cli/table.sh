@@ -319,6 +319,33 @@ group_looks() {
     done
 }
 
+group_sketch() {
+    local look
+    for look in sketch chalk redraw sketch-blueprint; do
+        row 0 '' 'a.png' draw "$gear" $small --look $look -o a.png && is_png a.png 64 64
+    done
+    # Nothing moves: the very picture of the look without it.
+    row 0 '' 'a.png' draw "$gear" $small --look edges -o a.png && cp a.png in-plain.png
+    row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty --set perturb.amount=0 -o a.png
+    cmp -s a.png in-plain.png || complain "an amount of 0 changes the picture"
+    row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty -o a.png && cp a.png in-moved.png
+    cmp -s a.png in-plain.png && complain "the uncertainty changes nothing"
+    row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty -o a.png
+    cmp -s a.png in-moved.png || complain "the same call gives another picture"
+    row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty --seed 7 -o a.png
+    cmp -s a.png in-moved.png && complain "another seed gives the same picture"
+    # Boiling: on twos, frames 0 and 1 of 24 a second are one drawing, frame 2 is another.
+    row 0 '' 'f0000.png f0001.png f0002.png' draw "$gear" $small --look sketch --set perturb.boil=12 --frames 0:2:24 -o 'f{frame}.png'
+    cmp -s f0000.png f0001.png || complain "the two frames of a two differ"
+    cmp -s f0001.png f0002.png && complain "it does not boil"
+    row 0 '' 'a.png' draw "$gear" $small --look sketch -o a.png --aov .maps && [ -s .maps/uncertainty.pfm ] || complain "there is no uncertainty.pfm"
+    row 0 '' 'a.png' draw "$gear" $small --look edges -o a.png --aov .exact && [ -e .exact/uncertainty.pfm ] && complain "nothing is uncertain here"
+    row 0 "warning: compose 'superimpose' cannot be perturbed" 'a.png' draw "$gear" $small --look sketch --set compose.technique=superimpose -o a.png
+    row 1 'perturb.amount is .65.; allowed is a number from 0 to 64 px' '' draw "$gear" --look sketch --set perturb.amount=65
+    row 1 'perturb.lock is .floor.' '' draw "$gear" --look sketch --set perturb.lock=floor
+    row 1 'set perturb.technique first' '' draw "$gear" --look edges --set perturb.amount=3
+}
+
 group_doctor() {
     row 0 '' '' doctor; out 'Limner can draw here'
     row 0 '' '' doctor --json; documented .stdout doctor.md
