@@ -392,6 +392,7 @@ static const uint8_t green_bytes[3] = {0x20, 0xb0, 0x40}, odd_bytes[3] = {0xff, 
 #define ANCHOR FIGURE("anchor", "#808080", "") ","
 #define ID_LINES ",\"lines\":{\"operator\":\"id\",\"colour\":\"#000000\"}"
 #define WAVES ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":9,\"scale\":50,\"fallback\":\"#ff00ff\"}"
+#define THRICE ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":9,\"scale\":50,\"repeat\":3,\"repeat_degree\":0.8,\"repeat_colours\":[\"#000000\"]}"
 #define SCREEN_WAVES ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":12,\"scale\":70,\"lock\":\"screen\",\"fallback\":\"#ff00ff\"," \
                      EDGES(0, 1, -1, 0) "," SHADES(0.6, 0.4, 0, -1) "}"
 
@@ -433,14 +434,15 @@ static void against_each(const char *what, const char *look, const sketch_style 
                     p[1] = sketch_colour(green_bytes, isfinite(other) ? 1 : 0);
                 }
                 int first = depth[1] < depth[0];
-                together += isfinite(depth[0]) && isfinite(depth[1]);
-                changed += (own < other) != (depth[0] < depth[1]);
+                together += isfinite(depth[0]) && isfinite(depth[1]) && p[0].a > 0;
+                changed += (own < other) != (depth[0] < depth[1]) && p[0].a > 0;
                 /* What is drawn later and lies in front is blended over what is behind it. */
                 sketch_judge(&t, &both, x, y, sketch_over(p[first], p[first].a < 1 ? sketch_over(p[1 - first], ground) : ground), 3);
             }
         sketch_check("S06", &t, &both, 0.995, what);
-        check_at_least("C18", together, 1500, "  pixels at which both have something");
-        check_at_least("C18", changed, 200, "  pixels at which the perturbation turns which one is seen");
+        int least = ball->without_fill ? 8 : 1; /* lines alone are few pixels */
+        check_at_least("C18", together, 1500 / least, "  pixels at which both have something");
+        check_at_least("C18", changed, 120 / least, "  pixels at which the perturbation turns which one is seen");
     }
     shot_release(&both);
     shot_release(&alone[0]);
@@ -462,6 +464,13 @@ static void depths(void)
     against_each("without lines", LOOK(ANCHOR FIGURE("ball", "#d03020", WAVES) "," FIGURE("sharp", "#20b040", "")), &bare, NULL, &slanted);
     against_each("two sketched parts, each in its way", LOOK(ANCHOR FIGURE("ball", "#d03020", ID_LINES WAVES) "," FIGURE("sharp", "#20b040", ID_LINES SCREEN_WAVES)), &waves,
                  &screen, &slanted);
+    sketch_style thrice = waves;
+    thrice.repeat = 3;
+    thrice.repeat_degree = 0.8;
+    thrice.repeat_inks[0] = thrice.repeat_inks[1] = sketch_colour(black_bytes, 1);
+    thrice.without_fill = true;
+    against_each("lines drawn three times, without fill", LOOK(ANCHOR "{\"select\":\"ball\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"}"
+                                                                ID_LINES THRICE "}," FIGURE("sharp", "#20b040", "")), &thrice, NULL, &slanted);
     shot_view parallel = slanted;
     parallel.orthographic = true;
     against_each("two sketched parts, parallel rays", LOOK(ANCHOR FIGURE("ball", "#d03020", ID_LINES SCREEN_WAVES) "," FIGURE("sharp", "#20b040", ID_LINES WAVES)), &screen,
@@ -677,49 +686,136 @@ static void grains(void)
     }
 }
 
-/* Three outlines in three colours, each at its own place, and no fill. */
+/* Three outlines in three colours, each at its own place, and no fill; and their depth beside an exact part. */
 static void repeated(void)
 {
-    static const uint8_t colours[3][3] = {{0, 0, 0}, {0xd0, 0x20, 0x20}, {0x20, 0x40, 0xd0}};
+    static const uint8_t colours[2][3] = {{0xd0, 0x20, 0x20}, {0x20, 0x40, 0xd0}};
     static const char rule[] = "\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}";
     static const double degrees[] = {1, 1.3};
     for (int c = 0; c < 2; c++) {
-        char  perturb[320];
-        shape s = {0};
-        shot  drawn;
+        char         perturb[320];
+        shape        s = {0};
+        shot         drawn;
+        sketch_style style = style_of(9);
         snprintf(perturb, sizeof perturb, "{\"technique\":\"uncertainty\",\"amount\":9,\"repeat\":3,\"repeat_degree\":%g,\"repeat_colours\":[\"#d02020\",\"#2040d0\"],"
                  EDGES(1, 0.2, -0.1, 0.9) ",\"fallback\":\"#ff00ff\"}", degrees[c]);
+        style.edges = (sketch_degree){1, 0.2, -0.1, 0.9};
+        style.without_fill = true;
+        style.repeat = 3;
+        style.repeat_degree = degrees[c];
+        for (int i = 0; i < 2; i++)
+            style.repeat_inks[i] = sketch_colour(colours[i], 1);
         plates(&s);
         if (shot_of_shape(&drawn, &s, "repeat.glb", look_of(rule, perturb), NULL, &front)) {
-            sketch_maps  m = sketch_maps_of(&drawn);
-            sketch_tally t = {0};
-            int          seen[3] = {0};
-            for (int y = 0; y < drawn.height; y++)
-                for (int x = 0; x < drawn.width; x++) {
-                    sketch_paint all = {0, 0, 0, 0};
-                    int          alone = -1, inked = 0;
-                    bool         there = false;
-                    for (int i = 2; i >= 0; i--) {
-                        sketch_degree d = sketch_times((sketch_degree){1, 0.2, -0.1, 0.9}, sketch_turn(120.0 * i));
-                        sketch_place  e = sketch_moved(&m, x, y, 9 * pow(degrees[c], i), d);
-                        double        edge[4];
-                        sketch_edge(&m, e, edge);
-                        sketch_paint ink = sketch_ink(edge, sketch_colour(colours[i], 1));
-                        there = there || isfinite(sketch_depth(&m, e)) || (ink.a > 0 && isfinite(sketch_reach(&m, e, 1)));
-                        alone = ink.a > 0.95 ? i : alone;
-                        inked += ink.a > 0.02;
-                        all = sketch_over(ink, all);
-                    }
-                    if (inked == 1 && alone >= 0)
-                        seen[alone] += sketch_levels_off(sketch_pixel(&drawn, x, y), sketch_colour(colours[alone], 1)) < 20;
-                    sketch_judge(&t, &drawn, x, y, sketch_over(sketch_share(all, there), sketch_colour(ground_bytes, 1)), 3);
+            sketch_maps m = sketch_maps_of(&drawn);
+            int         seen[3] = {0};
+            for (int i = 0; i < drawn.width * drawn.height; i++) {
+                int    x = i % drawn.width, y = i / drawn.width, alone = -1, inked = 0;
+                double depth;
+                for (int k = 0; k < 3; k++) {
+                    double alpha = sketch_copy_ink(&m, &style, k, x, y, &depth).a;
+                    alone = alpha > 0.95 ? k : alone;
+                    inked += alpha > 0.02;
                 }
-            sketch_check("S09", &t, &drawn, 0.995, c ? "three outlines, each farther than the one before" : "three outlines");
+                if (inked == 1 && alone >= 0)
+                    seen[alone] += sketch_levels_off(sketch_pixel(&drawn, x, y), alone ? style.repeat_inks[alone - 1] : style.ink) < 20;
+            }
+            sketch_check_opaque("S09", &drawn, &style, 3, 0.995, c ? "three outlines, each farther than the one before" : "three outlines");
             for (int i = 0; i < 3; i++)
                 check_at_least("S09", seen[i], 150, "  pixels where outline %d is alone and has its colour", i);
         }
         shot_release(&drawn);
         shape_release(&s);
+    }
+}
+
+/* Lines of all techniques of a rule waver as lines do, not with the fill. */
+static void several(void)
+{
+    static const char perturb[] = "{\"technique\":\"uncertainty\",\"amount\":8," SHADES(0, 0, 0, 0) "}";
+    static const char *const rules[] = {BLUE_FILL ",\"lines\":[{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}]",
+                                        BLUE_FILL ",\"lines\":[{\"operator\":\"discontinuity\",\"colour\":\"#000000\"},{\"operator\":\"discontinuity\",\"profile_weight\":0,\"inner_weight\":0,\"id_weight\":0}]"};
+    shape s = {0};
+    plates(&s);
+    for (int k = 0; k < 2; k++) {
+        shot         drawn;
+        sketch_style style = style_of(8);
+        style.shades = sketch_scaled(0);
+        if (shot_of_shape(&drawn, &s, "several.glb", look_of(rules[k], perturb), NULL, &front))
+            sketch_check_opaque("S03", &drawn, &style, 3, 0.995, k ? "black lines, and invisible ones after them" : "black lines alone");
+        shot_release(&drawn);
+    }
+    shape_release(&s);
+}
+
+/* Grains that fill leaves bare: the given share of them, of one grain's size, and half as many of lines. */
+static void tooth(void)
+{
+    static const double shares[] = {0.2, 0.5};
+    const char *change[] = {"finish.ground", "#ffffff", NULL};
+    for (int k = 0; k < 4; k++) {
+        char   perturb[160];
+        shape  s = {0};
+        shot   drawn;
+        double bare = 0, count = 0;
+        /* A wall of black fill, or one of lines alone: a plate's broad outline. */
+        const char *rule = k < 2 ? bare_fill : "\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":32}";
+        snprintf(perturb, sizeof perturb, "{\"technique\":\"uncertainty\",\"amount\":0.5,\"lock\":\"screen\",\"tooth\":%g}", shares[k % 2]);
+        shape_quad(&s, "plate", 1.2, 0);
+        if (shot_of_shape(&drawn, &s, "tooth.glb", look_of(rule, perturb), change, &front))
+            for (int y = 90; y < 210; y++)
+                for (int x = k < 2 ? 90 : 62; x < (k < 2 ? 210 : 71); x++) {
+                    bare += picture_linear(sketch_pixel(&drawn, x, y)[1]);
+                    count++;
+                }
+        check_near("S08", count > 0 ? bare / count : -1, shares[k % 2] * (k < 2 ? 1 : 0.5), 0.1, "tooth %.1f: share of ground that shows through the %s", shares[k % 2],
+                   k < 2 ? "fill" : "lines");
+        shot_release(&drawn);
+        shape_release(&s);
+    }
+}
+
+/* With pressure, the weight of a line follows the field's third value; without it is the same everywhere. */
+static void pressure(void)
+{
+    static const double pressures[] = {0, 0.7};
+    const char *change[] = {"finish.ground", "#ffffff", NULL};
+    for (int k = 0; k < 2; k++) {
+        char      perturb[200];
+        double    n = 0, w = 0, z = 0, ww = 0, zz = 0, wz = 0;
+        shot_view view = front;
+        view.width = view.height = 400;
+        for (int seed = 0; seed < 4; seed++) {
+            shape s = {0};
+            shot  drawn;
+            snprintf(perturb, sizeof perturb, "{\"technique\":\"uncertainty\",\"amount\":1,\"lock\":\"screen\",\"seed\":%d,\"pressure\":%g," EDGES(0, 0, 0, 0) "}", seed, pressures[k]);
+            shape_quad(&s, "plate", 1.6, 0);
+            if (shot_of_shape(&drawn, &s, "pressure.glb", look_of(bare_white, perturb), change, &view) && drawn.uncertainty)
+                for (int y = 80; y < 320; y++) {
+                    double ink = 0, value = 0;
+                    for (int x = 36; x < 66; x++) {
+                        double own = (255 - sketch_pixel(&drawn, x, y)[1]) / 255.0;
+                        ink += own;
+                        value += own * (double)drawn.uncertainty[(399 - y) * 400 + x][2];
+                    }
+                    value = ink > 0 ? value / ink : 0;
+                    n += 1;
+                    w += ink;
+                    z += value;
+                    ww += ink * ink;
+                    zz += value * value;
+                    wz += ink * value;
+                }
+            shot_release(&drawn);
+            shape_release(&s);
+        }
+        double spread = sqrt(fmax(0, ww / n - w / n * w / n)), link = (wz / n - w / n * z / n) / (spread * sqrt(zz / n - z / n * z / n) + 1e-9);
+        if (k == 0)
+            check_at_most("S03", spread, 0.02, "pressure 0: how much the width of a line varies, px (mean %.2f)", w / n);
+        else {
+            check_at_least("S03", spread, 0.15, "pressure %.1f: how much the width of a line varies, px (mean %.2f)", pressures[k], w / n);
+            check_at_least("S03", fabs(link), 0.6, "  correlation of its weight with the field's third value (%.3f)", link);
+        }
     }
 }
 
@@ -850,7 +946,7 @@ int main(int argc, char **argv)
     static const check_case cases[] = {
         {"zero", zero},         {"masks", fill_masks},  {"whole", whole_pictures}, {"contrary", contrary}, {"direction", one_direction},
         {"exchange", exchange}, {"depths", depths},     {"identity", mask_identity}, {"patches", patches}, {"product", product},
-        {"frayed", frayed},     {"grains", grains},     {"repeated", repeated},    {"borders", borders},   {"wall", wall},
+        {"frayed", frayed},     {"grains", grains},     {"repeated", repeated},    {"several", several},   {"tooth", tooth},   {"pressure", pressure}, {"borders", borders},   {"wall", wall},
         {"samples", samples},   {"dialects", dialects},
     };
     int status = check_main(argc, argv, "sketch", cases, sizeof cases / sizeof *cases);

@@ -135,24 +135,40 @@ sketch_paint sketch_ink(const double edge[4], sketch_paint colour)
     return colour.a > 0 ? sketch_share(colour, (1 - clear) / colour.a) : colour;
 }
 
+sketch_degree sketch_copy(const sketch_style *style, int i)
+{
+    double        more = pow(style->repeat > 1 ? style->repeat_degree : 1, i);
+    sketch_degree d = sketch_times(style->edges, sketch_turn(360.0 * i / (style->repeat > 1 ? style->repeat : 1)));
+    return (sketch_degree){d.xx * more, d.xy * more, d.yx * more, d.yy * more};
+}
+
+sketch_paint sketch_copy_ink(const sketch_maps *m, const sketch_style *style, int i, int x, int y, double *depth)
+{
+    sketch_place e = sketch_moved(m, x, y, style->amount, sketch_copy(style, i));
+    double       edge[4];
+    sketch_edge(m, e, edge);
+    sketch_paint ink = sketch_ink(edge, i ? style->repeat_inks[i - 1] : style->ink);
+    *depth = sketch_depth(m, e);
+    if (!isfinite(*depth) && ink.a > 0)
+        *depth = sketch_reach(m, e, 1);
+    return ink;
+}
+
 sketch_paint sketch_opaque(const sketch_maps *m, const sketch_style *style, int x, int y, double *depth)
 {
-    sketch_place e = sketch_moved(m, x, y, style->amount, style->edges), s = sketch_moved(m, x, y, style->amount, style->shades);
-    double       line_depth = sketch_depth(m, e), fill_depth = sketch_depth(m, s), edge[4];
+    sketch_place s = sketch_moved(m, x, y, style->amount, style->shades);
+    double       fill_depth = sketch_depth(m, s), line_depth;
+    bool         bare = !style->without_lines && isfinite(sketch_depth(m, sketch_moved(m, x, y, style->amount, style->edges)));
     sketch_paint fill = {0, 0, 0, 0}, ink = {0, 0, 0, 0};
-    if (style->without_lines)
-        line_depth = INFINITY;
     if (isfinite(fill_depth))
         fill = sketch_shade(m, s);
-    else if (isfinite(line_depth))
+    else if (bare && !style->without_fill)
         fill = style->fallback;
-    if (!style->without_lines) {
-        sketch_edge(m, e, edge);
-        ink = sketch_ink(edge, style->ink);
-        if (!isfinite(line_depth) && ink.a > 0)
-            line_depth = sketch_reach(m, e, 1);
+    *depth = style->without_fill ? INFINITY : fill_depth;
+    for (int i = style->repeat > 1 ? style->repeat - 1 : 0; i >= 0 && !style->without_lines; i--) {
+        ink = sketch_over(sketch_copy_ink(m, style, i, x, y, &line_depth), ink);
+        *depth = fmin(*depth, line_depth);
     }
-    *depth = fmin(line_depth, fill_depth);
     return isfinite(*depth) ? sketch_over(ink, fill) : (sketch_paint){0, 0, 0, 0};
 }
 

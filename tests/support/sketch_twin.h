@@ -24,7 +24,10 @@ typedef struct sketch_style {
     double        amount;
     sketch_degree edges, shades;
     sketch_paint  ink, fallback, ground;
-    bool          without_lines;
+    bool          without_lines, without_fill;
+    int           repeat; /* 0 is 1 */
+    double        repeat_degree;
+    sketch_paint  repeat_inks[8]; /* of the copies from the second on */
 } sketch_style;
 
 /* The maps of a figure or of one of its layers. */
@@ -41,6 +44,10 @@ sketch_maps sketch_maps_of_layer(const shot *s, int layer); /* with the drawing'
 sketch_degree sketch_scaled(double degree);                   /* degree in both directions alike */
 sketch_degree sketch_times(sketch_degree a, sketch_degree b); /* a · b */
 sketch_degree sketch_turn(double degrees);                    /* anticlockwise */
+
+/* The degree of the i-th copy of the lines, and its ink at its place; the depth is infinite where it has neither ink nor surface. */
+sketch_degree sketch_copy(const sketch_style *style, int i);
+sketch_paint  sketch_copy_ink(const sketch_maps *m, const sketch_style *style, int i, int x, int y, double *depth);
 
 sketch_place sketch_moved(const sketch_maps *m, int x, int y, double amount, sketch_degree degree);
 bool         sketch_inside(const sketch_maps *m, sketch_place p);
