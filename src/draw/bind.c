@@ -44,9 +44,7 @@ static void set_rest(frame *f)
 static void set_field(frame *f, const figure_state *s)
 {
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
-    const perturbation *p = use ? use->technique->perturbs : NULL;
-    if (!p)
-        return;
+    const perturbation *p = use->technique->perturbs;
     int size[2];
     coarse_size(f, s, size);
     gpu_set_float(f->g, "u_cell", p->cell(use->values));
@@ -71,7 +69,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_int(g, "u_figure", s->index);
     gpu_set_float(g, "u_rear", s->rear);
     gpu_set_int(g, "u_filled", s->filled);
-    if (gpu_has_uniform(g, "u_cell"))
+    if (rule_use(s->figure->rule, KIND_PERTURB))
         set_field(f, s);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);

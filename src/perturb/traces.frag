@@ -13,13 +13,14 @@ layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 3.0
 #include "perturb/noise.glsl"
 
-/* A surface's normal and eye depth; depth 0 where there is none. */
-vec4 surface_at(ivec2 pixel)
+/* A surface's normal and eye depth; depth 0 where there is none. Beyond the page it is that of the border. */
+vec4 surface_at(vec2 pixel)
 {
+    vec2 at = (pixel + 0.5) * u_texel;
 #if OUTWARD == 1
-    return texelFetch(t_enlarged, pixel, 0);
+    return textureLod(t_enlarged, at, 0.0);
 #else
-    vec4 found = texelFetch(t_normal_depth, pixel, 0);
+    vec4 found = textureLod(t_normal_depth, at, 0.0);
     return vec4(found.xyz, found.w < u_empty ? found.w : 0.0);
 #endif
 }
@@ -74,20 +75,19 @@ vec3 noise_at(vec3 place)
 }
 #endif
 
-vec3 trace_of(ivec2 pixel, vec4 surface)
+vec3 trace_of(vec2 pixel, vec4 surface)
 {
     mat3 turn = mat3(u_rest_from_eye);
 #if BY == 0
-    vec3 eye = place_of(vec2(pixel), surface.w);
+    vec3 eye = place_of(pixel, surface.w);
     return noise_at((u_rest_from_eye * vec4(eye, 1.0)).xyz, surface.w);
 #elif BY == 1
     return noise_at(2.0 * (turn * surface.xyz));
 #else
     /* How much the normal turns over a twelfth of a wave. */
-    int way = max(int(u_perturb_scale / 24.0 + 0.5), 1);
-    ivec2 last = ivec2(u_size) - 1;
-    float bend = surface_at(clamp(pixel + ivec2(way, 0), ivec2(0), last)).x - surface_at(clamp(pixel - ivec2(way, 0), ivec2(0), last)).x +
-                 surface_at(clamp(pixel + ivec2(0, way), ivec2(0), last)).y - surface_at(clamp(pixel - ivec2(0, way), ivec2(0), last)).y;
+    float way = max(floor(u_perturb_scale / 24.0 + 0.5), 1.0);
+    float bend = surface_at(pixel + vec2(way, 0.0)).x - surface_at(pixel - vec2(way, 0.0)).x +
+                 surface_at(pixel + vec2(0.0, way)).y - surface_at(pixel - vec2(0.0, way)).y;
     return noise_at(vec3(4.0 * bend, 0.37, 0.61));
 #endif
 }
@@ -104,29 +104,28 @@ float step_to(float neighbour, float depth, float opposite)
 /* How much a surface has to say about its surroundings, 0 … 1: beside a nearer one nothing up to a texel away and all from three on; on its own
  * border less and less, so that nothing jumps as the border passes over texels; and less where it is seen at a grazing angle, since
  * waves crowd there. */
-float say_of(ivec2 pixel, vec4 surface)
+float say_of(vec2 pixel, vec4 surface)
 {
     const vec2 ways[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.7071, 0.7071), vec2(0.7071, -0.7071));
-    ivec2 last = ivec2(u_size) - 1;
     float wave = u_perturb_scale * pixel_size(surface.w) * exp2(1.0 - float(OCTAVES)), yielded = 1.0, inside = 0.0;
     for (int ring = 0; ring < 2; ring++)
         for (int i = 0; i < 4; i++) {
-            ivec2 way = ivec2(floor((ring == 0 ? 1.2 : 2.4) * u_cell * ways[i] + 0.5));
-            float ahead = surface_at(clamp(pixel + way, ivec2(0), last)).w, behind = surface_at(clamp(pixel - way, ivec2(0), last)).w;
+            vec2 way = floor((ring == 0 ? 1.2 : 2.4) * u_cell * ways[i] + 0.5);
+            float ahead = surface_at(pixel + way).w, behind = surface_at(pixel - way).w;
             vec2 steps = vec2(step_to(ahead, surface.w, behind), step_to(behind, surface.w, ahead)) / wave;
             float nearer = smoothstep(0.15, 0.6, max(steps.x, steps.y));
             vec2 same = (1.0 - smoothstep(vec2(0.15), vec2(0.6), -steps)) * vec2(greaterThan(vec2(ahead, behind), vec2(0.0)));
             yielded = min(yielded, mix(1.0, ring == 0 ? 0.0 : 0.5, nearer));
             inside += ring == 0 ? same.x + same.y : 0.0;
         }
-    vec3 ray = normalize(mix(vec3(0.0, 0.0, -1.0), place_of(vec2(pixel), surface.w), u_perspective));
+    vec3 ray = normalize(mix(vec3(0.0, 0.0, -1.0), place_of(pixel, surface.w), u_perspective));
     return yielded * (inside / 8.0) * smoothstep(0.0, 0.4, abs(dot(surface.xyz, ray)));
 }
 #endif
 
 void main()
 {
-    ivec2 pixel = min(ivec2(gl_FragCoord.xy * u_cell), ivec2(u_size) - 1);
+    vec2 pixel = min(floor(gl_FragCoord.xy * u_cell), u_size - 1.0);
     vec4 surface = surface_at(pixel);
     out_0 = vec4(0.0);
     int some = surface.w > 0.0 ? 1 : 0;
