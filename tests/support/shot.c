@@ -64,6 +64,9 @@ static lmn_draw_desc desc_of(const shot_view *view)
     desc.samples = view->samples > 0 ? view->samples : 1;
     desc.maps = !view->without_maps;
     desc.profile = view->profile;
+    desc.seed = view->seed;
+    desc.time_s = view->time_s;
+    desc.select = view->select;
     return desc;
 }
 
@@ -118,10 +121,13 @@ static bool file_exists(const char *path)
     return file && fclose(file) == 0;
 }
 
-/* Folders are used again: a drawing of fewer layers must not be taken for one of more. */
-static void forget_layers(const char *folder)
+/* Folders are used again: a drawing of fewer layers must not be taken for one of more, nor an exact
+ * one for a perturbed one. */
+static void forget_maps(const char *folder)
 {
     char path[576];
+    snprintf(path, sizeof path, "%s/uncertainty.pfm", folder);
+    remove(path);
     for (int k = 0, found = 5; found > 0; k++) {
         found = 0;
         for (int i = 0; i < 5; i++) {
@@ -154,6 +160,19 @@ static bool read_layer(shot *out, const char *folder, int index)
     return true;
 }
 
+/* Only drawings with something perturbed have it. */
+static bool read_uncertainty(shot *out, const char *folder)
+{
+    char path[576];
+    int  width = 0, height = 0;
+    snprintf(path, sizeof path, "%s/uncertainty.pfm", folder);
+    if (!file_exists(path))
+        return true;
+    out->uncertainty = (float(*)[3])picture_read_pfm(path, 3, &width, &height);
+    return (width == out->width && height == out->height) ||
+           check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path, width, height);
+}
+
 static bool read_layers(shot *out, const char *folder)
 {
     for (int k = 0;; k++) {
@@ -174,7 +193,7 @@ static bool read_maps(shot *out, const lmn_drawing *drawing)
     char       path[5][512];
     lmn_error  error = {0};
     snprintf(folder, sizeof folder, "%s", check_path("maps%d", count++ % 4));
-    forget_layers(folder);
+    forget_maps(folder);
     if (!accepted(lmn_drawing_write_maps(drawing, folder, &error), &error, "maps"))
         return false;
     for (int i = 0; i < 5; i++)
@@ -188,7 +207,7 @@ static bool read_maps(shot *out, const lmn_drawing *drawing)
     for (int i = 0; i < 5; i++)
         if (w[i] != out->width || h[i] != out->height)
             return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", names[i], w[i], h[i]);
-    return read_layers(out, folder);
+    return read_uncertainty(out, folder) && read_layers(out, folder);
 }
 
 static bool draw(shot *out, lmn_scene *scene, const lmn_look *look, const shot_view *view)
@@ -274,6 +293,7 @@ void shot_release(shot *s)
     free(s->shade);
     free(s->depth);
     free(s->normal);
+    free(s->uncertainty);
     free(s->id);
     free(s->report);
     for (int k = 0; k < s->layer_count; k++) {

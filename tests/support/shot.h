@@ -20,6 +20,9 @@ typedef struct shot_view {
     bool        bare;    /* no eye: the named view */
     int         named;   /* with bare: an lmn_view; 0 is iso */
     bool        profile; /* the report lists passes */
+    uint32_t    seed;
+    double      time_s;
+    const char *select;  /* draws these parts alone; NULL: all */
 } shot_view;
 
 /* The maps of one depth layer, as in shot. */
@@ -35,6 +38,7 @@ typedef struct shot {
     uint8_t  *picture, *edge, *shade; /* RGBA8 */
     float    *depth;  /* eye depth, infinite where empty */
     float   (*normal)[3];
+    float   (*uncertainty)[3]; /* right, up, pressure; NULL when nothing is perturbed */
     uint16_t *id;
     double    view[16], projection[16], near_depth, far_depth;
     bool      orthographic;

@@ -1,0 +1,396 @@
+/* Perturbed layers against a CPU twin: one field moves all of them, so that they keep their order and their shared edges. */
+#include <limner/draw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "scenes.h"
+#include "sketch_twin.h"
+
+#define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ece4d2\"},\"rules\":[" RULES "]}"
+#define INK "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#102080c0\"}"
+#define ALL_LAYERS "\"layers\":{\"technique\":\"peel\",\"count\":0}"
+
+static const uint8_t ground_bytes[3] = {0xec, 0xe4, 0xd2}, ink_bytes[3] = {0x10, 0x20, 0x80}, tint_bytes[3] = {0x20, 0x50, 0xc0}, red_bytes[3] = {255, 0x20, 0x10};
+
+static const shot_view views[] = {
+    {.width = 200, .height = 160, .eye = {4, 3, 5}, .up = {0, 1, 0}},
+    {.width = 176, .height = 192, .eye = {-3, 4, -5.5}, .up = {0, 1, 0}, .orthographic = true},
+    {.width = 189, .height = 181, .eye = {1.2, -3, 4.4}, .target = {0.2, 0.1, 0}, .up = {0.2, 1, 0}, .fov_deg = 50},
+};
+
+typedef enum fill_kind { FILL_TINT, FILL_SHADE, FILL_NONE } fill_kind;
+
+/* How a layered rule draws, for its twin. */
+typedef struct stack_style {
+    double        amount;
+    sketch_degree edges, shades;
+    fill_kind     fill;
+    double        opacity; /* of the tint or the shade */
+    double        hidden;  /* opacity of hidden lines */
+} stack_style;
+
+/* A layer's colour and depth at a pixel; alpha 0 where it has nothing. */
+static sketch_paint layer_at(const sketch_maps *m, const stack_style *style, int k, int x, int y, double *depth)
+{
+    sketch_place e = sketch_moved(m, x, y, style->amount, style->edges), s = sketch_moved(m, x, y, style->amount, style->shades);
+    double       line_depth = sketch_depth(m, e), fill_depth = sketch_depth(m, s), edge[4];
+    sketch_paint fill = {0, 0, 0, 0};
+    if (isfinite(fill_depth) && style->fill == FILL_TINT)
+        fill = sketch_colour(tint_bytes, style->opacity);
+    else if (isfinite(fill_depth) && style->fill == FILL_SHADE)
+        fill = sketch_share(sketch_shade(m, s), style->opacity);
+    sketch_edge(m, e, edge);
+    sketch_paint ink = sketch_ink(edge, sketch_colour(ink_bytes, 0xc0 / 255.0));
+    if (style->fill == FILL_NONE) /* a threshold leaves lines whole or out */
+        ink = ink.a >= 0.5 ? sketch_share(ink, 1 / ink.a) : (sketch_paint){0, 0, 0, 0};
+    ink = sketch_share(ink, k ? style->hidden : 1);
+    if (!isfinite(line_depth) && ink.a > 0)
+        line_depth = sketch_reach(m, e, 1);
+    *depth = fmin(line_depth, fill_depth);
+    return isfinite(*depth) ? sketch_over(ink, fill) : (sketch_paint){0, 0, 0, 0};
+}
+
+/* Every pixel of a drawing whose layers' maps are at hand. `other`: the field that odd layers take instead of the drawing's own, or NULL. */
+static sketch_tally against_layers(const shot *s, const stack_style *style, const shot *other)
+{
+    sketch_tally t = {0};
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            sketch_paint sum = sketch_colour(ground_bytes, 1);
+            for (int k = s->layer_count; k-- > 0;) {
+                double      depth;
+                sketch_maps m = sketch_maps_of_layer(s, k);
+                if (other && k % 2)
+                    m.uncertainty = (const float(*)[3])other->uncertainty;
+                sum = sketch_over(layer_at(&m, style, k, x, y, &depth), sum);
+            }
+            sketch_judge(&t, s, x, y, sum, 3);
+        }
+    return t;
+}
+
+/* --- whole pictures ------------------------------------------------------------------------------------------------ */
+
+typedef struct layered_case {
+    const char *compose, *perturb;
+    stack_style style;
+    double      share;
+} layered_case;
+
+static const layered_case cases[] = {
+    {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2,\"once\":false}", "{\"technique\":\"uncertainty\",\"amount\":6}",
+     {6, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 1}, 0.995},
+    {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.3,\"once\":false,\"hidden_opacity\":0.5}",
+     "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"edges_xy\":0.7,\"edges_yx\":-0.4,\"shades_xx\":0.2,\"shades_xy\":1.1}",
+     {9, {1, 0.7, -0.4, 1}, {0.2, 1.1, 0, -0.75}, FILL_TINT, 0.3, 0.5}, 0.995},
+    {"{\"technique\":\"xray\",\"opacity\":0.4,\"once\":false}", "{\"technique\":\"uncertainty\",\"amount\":7,\"scale\":45}",
+     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_SHADE, 0.4, 1}, 0.995},
+    {"{\"technique\":\"wire\",\"once\":false}", "{\"technique\":\"uncertainty\",\"amount\":7,\"field\":\"turbulence\"}",
+     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_NONE, 0, 1}, 0.99},
+};
+
+enum { CASES = sizeof cases / sizeof *cases };
+
+static const char *look_of(const layered_case *c, const char *producer, const char *perturb)
+{
+    static char texts[4][1024];
+    static int  next;
+    char       *text = texts[next];
+    next = (next + 1) % 4;
+    snprintf(text, sizeof texts[0], LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"model_colour\":1}," INK
+                                         ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},\"compose\":%s,\"perturb\":%s}"),
+             producer, c->compose, perturb ? perturb : c->perturb);
+    return text;
+}
+
+/* Is a field tied to one seed the field of all layers? A drawing, and one of another seed for its field. */
+static bool take_pair(shot *drawn, shot *other, const layered_case *c, scene_kind kind, uint32_t seed, const char *producer, const shot_view *view)
+{
+    shape     s = {0};
+    shot_view reseeded = *view;
+    reseeded.seed = 77;
+    scene_make(&s, kind, seed);
+    scene_colour(&s);
+    bool ok = shot_of_shape(drawn, &s, "layers.glb", look_of(c, producer, NULL), NULL, view);
+    ok = shot_of_shape(other, &s, "layers.glb", look_of(c, producer, NULL), NULL, &reseeded) && ok;
+    shape_release(&s);
+    return ok && check_that("S10", drawn->uncertainty && other->uncertainty, "the drawings have their fields of uncertainty");
+}
+
+static void whole_pictures(void)
+{
+    for (size_t c = 0; c < CASES; c++)
+        for (int v = 0; v < 3; v++) {
+            char title[160];
+            shot drawn, other;
+            snprintf(title, sizeof title, "%.*s, view %d, %s", 40, cases[c].compose, v, v % 2 ? "lists" : "peeling");
+            if (take_pair(&drawn, &other, &cases[c], (scene_kind)((c + (size_t)v) % 3), 80 + (uint32_t)v, v % 2 ? "lists" : "peeling", &views[v])) {
+                sketch_tally t = against_layers(&drawn, &cases[c].style, NULL), apart = against_layers(&drawn, &cases[c].style, &other);
+                check_at_least("S10", drawn.layer_count, 4, "layers");
+                sketch_check("C20", &t, &drawn, cases[c].share, title);
+                check_at_least("C21", apart.pixels - apart.right - (t.pixels - t.right), 500, "  more pixels that are wrong when every other layer is given another field");
+            }
+            shot_release(&drawn);
+            shot_release(&other);
+        }
+}
+
+/* --- order --------------------------------------------------------------------------------------------------------- */
+
+/* Pixels and layers at which a deeper layer gets before a nearer one, when each is as deep as the nearer of its two lookups. */
+static int violations(const shot *s, const stack_style *style, const shot *other, int *pairs)
+{
+    int count = 0;
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            double before = 0;
+            for (int k = 0; k < s->layer_count; k++) {
+                sketch_maps m = sketch_maps_of_layer(s, k);
+                if (other && k % 2)
+                    m.uncertainty = (const float(*)[3])other->uncertainty;
+                double own = fmin(sketch_depth(&m, sketch_moved(&m, x, y, style->amount, style->edges)),
+                                  sketch_depth(&m, sketch_moved(&m, x, y, style->amount, style->shades)));
+                *pairs += k > 0 && isfinite(own);
+                count += own < before * (1 - 1e-6); /* surfaces that coincide differ by a rounding */
+                before = own;
+            }
+        }
+    return count;
+}
+
+static void order(void)
+{
+    for (int kind = 0; kind < SCENE_KINDS; kind++)
+        for (int v = 0; v < 3; v++) {
+            shot drawn, other;
+            int  pairs = 0, unused = 0;
+            const layered_case *c = &cases[v % 2];
+            if (take_pair(&drawn, &other, c, (scene_kind)kind, 90 + (uint32_t)(3 * kind + v), "auto", &views[v])) {
+                int own = violations(&drawn, &c->style, NULL, &pairs), unshared = violations(&drawn, &c->style, &other, &unused);
+                check_at_most("C21", own, 0, "%s, view %d: of %d pairs of layers, those that change their order", scene_names[kind], v, pairs);
+                check_at_least("C21", unshared, 100, "  and when every other layer is given another field");
+            }
+            shot_release(&drawn);
+            shot_release(&other);
+        }
+}
+
+/* An exact opaque part amid perturbed layers: those whose nearer lookup lies before it are seen before it, no others. */
+static void opaque_amid(void)
+{
+    for (int v = 0; v < 3; v++) {
+        const layered_case *c = &cases[v % 2];
+        char  look[1024];
+        shape s = {0};
+        shot  both, layers, core;
+        snprintf(look, sizeof look, LOOK("{\"select\":\"closed*\",\"surface\":\"flat\"," INK "," ALL_LAYERS ",\"compose\":%s,\"perturb\":%s},"
+                                         "{\"select\":\"core\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"), c->compose, c->perturb);
+        scene_make(&s, SCENE_CLOSED, 17 + (uint32_t)v);
+        shape_sphere(&s, "core", dvec_of(0.1, 0, 0.05), 0.5, 24, 48, true);
+        shot_view of_layers = views[v], of_core = views[v];
+        of_layers.select = "closed*"; /* the core lies within their bounds, so that nothing else changes */
+        of_core.select = "core";
+        bool ok = shot_of_shape(&both, &s, "core.glb", look, NULL, &views[v]);
+        ok = shot_of_shape(&layers, &s, "core.glb", look, NULL, &of_layers) && ok;
+        ok = shot_of_shape(&core, &s, "core.glb", look, NULL, &of_core) && ok;
+        if (ok) {
+            sketch_tally t = {0};
+            int          hidden = 0, tinted = 0;
+            for (int y = 0; y < both.height; y++)
+                for (int x = 0; x < both.width; x++) {
+                    sketch_maps  of = sketch_maps_of(&core);
+                    double       own = sketch_depth(&of, (sketch_place){x, y}), depth;
+                    sketch_paint sum = isfinite(own) ? sketch_colour(red_bytes, 1) : sketch_colour(ground_bytes, 1);
+                    for (int k = layers.layer_count; k-- > 0;) {
+                        sketch_maps  m = sketch_maps_of_layer(&layers, k);
+                        sketch_paint p = layer_at(&m, &c->style, k, x, y, &depth);
+                        hidden += isfinite(own) && p.a > 0 && depth >= own;
+                        tinted += isfinite(own) && p.a > 0 && depth < own;
+                        sum = depth < own ? sketch_over(p, sum) : sum;
+                    }
+                    sketch_judge(&t, &both, x, y, sum, 3);
+                }
+            sketch_check("S10", &t, &both, 0.995, "an exact part amid perturbed layers");
+            check_at_least("S10", hidden, 500, "  places of layers that it hides");
+            check_at_least("S10", tinted, 200, "  and that lie before it");
+        }
+        shot_release(&both);
+        shot_release(&layers);
+        shot_release(&core);
+        shape_release(&s);
+    }
+}
+
+/* --- shared edges -------------------------------------------------------------------------------------------------- */
+
+#define WIRE(COLOUR, HIDDEN, COUNT, REST) \
+    LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"" COLOUR "\"}," \
+         "\"layers\":{\"technique\":\"peel\",\"count\":" #COUNT "},\"compose\":{\"technique\":\"xray\",\"opacity\":0,\"once\":false,\"hidden_colour\":\"" HIDDEN "\"}" REST "}")
+#define WAVES ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":9,\"scale\":40}"
+
+static double ink_at(const shot *s, int x, int y)
+{
+    return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0 : (0xec - fmin(0xec, sketch_pixel(s, x, y)[0])) / 236.0;
+}
+
+/* How alike the ink of two drawings is when one is moved. */
+static double likeness(const shot *a, const shot *b, int dx, int dy)
+{
+    double ab = 0, aa = 0, bb = 0;
+    for (int y = 0; y < a->height; y++)
+        for (int x = 0; x < a->width; x++) {
+            double p = ink_at(a, x, y), q = ink_at(b, x + dx, y + dy);
+            ab += p * q;
+            aa += p * p;
+            bb += q * q;
+        }
+    return aa > 0 && bb > 0 ? ab / sqrt(aa * bb) : 0;
+}
+
+/* The outline of a box belongs to its front and to its back: two layers. */
+static void shared_edges(void)
+{
+    static const char front[] = WIRE("#000000", "#000000", 1, WAVES), back[] = WIRE("none", "#000000", 2, WAVES), exact[] = WIRE("#000000", "#000000", 1, "");
+    for (int v = 0; v < 2; v++) {
+        shot_view view = {.width = 240, .height = 220, .eye = {4, 3, 5}, .up = {0, 1, 0}, .orthographic = v}, reseeded = view;
+        shape     s = {0};
+        shot      a, b, unlike, still;
+        reseeded.seed = 5;
+        shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        bool ok = shot_of_shape(&a, &s, "box.glb", front, NULL, &view);
+        ok = shot_of_shape(&b, &s, "box.glb", back, NULL, &view) && ok;
+        ok = shot_of_shape(&unlike, &s, "box.glb", back, NULL, &reseeded) && ok;
+        ok = shot_of_shape(&still, &s, "box.glb", exact, NULL, &view) && ok;
+        if (ok) {
+            double best = -1, other_best = -1, at_zero = likeness(&a, &b, 0, 0);
+            int    best_x = 9, best_y = 9;
+            for (int dy = -6; dy <= 6; dy++)
+                for (int dx = -6; dx <= 6; dx++) {
+                    double own = likeness(&a, &b, dx, dy);
+                    other_best = fmax(other_best, likeness(&a, &unlike, dx, dy));
+                    if (own > best) {
+                        best = own;
+                        best_x = dx;
+                        best_y = dy;
+                    }
+                }
+            check_near("C22", hypot(best_x, best_y), 0, 0, "px between the places of an outline in two layers, where they are most alike");
+            check_at_least("C22", at_zero, 0.55, "  how alike they are there: the outline is some two thirds of the ink");
+            check_at_most("C22", other_best / at_zero, 0.7, "  the same with another field for the hidden layer, at its best, over that");
+            check_at_most("C22", likeness(&a, &still, 0, 0), 0.6, "  with the exact drawing");
+        }
+        shot_release(&a);
+        shot_release(&b);
+        shot_release(&unlike);
+        shot_release(&still);
+        shape_release(&s);
+    }
+}
+
+/* An edge that repeats in the next layer is inked once, perturbed or not: with half-transparent ink it would be darker otherwise. */
+static void inked_once(void)
+{
+    static const char *const perturbs[] = {"", ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8}", ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8,\"lock\":\"screen\"}"};
+    int   dark[3] = {0}, twice[3] = {0};
+    shape s = {0};
+    shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+    for (int k = 0; k < 6; k++) {
+        char look[768];
+        shot drawn;
+        snprintf(look, sizeof look, LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#00000080\"}," ALL_LAYERS
+                                         ",\"compose\":{\"technique\":\"xray\",\"opacity\":0,\"once\":%s}%s}"), k < 3 ? "true" : "false", perturbs[k % 3]);
+        if (shot_of_shape(&drawn, &s, "once.glb", look, NULL, &views[0]))
+            for (int i = 0; i < drawn.width * drawn.height; i++)
+                *(k < 3 ? &dark[k] : &twice[k - 3]) += drawn.picture[4 * i] < 150; /* one layer of ink: 174 */
+        shot_release(&drawn);
+    }
+    for (int k = 0; k < 3; k++) {
+        check_at_least("C22", twice[k], 150, "%s: pixels that are inked twice when repeated edges are kept", *perturbs[k] ? perturbs[k] + 11 : "exact");
+        check_at_most("C22", (double)dark[k] / twice[k], 0.2, "  share of them (and of crossings) that stay without repeated edges");
+    }
+    shape_release(&s);
+}
+
+/* --- alike --------------------------------------------------------------------------------------------------------- */
+
+static void producers(void)
+{
+    for (size_t c = 0; c < CASES; c++) {
+        shape s = {0};
+        shot  peeled, listed;
+        int   worst = 0, differ = 0;
+        scene_make(&s, c % 2 ? SCENE_CROSSING : SCENE_OPEN, 110 + (uint32_t)c);
+        scene_colour(&s);
+        bool ok = shot_of_shape(&peeled, &s, "alike.glb", look_of(&cases[c], "peeling", NULL), NULL, &views[c % 3]);
+        if (shot_of_shape(&listed, &s, "alike.glb", look_of(&cases[c], "lists", NULL), NULL, &views[c % 3]) && ok) {
+            double field = 0;
+            for (int i = 0; i < peeled.width * peeled.height; i++) {
+                int most = 0;
+                for (int k = 0; k < 4; k++)
+                    most = abs(peeled.picture[4 * i + k] - listed.picture[4 * i + k]) > most ? abs(peeled.picture[4 * i + k] - listed.picture[4 * i + k]) : most;
+                worst = most > worst ? most : worst;
+                differ += most > 1;
+                for (int k = 0; k < 3; k++)
+                    field = fmax(field, fabs((double)peeled.uncertainty[i][k] - (double)listed.uncertainty[i][k]));
+            }
+            check_that("S10", strcmp(peeled.layer_producer, "peeling") == 0 && strcmp(listed.layer_producer, "lists") == 0, "both producers are used");
+            check_at_most("S10", differ, 0, "  pixels that differ between them (most: %d levels), %.40s", worst, cases[c].compose);
+            check_at_most("S10", field, 1e-4, "  their fields");
+        }
+        shot_release(&peeled);
+        shot_release(&listed);
+        shape_release(&s);
+    }
+}
+
+/* Can a lookup that starts at the pixel get onto the figure? Where none can, the field may be left out. */
+static bool near_figure(const shot *s, int pixel)
+{
+    sketch_maps m = sketch_maps_of(s);
+    return isfinite(sketch_reach(&m, (sketch_place){pixel % s->width, s->height - 1 - pixel / s->width}, 7));
+}
+
+/* The field is that of what is seen: the same for the figure drawn opaque, for one layer and for all. */
+static void field_of_front(void)
+{
+    static const char *const rules[] = {"\"compose\":\"opaque\"", "\"layers\":{\"technique\":\"peel\",\"count\":1},\"compose\":\"blueprint\"", ALL_LAYERS ",\"compose\":\"blueprint\"",
+                                        ALL_LAYERS ",\"compose\":\"wire\""};
+    shape s = {0};
+    shot  drawn[4];
+    bool  ok = true;
+    scene_make(&s, SCENE_CLOSED, 120);
+    for (int k = 0; k < 4; k++) {
+        char look[512];
+        snprintf(look, sizeof look, LOOK("{\"select\":\"*\",\"surface\":\"flat\"," INK ",%s,\"perturb\":{\"technique\":\"uncertainty\",\"amount\":6}}"), rules[k]);
+        ok = shot_of_shape(&drawn[k], &s, "front.glb", look, NULL, &views[0]) && drawn[k].uncertainty && ok;
+    }
+    for (int k = 1; k < 4 && ok; k++) {
+        double worst = 0;
+        int    at = 0;
+        for (int i = 0; i < drawn[0].width * drawn[0].height; i++)
+            for (int c = 0; c < 3 && near_figure(&drawn[0], i); c++) {
+                double error = fabs((double)drawn[0].uncertainty[i][c] - (double)drawn[k].uncertainty[i][c]);
+                at = error > worst ? i : at;
+                worst = fmax(worst, error);
+            }
+        if (!check_at_most("S10", worst, 1e-3, "the field of an opaque figure and that with %s", rules[k]))
+            check_note("worst at %d, %d from the upper left", at % drawn[0].width, at / drawn[0].width);
+    }
+    check_that("S10", ok, "four drawings have their fields");
+    for (int k = 0; k < 4; k++)
+        shot_release(&drawn[k]);
+    shape_release(&s);
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case all[] = {
+        {"whole", whole_pictures}, {"order", order},         {"opaque", opaque_amid}, {"shared", shared_edges},
+        {"once", inked_once},      {"producers", producers}, {"field", field_of_front},
+    };
+    int status = check_main(argc, argv, "sketch_layers", all, sizeof all / sizeof *all);
+    shot_end();
+    return status;
+}
