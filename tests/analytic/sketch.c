@@ -888,10 +888,11 @@ static void samples(void)
 {
     static const char *const perturbs[] = {"{\"technique\":\"uncertainty\",\"amount\":9}", "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\"}",
                                            "{\"technique\":\"uncertainty\",\"amount\":9,\"outward\":\"enlarged\"}",
-                                           "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"tile\":100}"};
+                                           "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"tile\":100}",
+                                           "{\"technique\":\"uncertainty\",\"amount\":0.5,\"rough\":8,\"grain\":4}"};
     shape s = {0};
     plates(&s);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         shot      one, sixteen, exact;
         shot_view view = front, fine = front;
         fine.samples = 16;

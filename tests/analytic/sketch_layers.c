@@ -370,6 +370,33 @@ static void inked_once(void)
     shape_release(&s);
 }
 
+/* A cut face's hatching is drawn once, with the lines, whatever moves the fill. */
+static void hatched(void)
+{
+    static const char *const composes[] = {"\"compose\":\"blueprint\"", "\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}"};
+    for (int c = 0; c < 2; c++) {
+        int   dark[2] = {0};
+        shape s = {0};
+        shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        for (int k = 0; k < 2; k++) {
+            char look[640];
+            shot drawn;
+            shot_view view = {.width = 240, .height = 240, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+            snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"scene\":{\"cut\":\"z\",\"cut_width\":2,\"cut_colour\":\"#000000\"},\"rules\":[{\"select\":\"*\","
+                     "\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}," ALL_LAYERS ",%s%s}]}", composes[c],
+                     k ? ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8}" : "");
+            if (shot_of_shape(&drawn, &s, "hatched.glb", look, NULL, &view))
+                for (int y = 80; y < 160; y++)
+                    for (int x = 80; x < 160; x++)
+                        dark[k] += sketch_pixel(&drawn, x, y)[0] < 200;
+            shot_release(&drawn);
+        }
+        check_at_least("S10", dark[0], 500, "pixels of hatching, exact, %s", composes[c]);
+        check_near("S10", dark[0] ? (double)dark[1] / dark[0] : 0, 1, 0.25, "  how many of them there are when perturbed");
+        shape_release(&s);
+    }
+}
+
 /* --- alike --------------------------------------------------------------------------------------------------------- */
 
 static void producers(void)
@@ -445,7 +472,7 @@ int main(int argc, char **argv)
 {
     static const check_case all[] = {
         {"whole", whole_pictures}, {"far", far_away},         {"pieces", pieces},      {"order", order},         {"opaque", opaque_amid}, {"shared", shared_edges},
-        {"once", inked_once},      {"producers", producers}, {"field", field_of_front},
+        {"once", inked_once},      {"hatched", hatched},   {"producers", producers}, {"field", field_of_front},
     };
     int status = check_main(argc, argv, "sketch_layers", all, sizeof all / sizeof *all);
     shot_end();
