@@ -495,7 +495,7 @@ static void mask_identity(void)
     plates(&s);
     if (shot_of_shape(&drawn, &s, "mask.glb", look, NULL, &front)) {
         sketch_maps m = sketch_maps_of(&drawn);
-        int missing = 0, more = 0, beside = 0, odd = 0, odd_elsewhere = 0, odd_missing = 0, fill_only = 0;
+        int missing = 0, more = 0, beside = 0, odd = 0, odd_elsewhere = 0, odd_missing = 0, fill_only = 0, cut_off = 0;
         for (int y = 0; y < drawn.height; y++)
             for (int x = 0; x < drawn.width; x++) {
                 sketch_place e = sketch_moved(&m, x, y, 12, style.edges), f = sketch_moved(&m, x, y, 12, style.shades);
@@ -506,6 +506,7 @@ static void mask_identity(void)
                 const uint8_t *p = sketch_pixel(&drawn, x, y);
                 bool is_odd = p[0] > 240 && p[1] < 20 && p[2] > 240;
                 beside += !line && !fill && ink > 0;
+                cut_off += !line && !fill && ink > 0.2 && !there;
                 missing += (line || fill) && !there;
                 more += !line && !fill && ink <= 0 && there;
                 odd += line && !fill && ink < 0.01;
@@ -513,6 +514,7 @@ static void mask_identity(void)
                 odd_elsewhere += is_odd && (!line || fill);
                 fill_only += fill && !line;
             }
+        check_note("of %d pixels with ink beside the boundary, %d lose more than a fifth of it because no surface is within the line's reach", beside, cut_off);
         check_at_most("C17", missing, 0, "pixels with a lookup inside where nothing is drawn");
         check_at_most("C17", more, 0, "pixels where something is drawn without a lookup inside or ink (beside the boundary: %d)", beside);
         check_at_least("S07", odd, 300, "pixels where only the line's lookup is inside (where only the fill's is: %d)", fill_only);
