@@ -107,11 +107,12 @@ static float reach_of(const void *values)
     return v->amount * fmaxf(edges, shades) + v->rough;
 }
 
-/* Texels are so small that the shortest waves of two octaves have fourteen; a tile has a whole number of them. */
+/* Texels are so small that the shortest waves of two octaves have fourteen, and so large that those to which the field spreads beside a
+ * surface (perturb/spread.glsl) reach as far as anything moves; a tile has a whole number of them. */
 static float cell_of(const void *values)
 {
     const uncertainty *v = values;
-    float cell = fmaxf(v->scale / 29, 1);
+    float cell = fmaxf(fmaxf(v->scale / 29, reach_of(values) / 7), 1);
     return v->lock == 1 && v->tile > 0 ? v->tile / ceilf(v->tile / cell) : cell;
 }
 

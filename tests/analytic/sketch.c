@@ -442,7 +442,7 @@ static void against_each(const char *what, const char *look, const sketch_style 
         sketch_check("S06", &t, &both, 0.998, what);
         int least = ball->without_fill ? 8 : 1; /* lines alone are few pixels */
         check_at_least("C18", together, 1500 / least, "  pixels at which both have something");
-        check_at_least("C18", changed, 120 / least, "  pixels at which the perturbation turns which one is seen");
+        check_at_least("C18", changed, 80 / least, "  pixels at which the perturbation turns which one is seen");
     }
     shot_release(&both);
     shot_release(&alone[0]);

@@ -302,8 +302,8 @@ static void rim(void)
         char   small[96], large[96];
         shot   a, b;
         double worst = 0;
-        snprintf(small, sizeof small, "\"lock\":\"%s\"", locks[l]);
-        snprintf(large, sizeof large, "\"lock\":\"%s\",\"amount\":15,\"edges_xy\":0.5", locks[l]); /* 15·1.5 px at most */
+        snprintf(small, sizeof small, "\"lock\":\"%s\",\"scale\":200", locks[l]);
+        snprintf(large, sizeof large, "\"lock\":\"%s\",\"scale\":200,\"amount\":15,\"edges_xy\":0.5", locks[l]); /* 15·1.5 px at most */
         bool ok = wall_field(&a, small, &front);
         if (wall_field(&b, large, &front) && ok) {
             for (int y = 2; y < 398; y++)
