@@ -769,8 +769,8 @@ static void enlarged(void)
                     empty += far > 1 && far < width - 3 && !there;
                     inner += far < -1;
                     holes += far < -1 && !there;
-                    beyond += far > width + 4;
-                    traces += far > width + 4 && there;
+                    beyond += far > width + 6;
+                    traces += far > width + 6 && there;
                 }
                 check_at_most("S13", (double)empty / band, 0.02, "enlarged by %d px, distance %g: share of the band outside the silhouette (radius %.0f) without a field", width,
                               distances[k], radius);
