@@ -182,7 +182,7 @@ static void limb(mesh *m, const double from[3], const double way[3], double leng
     if (order == 0)
         return;
     across(way, p, q);
-    int    twigs = order > 2 ? 6 : 4;
+    int    twigs = order > 2 ? 5 : 3;
     double begin = 2 * PI * chance(seed);
     for (int i = 0; i < twigs; i++) {
         double angle = begin + 2.4 * i, spread = i == twigs - 1 ? 0.12 : 0.62 + 0.3 * chance(seed);
