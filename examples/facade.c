@@ -107,7 +107,7 @@ void facade_stones(mesh *m, const facade *f, bool front, double from, double to,
             if (!keeps || bottom < from || top > to || left < f->left + 0.1 || right > f->right - 0.1 ||
                 at_opening(f, left, bottom, right, top))
                 continue;
-            box(m, left, bottom, front ? f->front - 0.1 : f->back - out, right, top, front ? f->front + out : f->back + 0.1);
+            box(m, left, bottom, front ? f->front - 0.07 : f->back - out, right, top, front ? f->front + out : f->back + 0.07);
         }
     }
 }

@@ -11,7 +11,7 @@
 
 /* --- dimensions that parts share --------------------------------------------------------------------------------- */
 
-enum { BAYS = 3, ARCHES = 3, ARCH_ROUND = 14 };
+enum { BAYS = 3, ARCHES = 3, ARCH_ROUND = 18 };
 
 static const double garth = 9, walk = 9.6, wall = 13.6, outside = 14.4; /* distances from the middle */
 static const double arcade = 9.3;                                       /* the middle of the arcade's wall */
@@ -52,7 +52,7 @@ static double roof_height(double distance)
 
 static void parapet(mesh *m, double left, double right)
 {
-    box(m, left, -0.2, -walk, right, coping - 0.08, -garth);
+    box(m, left, -0.23, -walk, right, coping - 0.08, -garth);
     box(m, left - 0.01, coping - 0.1, -walk - 0.05, right + 0.01, coping, -garth + 0.05);
 }
 
@@ -60,15 +60,15 @@ static void parapet(mesh *m, double left, double right)
 static void parapets(mesh *m)
 {
     for (int bay = 0; bay < BAYS; bay++) {
-        double left = bay_start(bay) - 0.1, right = bay_start(bay) + bay_width() + 0.1;
+        double left = bay_start(bay) - 0.08, right = bay_start(bay) + bay_width() + 0.08;
         if (bay != BAYS / 2) {
             parapet(m, left, right);
             continue;
         }
         parapet(m, left, -pitch() / 2 + 0.2);
         parapet(m, pitch() / 2 - 0.2, right);
-        box(m, -pitch() / 2, -0.2, -walk + 0.02, pitch() / 2, floor_top - 0.01, -garth + 0.01);
-        box(m, -pitch() / 2 + 0.22, -0.2, -garth - 0.01, pitch() / 2 - 0.22, floor_top / 2, -garth + 0.36);
+        box(m, -pitch() / 2, -0.23, -walk + 0.02, pitch() / 2, floor_top - 0.01, -garth + 0.01);
+        box(m, -pitch() / 2 + 0.22, -0.23, -garth - 0.01, pitch() / 2 - 0.22, floor_top / 2, -garth + 0.36);
     }
 }
 
@@ -106,8 +106,8 @@ static void build_cornice(mesh *m)
     add_point(&corbel, -garth - 0.1, arcade_top - 0.26);
     add_point(&corbel, -garth + 0.02, arcade_top - 0.2);
     add_point(&corbel, -garth + 0.13, arcade_top - 0.08);
-    add_point(&corbel, -garth + 0.13, arcade_top);
-    add_point(&corbel, -garth - 0.1, arcade_top);
+    add_point(&corbel, -garth + 0.13, arcade_top + 0.01);
+    add_point(&corbel, -garth - 0.1, arcade_top + 0.01);
     double step = pitch() / 3;
     for (int k = -14; k <= 14; k++)
         section(m, &corbel, k * step - 0.07, k * step + 0.07);
@@ -151,7 +151,7 @@ static void capital(mesh *m, double x, double z)
 /* Two columns one behind the other on a plinth, with an impost over both. */
 static void column_pair(mesh *m, double x)
 {
-    outline impost = impost_outline(0.16, springing - 0.18, springing - 0.02);
+    outline impost = impost_outline(0.17, springing - 0.18, springing - 0.02);
     uint32_t kept = m->point_count;
     box(m, x - 0.15, coping - 0.02, -arcade - 0.3, x + 0.15, coping + 0.08, -arcade + 0.3);
     for (int side = -1; side <= 1; side += 2) {
@@ -168,7 +168,7 @@ static void column_pair(mesh *m, double x)
 /* A flat respond at a pier. */
 static void respond(mesh *m, double x)
 {
-    outline  impost = impost_outline(0.16, springing - 0.18, springing - 0.02);
+    outline  impost = impost_outline(0.17, springing - 0.18, springing - 0.02);
     uint32_t kept = m->point_count;
     elevation(m, &impost, NULL, 0, -0.31, 0.31);
     box(m, -0.15, coping - 0.02, -0.3, 0.15, coping + 0.12, 0.3);
@@ -184,7 +184,7 @@ static void build_columns(mesh *m)
             if (k > 0 && k < ARCHES)
                 column_pair(m, x);
             else
-                respond(m, x);
+                respond(m, x + (k ? -0.04 : 0.04)); /* its impost stands out of the pier's */
         }
 }
 
@@ -209,8 +209,8 @@ static void build_piers(mesh *m)
         section(m, &o, middle - 0.29, middle + 0.29);
     }
     const double corner = -arcade;
-    box(m, corner - 0.45, -0.2, corner - 0.45, corner + 0.45, arcade_top - 0.01, corner + 0.45);
-    box(m, corner - 0.52, -0.2, corner - 0.52, corner + 0.52, 0.62, corner + 0.52);
+    box(m, corner - 0.45, -0.26, corner - 0.45, corner + 0.45, arcade_top - 0.01, corner + 0.45);
+    box(m, corner - 0.52, -0.26, corner - 0.52, corner + 0.52, 0.62, corner + 0.52);
     box(m, corner - 0.5, springing - 0.15, corner - 0.5, corner + 0.5, springing, corner + 0.5);
 }
 
@@ -241,8 +241,8 @@ static void build_walk_roof(mesh *m)
 static void build_rafters(mesh *m)
 {
     const double step = pitch() / 2, top = wall + 0.05;
-    box(m, -arcade + 0.02, arcade_top + 0.11, -arcade - 0.12, arcade - 0.02, arcade_top + 0.3, -arcade + 0.12);
-    box(m, -wall + 0.02, roof_height(wall - 0.2) - 0.5, -wall - 0.02, wall - 0.02, roof_height(wall - 0.2) - 0.29, -wall + 0.18);
+    box(m, -arcade - 0.12, arcade_top + 0.11, -arcade - 0.12, arcade - 0.12, arcade_top + 0.3, -arcade + 0.12);
+    box(m, -wall - 0.01, roof_height(wall - 0.2) - 0.5, -wall - 0.02, wall - 0.18, roof_height(wall - 0.2) - 0.29, -wall + 0.18);
     for (int k = -14; k <= 14; k++) {
         outline o = {0};
         double  x = k * step, low = fmax(arcade - 0.1, fabs(x) + 0.02);
@@ -320,7 +320,7 @@ static void bench(mesh *m, const facade *f)
                 next = a;
         }
         more = next;
-        double to = next ? next->x - next->radius - 0.4 : wall - 0.1;
+        double to = next ? next->x - next->radius - 0.4 : wall - 0.45; /* where the next side's begins */
         if (to - from > 1.2) {
             box(m, from, -0.1, -wall - 0.02, to, floor_top + 0.36, -wall + 0.36);
             box(m, from - 0.03, floor_top + 0.34, -wall - 0.02, to + 0.03, floor_top + 0.44, -wall + 0.42);
@@ -365,17 +365,17 @@ static void outer_side(mesh *m, const facade *f, double half)
     add_point(&saddle, -(wall + outside) / 2, top + 0.34);
     add_point(&saddle, -outside - 0.16, top + 0.06);
     section(m, &saddle, -half, half);
-    add_point(&buttress, -outside + 0.1, -0.4);
-    add_point(&buttress, -outside - 1.1, -0.4);
+    add_point(&buttress, -outside + 0.13, -0.45);
+    add_point(&buttress, -outside - 1.1, -0.45);
     add_point(&buttress, -outside - 1.1, 0.6);
     add_point(&buttress, -outside - 1, 0.7);
     add_point(&buttress, -outside - 1, 2.6);
     add_point(&buttress, -outside - 0.6, 3.1);
     add_point(&buttress, -outside - 0.6, 4.6);
     add_point(&buttress, -outside - 0.03, 5.4);
-    add_point(&buttress, -outside + 0.1, 5.4);
+    add_point(&buttress, -outside + 0.13, 5.4);
     for (int k = -2; k <= 2; k++)
-        section(m, &buttress, k * 5.37 - 0.4, k * 5.37 + 0.4);
+        section(m, &buttress, k * 5.37 - 0.41, k * 5.37 + 0.41);
     facade_outer_frames(m, f);
 }
 
@@ -391,11 +391,11 @@ static void build_east_outside(mesh *m)
 
 /* --- floors and the garth ---------------------------------------------------------------------------------------- */
 
-/* Slabs in four rows along the walk and through the corner on its right. Every other one is of a part of its own, as parts
+/* Slabs in three rows along the walk and through the corner on its right. Every other one is of a part of its own, as parts
  * always show a border, and joints that are narrower than a pixel do not. */
 static void slabs(mesh *m, int parity)
 {
-    enum { ROWS = 4, LENGTH = 23 };
+    enum { ROWS = 3, LENGTH = 18 };
     const double joint = 0.008, left = -walk - 0.01, wide = (wall - walk - 0.02) / ROWS, size = (wall + walk) / LENGTH;
     for (int row = 0; row < ROWS; row++)
         for (int k = parity ^ (row & 1); k < LENGTH; k += 2) {
@@ -513,13 +513,13 @@ static void build_well_roof(mesh *m)
 static const opening nave_openings[] = {
     {-11, 4, 8, 0.6, PANE}, {-5.5, 4, 8, 0.6, PANE}, {0, 4, 8, 0.6, PANE}, {5.5, 4, 8, 0.6, PANE}, {11, 4, 8, 0.6, PANE},
 };
-static const facade nave_wall = {-14.35, 16.21, -0.4, 10.19, -22.58, -21.8, nave_openings, COUNT(nave_openings)};
+static const facade nave_wall = {-14.35, 16.21, -0.36, 10.19, -22.58, -21.8, nave_openings, COUNT(nave_openings)};
 
 static void build_nave(mesh *m)
 {
     outline gable = {0}, copings = gable_roof(4.75, nave_eave + 0.12, 5.3, 1);
-    add_point(&gable, -nave_back, -0.4);
-    add_point(&gable, -wall, -0.4);
+    add_point(&gable, -nave_back, -0.36);
+    add_point(&gable, -wall, -0.36);
     add_point(&gable, -wall, nave_eave);
     add_point(&gable, -nave_axis, nave_eave + 5.05);
     add_point(&gable, -nave_back, nave_eave);
@@ -558,8 +558,8 @@ static void build_nave_roof(mesh *m)
 /* The apse: a drum with pilaster strips and windows that are only drawn on it. */
 static void build_apse(mesh *m)
 {
-    TURNED(m, nave_east - 0.4, 0, -nave_axis, 28, {-0.4, 0}, {-0.4, 3.3}, {0.6, 3.3}, {0.7, 3.2}, {6.7, 3.2}, {6.7, 3.36}, {6.95, 3.42},
-           {6.95, 0});
+    TURNED(m, nave_east - 0.4, 0, -nave_axis, 28, {-0.33, 0}, {-0.33, 3.3}, {0.6, 3.3}, {0.7, 3.2}, {6.7, 3.2}, {6.7, 3.36},
+           {6.95, 3.42}, {6.95, 0});
     for (int k = -2; k <= 2; k++) {
         uint32_t kept = m->point_count;
         outline  o = round_headed_frame(0, 2.6, 4.6, 0.36, 0.16, WINDOW_ROUND);
@@ -592,7 +592,7 @@ static const opening range_west_openings[] = {
     {5, 4.8, 6.2, 0.45, PANE},   {10, 4.8, 6.2, 0.45, PANE},  {-7.5, 1, 1.8, 0.35, PANE},
     {-2.5, 1, 1.8, 0.35, PANE},  {2.5, 1, 1.8, 0.35, PANE},   {7.5, 1, 1.8, 0.35, PANE},
 };
-static const facade range_west_wall = {-13.65, 14.6, -0.4, 8.49, -21.6, -20.8, range_west_openings, COUNT(range_west_openings)};
+static const facade range_west_wall = {-13.65, 14.6, -0.42, 8.49, -21.6, -20.8, range_west_openings, COUNT(range_west_openings)};
 static const opening range_gable_openings[] = {
     {-2, 1.2, 2.6, 0.5, PANE}, {2, 1.2, 2.6, 0.5, PANE},  {-2, 5.2, 6.7, 0.45, PANE},
     {0, 5.2, 6.7, 0.45, PANE}, {2, 5.2, 6.7, 0.45, PANE}, {0, 9.6, 10.5, 0.3, PANE},
@@ -605,8 +605,8 @@ static void build_range(mesh *m)
     outline gable = {0}, holes[COUNT(range_gable_openings)];
     facade_wall(m, &range_west_wall);
     place(m, 0, 90, 0, 0, 0);
-    add_point(&gable, -4, -0.4);
-    add_point(&gable, 4, -0.4);
+    add_point(&gable, -4, -0.42);
+    add_point(&gable, 4, -0.42);
     add_point(&gable, 4, range_eave);
     add_point(&gable, 0, range_eave + 4.2);
     add_point(&gable, -4, range_eave);
@@ -653,7 +653,7 @@ static const opening tower_openings[] = {
 static void build_tower(mesh *m)
 {
     const double half = tower_half;
-    const facade face = {-half + 0.9, half, -0.4, tower_top, -half, -half + 0.9, tower_openings, COUNT(tower_openings)};
+    const facade face = {-half + 0.9, half, -0.44, tower_top, -half, -half + 0.9, tower_openings, COUNT(tower_openings)};
     for (int k = 0; k < 4; k++) {
         uint32_t kept = m->point_count;
         facade_wall(m, &face);
@@ -712,7 +712,8 @@ static void build_tower_roof(mesh *m)
 static void build_cross(mesh *m)
 {
     const double x = -tower_axis, z = -nave_axis, top = tower_top + 5.4;
-    TURNED(m, x, 0, z, 16, {top - 0.15, 0}, {top - 0.1, 0.1}, {top + 0.12, 0.19}, {top + 0.3, 0.16}, {top + 0.42, 0.05}, {top + 0.42, 0});
+    TURNED(m, x, 0, z, 16, {top - 0.15, 0}, {top - 0.1, 0.1}, {top + 0.12, 0.19}, {top + 0.3, 0.16}, {top + 0.42, 0.05},
+           {top + 0.42, 0});
     box(m, x - 0.045, top + 0.36, z - 0.045, x + 0.045, top + 1.75, z + 0.045);
     box(m, x - 0.42, top + 1.18, z - 0.04, x + 0.42, top + 1.27, z + 0.04);
 }
@@ -721,8 +722,8 @@ static void build_cross(mesh *m)
 static void build_monk(mesh *m)
 {
     const double fold[3] = {0, 1.08, 0.22};
-    TURNED(m, 0, 0, 0, 12, {-0.02, 0}, {-0.02, 0.31}, {0.5, 0.26}, {1.0, 0.2}, {1.36, 0.22}, {1.46, 0.13}, {1.5, 0.1}, {1.6, 0.13},
-           {1.7, 0.115}, {1.78, 0.06}, {1.8, 0});
+    TURNED(m, 0, 0, 0, 12, {-0.02, 0}, {-0.02, 0.31}, {0.5, 0.26}, {1.0, 0.2}, {1.36, 0.22}, {1.46, 0.13}, {1.5, 0.1},
+           {1.6, 0.13}, {1.7, 0.115}, {1.78, 0.06}, {1.8, 0});
     for (int side = -1; side <= 1; side += 2) {
         const double shoulder[3] = {0.2 * side, 1.38, 0}, elbow[3] = {0.27 * side, 1.06, 0.03};
         bar(m, shoulder, elbow, 0.07, 0.085, 6);
@@ -734,8 +735,8 @@ static void build_bell(mesh *m)
 {
     ring first, last;
     const frame f = {{-tower_axis, 0, -nave_axis}, UP};
-    LATHE(m, &f, 16, &first, &last, {17.3, 0.66}, {17.42, 0.68}, {17.6, 0.58}, {18.0, 0.46}, {18.35, 0.4}, {18.5, 0.24}, {18.52, 0.02},
-          {18.44, 0.02}, {18.42, 0.2}, {18.3, 0.33}, {18.0, 0.39}, {17.55, 0.52}, {17.3, 0.6});
+    LATHE(m, &f, 16, &first, &last, {17.3, 0.66}, {17.42, 0.68}, {17.6, 0.58}, {18.0, 0.46}, {18.35, 0.4}, {18.5, 0.24},
+          {18.52, 0.02}, {18.44, 0.02}, {18.42, 0.2}, {18.3, 0.33}, {18.0, 0.39}, {17.55, 0.52}, {17.3, 0.6});
     sew(m, &last, &first);
 }
 
@@ -798,24 +799,39 @@ static void build_tower_stones(mesh *m)
 
 /* --- the assembly ------------------------------------------------------------------------------------------------ */
 
-typedef enum material { STONE, DRESSED, PLASTER, TILE, TIMBER, GRASS, PAVING, PAVING_TOO, LEAVES, GLASS, IRON, EARTH, HABIT, MATERIALS } material;
+typedef enum material {
+    STONE,
+    DRESSED,
+    PLASTER,
+    TILE,
+    TIMBER,
+    GRASS,
+    PAVING,
+    PAVING_TOO,
+    LEAVES,
+    GLASS,
+    IRON,
+    EARTH,
+    HABIT,
+    MATERIALS
+} material;
 
 static const model_material materials[MATERIALS] = {
-    [STONE] = {"Stone", {0.560, 0.500, 0.400}, 0},   [DRESSED] = {"Dressed stone", {0.690, 0.640, 0.530}, 0},
+    [STONE] = {"Stone", {0.560, 0.500, 0.400}, 0},     [DRESSED] = {"Dressed stone", {0.690, 0.640, 0.530}, 0},
     [PLASTER] = {"Plaster", {0.780, 0.730, 0.620}, 0}, [TILE] = {"Tile", {0.520, 0.190, 0.095}, 0},
-    [TIMBER] = {"Timber", {0.240, 0.135, 0.070}, 0}, [GRASS] = {"Grass", {0.260, 0.360, 0.120}, 0},
-    [PAVING] = {"Paving", {0.480, 0.440, 0.370}, 0}, [PAVING_TOO] = {"Worn paving", {0.530, 0.490, 0.415}, 0}, [LEAVES] = {"Leaves", {0.110, 0.210, 0.065}, 0},
-    [GLASS] = {"Leaded glass", {0.090, 0.120, 0.140}, 0}, [IRON] = {"Iron", {0.060, 0.060, 0.065}, 0},
-    [HABIT] = {"Habit", {0.160, 0.120, 0.090}, 0},
+    [TIMBER] = {"Timber", {0.240, 0.135, 0.070}, 0},   [GRASS] = {"Grass", {0.260, 0.360, 0.120}, 0},
+    [PAVING] = {"Paving", {0.480, 0.440, 0.370}, 0},   [PAVING_TOO] = {"Worn paving", {0.530, 0.490, 0.415}, 0},
+    [LEAVES] = {"Leaves", {0.110, 0.210, 0.065}, 0},   [GLASS] = {"Leaded glass", {0.090, 0.120, 0.140}, 0},
+    [IRON] = {"Iron", {0.060, 0.060, 0.065}, 0},       [HABIT] = {"Habit", {0.160, 0.120, 0.090}, 0},
     [EARTH] = {"Earth", {0.420, 0.400, 0.260}, 0},
 };
 
 enum { GARTH = 4, CHURCH, RANGE, TOWER, SITE, GROUPS };
 
 static const model_group groups[GROUPS] = {
-    [NORTH] = {"north walk", {0}, 0}, [WEST] = {"west walk", {0}, 1},  [SOUTH] = {"south walk", {0}, 2}, [EAST] = {"east walk", {0}, 3},
-    [GARTH] = {"garth", {0}, 0},      [CHURCH] = {"church", {0}, 0},   [RANGE] = {"west range", {0}, 0}, [TOWER] = {"bell tower", {0}, 0},
-    [SITE] = {"site", {0}, 0},
+    [NORTH] = {"north walk", {0}, 0}, [WEST] = {"west walk", {0}, 1},   [SOUTH] = {"south walk", {0}, 2},
+    [EAST] = {"east walk", {0}, 3},   [GARTH] = {"garth", {0}, 0},      [CHURCH] = {"church", {0}, 0},
+    [RANGE] = {"west range", {0}, 0}, [TOWER] = {"bell tower", {0}, 0}, [SITE] = {"site", {0}, 0},
 };
 
 #define SIDE(side, GROUP)                                                                                                          \
@@ -823,7 +839,8 @@ static const model_group groups[GROUPS] = {
         {#side " columns", GROUP, DRESSED, build_columns, {0}}, {#side " piers", GROUP, STONE, build_piers, {0}},                  \
         {#side " roof", GROUP, TILE, build_walk_roof, {0}}, {#side " rafters", GROUP, TIMBER, build_rafters, {0}},                 \
         {#side " floor", GROUP, PAVING, build_walk_floor, {0}},                                                                    \
-        {#side " floor between", GROUP, PAVING_TOO, build_walk_floor_between, {0}}, {#side " wall", GROUP, PLASTER, build_##side##_wall, {0}},         \
+        {#side " floor between", GROUP, PAVING_TOO, build_walk_floor_between, {0}},                                              \
+        {#side " wall", GROUP, PLASTER, build_##side##_wall, {0}},                                                               \
         {#side " frames", GROUP, DRESSED, build_##side##_frames, {0}}, {#side " doors", GROUP, TIMBER, build_##side##_doors, {0}}, \
         {#side " windows", GROUP, GLASS, build_##side##_panes, {0}}
 

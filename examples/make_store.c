@@ -108,7 +108,7 @@ static void build_slabs(mesh *m)
 static void build_ground_floor(mesh *m)
 {
     outline edge = footprint(0.2, 0.1, 0.1);
-    plan(m, &edge, NULL, 0, -0.4, levels[0]);
+    plan(m, &edge, NULL, 0, -0.37, levels[0]);
 }
 
 /* The walls at the neighbours, which end as blades before the fronts. */
@@ -126,8 +126,8 @@ static void build_columns(mesh *m)
         for (int j = 0; j < COUNT(zs); j++)
             TURNED(m, xs[i], 0, zs[j], 14, {0.1, 0}, {0.1, 0.26}, {levels[STOREYS] - 0.2, 0.26}, {levels[STOREYS] - 0.2, 0});
     for (int k = 0; k < 6; k++) /* the pavilion's */
-        TURNED(m, -15 + 4.6 * k, 0, 6.6, 12, {levels[STOREYS] - 0.1, 0}, {levels[STOREYS] - 0.1, 0.14}, {pavilion_top - 0.2, 0.14},
-               {pavilion_top - 0.2, 0});
+        TURNED(m, -15 + 4.6 * k, 0, 6.6, 12, {levels[STOREYS] - 0.1, 0}, {levels[STOREYS] - 0.1, 0.14},
+               {pavilion_top - 0.2, 0.14}, {pavilion_top - 0.2, 0});
 }
 
 /* Lifts and stairs at the wall at the back, with lift doors on every floor. */
@@ -184,21 +184,21 @@ static void build_glass_third(mesh *m)
 static void build_mullions(mesh *m)
 {
     for (int storey = 0; storey < STOREYS; storey++) {
-        double low = levels[storey] - 0.03, high = levels[storey + 1] - slab + 0.03;
+        double low = levels[storey] - 0.05, high = levels[storey + 1] - slab + 0.05;
         for (int k = 0; k < STATIONS; k++)
             if (storey > 0 || (k % 2 == 0 && k != FRONT_MODULES + CORNER_MODULES / 2))
                 post(m, station(k), 0.07, glass - 0.06, glass + 0.12, low, high);
         if (storey > 0) {
-            strip(m, way_begin, way_end, glass - 0.05, glass + 0.09, levels[storey] + 0.92, levels[storey] + 0.98);
+            strip(m, way_begin + 0.03, way_end - 0.03, glass - 0.05, glass + 0.09, levels[storey] + 0.92, levels[storey] + 0.98);
             continue;
         }
         for (int side = 0; side < 2; side++) {
-            double from = side ? 53.5 : way_begin, to = side ? way_end : 36.5;
+            double from = side ? 53.4 : way_begin + 0.03, to = side ? way_end - 0.03 : 36.6;
             strip(m, from, to, glass - 0.05, glass + 0.09, 3.2, 3.28);
-            strip(m, from, to, glass - 0.09, glass + 0.13, levels[0] - 0.03, levels[0] + 0.22);
+            strip(m, from, to, glass - 0.09, glass + 0.13, levels[0] - 0.07, levels[0] + 0.22);
             post(m, side ? 53.5 : 36.5, 0.1, glass - 0.07, glass + 0.13, low, high);
         }
-        strip(m, 36.5, 53.5, glass - 0.05, glass + 0.09, 3.02, 3.14);
+        strip(m, 36.6, 53.4, glass - 0.05, glass + 0.09, 3.02, 3.14);
     }
 }
 
@@ -230,7 +230,8 @@ static void build_canopy_columns(mesh *m)
     for (int k = 0; k < 6; k++) {
         outline at = {0};
         add_way_point(&at, k * 18, -2.6);
-        TURNED(m, at.at[0][0], 0, at.at[0][1], 12, {0.05, 0}, {0.05, 0.12}, {0.17, 0.12}, {0.19, 0.065}, {3.88, 0.065}, {3.88, 0});
+        TURNED(m, at.at[0][0], 0, at.at[0][1], 12, {0.05, 0}, {0.05, 0.12}, {0.17, 0.12}, {0.19, 0.065}, {3.88, 0.065},
+               {3.88, 0});
     }
 }
 
@@ -264,13 +265,14 @@ static const double letter_l[][2] = {{0, 0}, {0.62, 0}, {0.62, 0.2}, {0.22, 0.2}
 static const double letter_i[][2] = {{0.2, 0}, {0.42, 0}, {0.42, 1}, {0.2, 1}};
 static const double letter_m[][2] = {{-0.08, 0}, {0.12, 0}, {0.12, 0.62}, {0.31, 0.26}, {0.5, 0.62}, {0.5, 0}, {0.7, 0}, {0.7, 1},
                                      {0.52, 1}, {0.31, 0.58}, {0.1, 1}, {-0.08, 1}};
-static const double letter_n[][2] = {{0, 0}, {0.2, 0}, {0.2, 0.62}, {0.44, 0}, {0.64, 0}, {0.64, 1}, {0.44, 1}, {0.44, 0.38}, {0.2, 1},
-                                     {0, 1}};
-static const double letter_e[][2] = {{0, 0}, {0.6, 0}, {0.6, 0.2}, {0.22, 0.2}, {0.22, 0.41}, {0.52, 0.41}, {0.52, 0.6}, {0.22, 0.6},
-                                     {0.22, 0.8}, {0.6, 0.8}, {0.6, 1}, {0, 1}};
-static const double letter_r[][2] = {{0, 0}, {0.21, 0}, {0.21, 0.36}, {0.28, 0.36}, {0.44, 0}, {0.67, 0}, {0.49, 0.39}, {0.6, 0.5},
-                                     {0.64, 0.68}, {0.58, 0.88}, {0.42, 1}, {0, 1}};
-static const double letter_eye[][2] = {{0.21, 0.54}, {0.36, 0.54}, {0.43, 0.6}, {0.44, 0.7}, {0.4, 0.8}, {0.34, 0.82}, {0.21, 0.82}};
+static const double letter_n[][2] = {{0, 0},    {0.2, 0},  {0.2, 0.62},  {0.44, 0}, {0.64, 0},
+                                     {0.64, 1}, {0.44, 1}, {0.44, 0.38}, {0.2, 1},  {0, 1}};
+static const double letter_e[][2] = {{0, 0},      {0.6, 0},    {0.6, 0.2},  {0.22, 0.2}, {0.22, 0.41}, {0.52, 0.41},
+                                     {0.52, 0.6}, {0.22, 0.6}, {0.22, 0.8}, {0.6, 0.8},  {0.6, 1},     {0, 1}};
+static const double letter_r[][2] = {{0, 0},       {0.21, 0},  {0.21, 0.36}, {0.28, 0.36}, {0.44, 0}, {0.67, 0},
+                                     {0.49, 0.39}, {0.6, 0.5}, {0.64, 0.68}, {0.58, 0.88}, {0.42, 1}, {0, 1}};
+static const double letter_eye[][2] = {{0.21, 0.54}, {0.36, 0.54}, {0.43, 0.6}, {0.44, 0.7},
+                                       {0.4, 0.8},   {0.34, 0.82}, {0.21, 0.82}};
 
 static const struct {
     const double (*points)[2];
@@ -281,8 +283,8 @@ static const struct {
 static void build_sign(mesh *m)
 {
     box(m, -0.2, 6.3, 0.5, 0.2, 17.3, 2.3);
-    box(m, -0.1, 7.2, -0.2, 0.1, 7.5, 0.52);
-    box(m, -0.1, 16.1, -0.2, 0.1, 16.4, 0.52);
+    for (int k = 2; k < STOREYS; k++)
+        box(m, -0.1, levels[k] - 0.32, -0.2, 0.1, levels[k] - 0.1, 0.52);
     place_on_way(m, 0, -2.25, 0);
 }
 
@@ -309,7 +311,8 @@ static void build_letters(mesh *m)
 /* A moving staircase from one floor to the next over z = 0. Both of its landings reach onto the slabs around the hall. */
 static void escalator(mesh *m, double low, double high)
 {
-    const double run = (high - low) / tan(PI / 6), from = -run / 2, flat = (void_right - void_left - run) / 2 + 0.3, tread = run / ESCALATOR_STEPS;
+    const double run = (high - low) / tan(PI / 6), from = -run / 2, flat = (void_right - void_left - run) / 2 + 0.3,
+                 tread = run / ESCALATOR_STEPS;
     outline      o = {0};
     add_point(&o, from - flat, low - 0.35);
     add_point(&o, from + 0.45, low - 0.35);
@@ -373,7 +376,8 @@ static void build_counters(mesh *m)
     for (int storey = 0; storey < STOREYS; storey++)
         for (int i = 0; i < 11; i++)
             for (int j = 0; j < COUNT(rows); j++) {
-                double x = -18 + 2.8 * i + 0.5 * chance(&seed), z = rows[j] + 0.5 * chance(&seed), high = chance(&seed) < 0.3 ? 1.8 : 0.95;
+                double x = -18 + 2.8 * i + 0.5 * chance(&seed), z = rows[j] + 0.5 * chance(&seed),
+                       high = chance(&seed) < 0.3 ? 1.8 : 0.95;
                 bool   hall = x + 1.8 > void_left - 2 && x < void_right + 2 && fabs(z) < void_half + 1.2;
                 double far = hypot(fmax(0, x + 1.8 - corner_x), fmax(0, z + 0.7 - corner_z));
                 bool   entrance = storey == 0 && x > 6 && z > 1;
@@ -413,13 +417,14 @@ static void build_pavilion_mullions(mesh *m)
     for (int k = 0; k < STATIONS; k++)
         if (station(k) > -25 && station(k) < 103 && (k < FRONT_MODULES || k > FRONT_MODULES + CORNER_MODULES || k % 2 == 0))
             post(m, station(k), 0.07, pavilion - 0.06, pavilion + 0.12, levels[STOREYS] - 0.03, pavilion_top - 0.27);
-    strip(m, -25, 103, pavilion - 0.05, pavilion + 0.1, levels[STOREYS] + 2.3, levels[STOREYS] + 2.36);
+    strip(m, -24.96, 102.96, pavilion - 0.05, pavilion + 0.1, levels[STOREYS] + 2.3, levels[STOREYS] + 2.36);
 }
 
 static void build_pavilion_walls(mesh *m)
 {
-    box(m, corner_x - 25.2, levels[STOREYS] - 0.02, back + 3, corner_x - 24.9, pavilion_top - 0.2, corner_z + corner_radius - pavilion + 0.2);
-    box(m, corner_x - 24.95, levels[STOREYS] - 0.03, -8.2, corner_x + corner_radius - pavilion + 0.2, pavilion_top - 0.21, -7.9);
+    box(m, corner_x - 25.2, levels[STOREYS] - 0.05, back + 3, corner_x - 24.9, pavilion_top - 0.2,
+        corner_z + corner_radius - pavilion + 0.2);
+    box(m, corner_x - 24.95, levels[STOREYS] - 0.06, -8.2, corner_x + corner_radius - pavilion + 0.2, pavilion_top - 0.21, -7.9);
 }
 
 static void build_pavilion_roof(mesh *m)
@@ -465,7 +470,8 @@ static void build_tables(mesh *m)
 {
     for (int k = 0; k < 6; k++) {
         double x = -15.5 + 4.1 * k, z = 10.6 + 0.5 * (k % 2), y = levels[STOREYS];
-        TURNED(m, x, y, z, 16, {-0.02, 0}, {-0.02, 0.28}, {0.03, 0.28}, {0.04, 0.035}, {0.71, 0.035}, {0.71, 0.45}, {0.75, 0.45}, {0.75, 0});
+        TURNED(m, x, y, z, 16, {-0.02, 0}, {-0.02, 0.28}, {0.03, 0.28}, {0.04, 0.035}, {0.71, 0.035}, {0.71, 0.45}, {0.75, 0.45},
+               {0.75, 0});
         for (int side = -1; side <= 1; side += 2) {
             double seat = x + 0.75 * side;
             box(m, seat - 0.2, y - 0.02, z - 0.2, seat + 0.2, y + 0.45, z + 0.2);
@@ -483,7 +489,8 @@ static void build_planters(mesh *m)
 static void build_plants(mesh *m)
 {
     for (int k = 0; k < 12; k++) {
-        const double middle[3] = {corner_x - 19.85 + 6.2 * (k / 3) + 0.85 * (k % 3), levels[STOREYS] + 0.7, corner_z + corner_radius - 0.83};
+        const double middle[3] = {corner_x - 19.85 + 6.2 * (k / 3) + 0.85 * (k % 3), levels[STOREYS] + 0.7,
+                                  corner_z + corner_radius - 0.83};
         foliage(m, middle, 0.42, 0.4, (uint32_t)k + 3);
     }
 }
@@ -506,7 +513,8 @@ static void build_kerb(mesh *m)
     strip(m, -32.4, 111.4, -6.75, -6.45, -0.28, pavement + 0.015);
 }
 
-/* Every other panel of the pavement is of darker stone, in two rows. They alone make a border; joints would make two lines each. */
+/* Every other panel of the pavement is of darker stone, in two rows. They alone make a border; joints would make two lines each.
+ */
 static void build_paving_panels(mesh *m)
 {
     for (int k = 0; k + 2 < STATIONS; k += 2) {
@@ -520,7 +528,8 @@ static void build_bollards(mesh *m)
     for (int k = 0; k < 7; k++) {
         outline at = {0};
         add_way_point(&at, 9 + 12 * k, -5.9);
-        TURNED(m, at.at[0][0], 0, at.at[0][1], 12, {0.05, 0}, {0.05, 0.09}, {0.8, 0.09}, {0.84, 0.075}, {0.9, 0.075}, {0.93, 0.05}, {0.93, 0});
+        TURNED(m, at.at[0][0], 0, at.at[0][1], 12, {0.05, 0}, {0.05, 0.09}, {0.8, 0.09}, {0.84, 0.075}, {0.9, 0.075},
+               {0.93, 0.05}, {0.93, 0});
     }
 }
 
@@ -555,19 +564,19 @@ static void build_tree_grates(mesh *m)
     for (int k = 0; k < 2; k++) {
         outline outer = rectangle(places[k][0] - 0.9, places[k][1] - 0.9, places[k][0] + 0.9, places[k][1] + 0.9);
         outline hole = circle(places[k][0], places[k][1], 0.42, 16);
-        plan(m, &outer, &hole, 1, 0.02, pavement + 0.02);
+        plan(m, &outer, &hole, 1, -0.03, pavement + 0.02);
     }
 }
 
 /* --- people ------------------------------------------------------------------------------------------------------ */
 
 static const double walking[][2] = {
-    {0, 1.79},      {0.09, 1.75},   {0.115, 1.66},  {0.085, 1.56},  {0.07, 1.49},   {0.17, 1.44},   {0.235, 1.32},  {0.27, 1.1},
-    {0.33, 0.92},   {0.3, 0.84},    {0.24, 0.88},   {0.2, 1.04},    {0.17, 1.08},   {0.18, 0.9},    {0.25, 0.5},    {0.3, 0.12},
-    {0.42, 0.06},   {0.43, 0.0},    {0.22, 0.0},    {0.2, 0.1},     {0.11, 0.5},    {0.02, 0.76},   {-0.06, 0.5},   {-0.22, 0.2},
-    {-0.17, 0.06},  {-0.2, 0.01},   {-0.36, 0.1},   {-0.31, 0.24},  {-0.19, 0.52},  {-0.17, 0.9},   {-0.16, 1.06},  {-0.2, 0.98},
-    {-0.28, 0.82},  {-0.34, 0.85},  {-0.3, 0.98},   {-0.25, 1.2},   {-0.19, 1.4},   {-0.07, 1.49},  {-0.085, 1.57}, {-0.105, 1.67},
-    {-0.08, 1.75},
+    {0, 1.79},     {0.09, 1.75}, {0.115, 1.66}, {0.085, 1.56},  {0.07, 1.49},   {0.17, 1.44},  {0.235, 1.32},
+    {0.27, 1.1},   {0.33, 0.92}, {0.3, 0.84},   {0.24, 0.88},   {0.2, 1.04},    {0.17, 1.08},  {0.18, 0.9},
+    {0.25, 0.5},   {0.3, 0.12},  {0.42, 0.06},  {0.43, 0.0},    {0.22, 0.0},    {0.2, 0.1},    {0.11, 0.5},
+    {0.02, 0.76},  {-0.06, 0.5}, {-0.22, 0.2},  {-0.17, 0.06},  {-0.2, 0.01},   {-0.36, 0.1},  {-0.31, 0.24},
+    {-0.19, 0.52}, {-0.17, 0.9}, {-0.16, 1.06}, {-0.2, 0.98},   {-0.28, 0.82},  {-0.34, 0.85}, {-0.3, 0.98},
+    {-0.25, 1.2},  {-0.19, 1.4}, {-0.07, 1.49}, {-0.085, 1.57}, {-0.105, 1.67}, {-0.08, 1.75},
 };
 static const double standing[][2] = {
     {0, 1.72},      {0.09, 1.67},   {0.1, 1.57},    {0.11, 1.46},   {0.06, 1.42},   {0.15, 1.38},   {0.21, 1.3},    {0.25, 1.05},
@@ -606,7 +615,8 @@ static void build_people(mesh *m)
 
 static void build_customers(mesh *m)
 {
-    static const double places[][3] = {{11.5, 8.6, 50}, {9, 10.2, 10}, {12.8, 4, 60}, {-9, 9.4, 0}, {-14.5, 8.8, 20}, {6.5, 2, 30}};
+    static const double places[][3] = {{11.5, 8.6, 50}, {9, 10.2, 10},    {12.8, 4, 60},
+                                       {-9, 9.4, 0},    {-14.5, 8.8, 20}, {6.5, 2, 30}};
     for (int storey = 0; storey < STOREYS; storey++)
         for (int k = 0; k < COUNT(places); k++)
             if ((k + storey) % 2 == 0)
@@ -619,8 +629,24 @@ static void build_customers(mesh *m)
 
 /* --- the assembly ------------------------------------------------------------------------------------------------ */
 
-typedef enum material { CONCRETE, WHITE, GLASS, ALUMINIUM, STEEL, WARM, SIGN, LETTERS, PAVING, PANELS, STONE, ASPHALT, BARK, LEAVES, PERSON,
-                        MATERIALS } material;
+typedef enum material {
+    CONCRETE,
+    WHITE,
+    GLASS,
+    ALUMINIUM,
+    STEEL,
+    WARM,
+    SIGN,
+    LETTERS,
+    PAVING,
+    PANELS,
+    STONE,
+    ASPHALT,
+    BARK,
+    LEAVES,
+    PERSON,
+    MATERIALS
+} material;
 
 static const model_material materials[MATERIALS] = {
     [CONCRETE] = {"Concrete", {0.560, 0.550, 0.530}, 0},  [WHITE] = {"White render", {0.800, 0.790, 0.760}, 0},
@@ -636,8 +662,9 @@ static const model_material materials[MATERIALS] = {
 enum { STRUCTURE, FRONTS, ENTRANCE, INSIDE, ROOF, STREET, PEOPLE, GROUPS };
 
 static const model_group groups[GROUPS] = {
-    [STRUCTURE] = {"structure", {0}, 0}, [FRONTS] = {"fronts", {0}, 0}, [ENTRANCE] = {"entrance", {0}, 0}, [INSIDE] = {"inside", {0}, 0},
-    [ROOF] = {"roof", {0}, 0},           [STREET] = {"street", {0}, 0}, [PEOPLE] = {"people", {0}, 0},
+    [STRUCTURE] = {"structure", {0}, 0}, [FRONTS] = {"fronts", {0}, 0}, [ENTRANCE] = {"entrance", {0}, 0},
+    [INSIDE] = {"inside", {0}, 0},       [ROOF] = {"roof", {0}, 0},     [STREET] = {"street", {0}, 0},
+    [PEOPLE] = {"people", {0}, 0},
 };
 
 static const model_part parts[] = {

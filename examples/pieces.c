@@ -147,7 +147,9 @@ void foliage(mesh *m, const double middle[3], double radius, double height, uint
 {
     enum { STACKS = 9, AROUND = 16 };
     const frame f = {.along = FRONT};
-    const double turns[3] = {2 * PI * chance(&seed), 2 * PI * chance(&seed), 2 * PI * chance(&seed)};
+    double turns[3];
+    for (int k = 0; k < 3; k++)
+        turns[k] = 2 * PI * chance(&seed);
     ring before = {0};
     uint32_t tips[2];
     for (int e = 0; e < 2; e++)
@@ -194,7 +196,8 @@ static void limb(mesh *m, const double from[3], const double way[3], double leng
         }
         for (int k = 0; k < 3; k++)
             next[k] /= sqrt(size);
-        limb(m, start, next, length * (0.62 + 0.16 * chance(seed)), radius * (i == twigs - 1 ? 0.61 : 0.72 - 0.29 * share), order - 1, seed);
+        limb(m, start, next, length * (0.62 + 0.16 * chance(seed)), radius * (i == twigs - 1 ? 0.61 : 0.72 - 0.29 * share),
+             order - 1, seed);
     }
 }
 

@@ -1,8 +1,9 @@
 /* Solids that are sewn from rings of points: strips between rings, flat faces within them. A shell is closed when every ring
  * was used twice, where one strip or face ends and where the next begins; a hole that leads through is simply a longer walk.
  *
- * Each model has its unit of length. Points lie on a grid of 1/10000 of it and flat faces are divided in whole numbers, so that every machine makes the same triangles.
- * Whatever fails ends the program: nothing that fails here can be mended by whoever runs it. */
+ * Each model has its unit of length. Points lie on a grid of 1/10000 of it and flat faces are divided in whole numbers, so that
+ * every machine makes the same triangles. Whatever fails ends the program: nothing that fails here can be
+ * mended by whoever runs it. */
 #ifndef EXAMPLES_SOLID_H
 #define EXAMPLES_SOLID_H
 
