@@ -817,21 +817,21 @@ typedef enum material {
 } material;
 
 static const model_material materials[MATERIALS] = {
-    [STONE] = {"Stone", {0.560, 0.500, 0.400}, 0},     [DRESSED] = {"Dressed stone", {0.690, 0.640, 0.530}, 0},
-    [PLASTER] = {"Plaster", {0.780, 0.730, 0.620}, 0}, [TILE] = {"Tile", {0.520, 0.190, 0.095}, 0},
-    [TIMBER] = {"Timber", {0.240, 0.135, 0.070}, 0},   [GRASS] = {"Grass", {0.260, 0.360, 0.120}, 0},
-    [PAVING] = {"Paving", {0.480, 0.440, 0.370}, 0},   [PAVING_TOO] = {"Worn paving", {0.530, 0.490, 0.415}, 0},
-    [LEAVES] = {"Leaves", {0.110, 0.210, 0.065}, 0},   [GLASS] = {"Leaded glass", {0.090, 0.120, 0.140}, 0},
-    [IRON] = {"Iron", {0.060, 0.060, 0.065}, 0},       [HABIT] = {"Habit", {0.160, 0.120, 0.090}, 0},
-    [EARTH] = {"Earth", {0.420, 0.400, 0.260}, 0},
+    [STONE] = {"Stone", {0.560, 0.500, 0.400}},     [DRESSED] = {"Dressed stone", {0.690, 0.640, 0.530}},
+    [PLASTER] = {"Plaster", {0.780, 0.730, 0.620}}, [TILE] = {"Tile", {0.520, 0.190, 0.095}},
+    [TIMBER] = {"Timber", {0.240, 0.135, 0.070}},   [GRASS] = {"Grass", {0.260, 0.360, 0.120}},
+    [PAVING] = {"Paving", {0.480, 0.440, 0.370}},   [PAVING_TOO] = {"Worn paving", {0.530, 0.490, 0.415}},
+    [LEAVES] = {"Leaves", {0.110, 0.210, 0.065}},   [GLASS] = {"Leaded glass", {0.090, 0.120, 0.140}},
+    [IRON] = {"Iron", {0.060, 0.060, 0.065}},       [HABIT] = {"Habit", {0.160, 0.120, 0.090}},
+    [EARTH] = {"Earth", {0.420, 0.400, 0.260}},
 };
 
 enum { GARTH = 4, CHURCH, RANGE, TOWER, SITE, GROUPS };
 
 static const model_group groups[GROUPS] = {
-    [NORTH] = {"north walk", {0}, 0}, [WEST] = {"west walk", {0}, 1},   [SOUTH] = {"south walk", {0}, 2},
-    [EAST] = {"east walk", {0}, 3},   [GARTH] = {"garth", {0}, 0},      [CHURCH] = {"church", {0}, 0},
-    [RANGE] = {"west range", {0}, 0}, [TOWER] = {"bell tower", {0}, 0}, [SITE] = {"site", {0}, 0},
+    [NORTH] = {"north walk", {0}}, [WEST] = {"west walk", {0}, 1},   [SOUTH] = {"south walk", {0}, 2},
+    [EAST] = {"east walk", {0}, 3},   [GARTH] = {"garth", {0}},      [CHURCH] = {"church", {0}},
+    [RANGE] = {"west range", {0}}, [TOWER] = {"bell tower", {0}}, [SITE] = {"site", {0}},
 };
 
 #define SIDE(side, GROUP)                                                                                                          \

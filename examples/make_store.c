@@ -648,23 +648,24 @@ typedef enum material {
     MATERIALS
 } material;
 
+/* The glass is opaque, as most looks have no layers to show what is behind it; a rule for [material=Glass] can see through it. */
 static const model_material materials[MATERIALS] = {
-    [CONCRETE] = {"Concrete", {0.560, 0.550, 0.530}, 0},  [WHITE] = {"White render", {0.800, 0.790, 0.760}, 0},
-    [GLASS] = {"Glass", {0.420, 0.580, 0.640}, 0.3},      [ALUMINIUM] = {"Bronze aluminium", {0.420, 0.320, 0.220}, 0},
-    [STEEL] = {"Steel", {0.120, 0.130, 0.140}, 0},        [WARM] = {"Oak", {0.560, 0.390, 0.220}, 0},
-    [SIGN] = {"Sign", {0.560, 0.060, 0.050}, 0},          [LETTERS] = {"Letters", {0.870, 0.860, 0.820}, 0},
-    [PANELS] = {"Darker paving", {0.510, 0.490, 0.455}, 0},
-    [PAVING] = {"Paving", {0.600, 0.580, 0.540}, 0},      [STONE] = {"Granite", {0.380, 0.370, 0.350}, 0},
-    [ASPHALT] = {"Asphalt", {0.300, 0.300, 0.310}, 0},    [BARK] = {"Bark", {0.230, 0.160, 0.110}, 0},
-    [LEAVES] = {"Leaves", {0.150, 0.290, 0.090}, 0},      [PERSON] = {"Card", {0.230, 0.220, 0.240}, 0},
+    [CONCRETE] = {"Concrete", {0.560, 0.550, 0.530}},  [WHITE] = {"White render", {0.800, 0.790, 0.760}},
+    [GLASS] = {"Glass", {0.420, 0.580, 0.640}},      [ALUMINIUM] = {"Bronze aluminium", {0.420, 0.320, 0.220}},
+    [STEEL] = {"Steel", {0.120, 0.130, 0.140}},        [WARM] = {"Oak", {0.560, 0.390, 0.220}},
+    [SIGN] = {"Sign", {0.560, 0.060, 0.050}},          [LETTERS] = {"Letters", {0.870, 0.860, 0.820}},
+    [PANELS] = {"Darker paving", {0.510, 0.490, 0.455}},
+    [PAVING] = {"Paving", {0.600, 0.580, 0.540}},      [STONE] = {"Granite", {0.380, 0.370, 0.350}},
+    [ASPHALT] = {"Asphalt", {0.300, 0.300, 0.310}},    [BARK] = {"Bark", {0.230, 0.160, 0.110}},
+    [LEAVES] = {"Leaves", {0.150, 0.290, 0.090}},      [PERSON] = {"Card", {0.230, 0.220, 0.240}},
 };
 
 enum { STRUCTURE, FRONTS, ENTRANCE, INSIDE, ROOF, STREET, PEOPLE, GROUPS };
 
 static const model_group groups[GROUPS] = {
-    [STRUCTURE] = {"structure", {0}, 0}, [FRONTS] = {"fronts", {0}, 0}, [ENTRANCE] = {"entrance", {0}, 0},
-    [INSIDE] = {"inside", {0}, 0},       [ROOF] = {"roof", {0}, 0},     [STREET] = {"street", {0}, 0},
-    [PEOPLE] = {"people", {0}, 0},
+    [STRUCTURE] = {"structure", {0}}, [FRONTS] = {"fronts", {0}}, [ENTRANCE] = {"entrance", {0}},
+    [INSIDE] = {"inside", {0}},       [ROOF] = {"roof", {0}},     [STREET] = {"street", {0}},
+    [PEOPLE] = {"people", {0}},
 };
 
 static const model_part parts[] = {

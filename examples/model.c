@@ -165,13 +165,10 @@ static void put_materials(FILE *json, const model *m)
     fprintf(json, "\"materials\":[");
     for (int k = 0; k < m->material_count; k++) {
         const model_material *one = &m->materials[k];
-        fprintf(json, "%s{\"name\":\"%s\",", k ? "," : "", one->name);
-        if (one->opacity > 0)
-            fprintf(json, "\"alphaMode\":\"BLEND\",");
         fprintf(json,
-                "\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,%.3g],\"metallicFactor\":0,"
+                "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],\"metallicFactor\":0,"
                 "\"roughnessFactor\":0.6}}",
-                one->colour[0], one->colour[1], one->colour[2], one->opacity > 0 ? one->opacity : 1);
+                k ? "," : "", one->name, one->colour[0], one->colour[1], one->colour[2]);
     }
     fprintf(json, "],");
 }

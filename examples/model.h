@@ -10,7 +10,6 @@
 typedef struct model_material {
     const char *name;
     double      colour[3]; /* linear */
-    double      opacity;   /* 0 stands for opaque */
 } model_material;
 
 typedef struct model_group {
