@@ -11,11 +11,11 @@
 #include "base/memory.h"
 #include "lines/lines.h"
 
-enum { WINDOW_MAX = 160, SIDES = 2 };
+enum { WINDOW_MAX = 192, SIDES = 2 };
 
 /* Lines shorter than this are detail and end where they end; a line runs on by a share of its length at most, and not by less than a
  * dot. */
-static const float LEAST_LINE = 16, OWN_SHARE = 0.4f, LEAST_STROKE = 3;
+static const float LEAST_LINE = 20, OWN_SHARE = 0.4f, LEAST_STROKE = 3;
 
 /* The part of a chain that tells its direction, and how far it may bow: long ones first, then shorter ones that must be straighter,
  * so that arcs do not pass by their short pieces. */
@@ -25,12 +25,20 @@ static const struct {
 
 /* Pixels at a chain's ends that other lines' ink has moved; of pointed junctions more. A chain needs this much between its ends. */
 static const float skips[] = {3, 6, 10};
-static const float LEAST_SPAN = 10, MOST_OFF = 0.8f;
+static const float LEAST_SPAN = 12, MOST_OFF = 0.8f, LEAST_BOW = 0.25f, LEAST_RADIUS = 560;
 
-/* What leaves within the first angle is the same line, and what is straight and leaves within the second is a bend of it. */
-static const float SAME_TURN = 0.14f, BEND_TURN = 0.52f;
-/* Ends this near to each other meet. */
+/* What leaves within the first angle is the same line, and what leaves within the second is a bend of it, unless its halves differ by the
+ * third. */
+static const float SAME_TURN = 0.14f, BEND_TURN = 0.52f, ARC_TURN = 0.12f;
+/* Ends this near to each other meet; and a point this far beside a line is not on it. */
 static const int MEETING = 3;
+static const float OFF_LINE = 1.2f;
+
+/* Lines that an arc touches must be this long, also in lengths of their strokes, since arcs look straight for a while. */
+static const float LEAST_TANGENT = 48, TANGENT_TIMES = 4, MOST_TANGENT = 128, TANGENT_BOW = 0.3f;
+
+/* A stroke that leaves other ink later than this leaves it at a small angle. Until shortly before it is not drawn. */
+static const float LEAVING = 8, LEAVING_SHARE = 1.5f, BEFORE_LEAVING = 6, BEFORE_END = 2.5f;
 
 typedef struct chain_end {
     uint32_t pixel;
@@ -45,6 +53,7 @@ typedef struct finding {
     const overshoot_style *style;
     chain_end             *ends; /* joined ones, by pixel */
     size_t                 end_count;
+    stroke_set            *found;
 } finding;
 
 /* The k-th point from one side of a chain. */
@@ -141,12 +150,18 @@ static bool find_line(window *w, const finding *f, const chain *c, int side)
             if (w->count < (size_t)LEAST_SPAN / 2)
                 break;
             fit(w);
-            /* Of short pieces the bow is small whatever they are. */
-            if (bow_of(w) <= windows[i].bow * fminf(1, (to - from) / 32))
+            /* Short pieces of arcs bow little; steps from pixel to pixel look as if they did. */
+            if (bow_of(w) <= fminf(windows[i].bow, fmaxf(LEAST_BOW, (to - from) * (to - from) / (8 * LEAST_RADIUS))))
                 return true;
         }
     }
     return false;
+}
+
+/* How far a point lies beside the window's line. */
+static float beside(const window *w, const chain_point *p)
+{
+    return fabsf((p->y - w->y) * w->dx - (p->x - w->x) * w->dy);
 }
 
 /* --- what is around a chain's end --------------------------------------------------------------------------------- */
@@ -190,26 +205,29 @@ static size_t first_end(const finding *f, uint32_t pixel)
     return low;
 }
 
-/* The angle between a stroke and the chain that begins at its start, at this way along it. */
-static float turn_of(const finding *f, const chain *c, int side, const stroke *s, float way)
+/* The angle from a direction to the way between two points. */
+static float turn_between(float dx, float dy, const chain_point *a, const chain_point *b)
 {
-    const chain_point *p = point_from(f, c, side, 0);
-    for (size_t k = 1; k < c->count && way_from(c, p, side) < way; k++)
-        p = point_from(f, c, side, k);
-    float x = p->x - s->x, y = p->y - s->y;
-    return atan2f(fabsf(x * s->dy - y * s->dx), x * s->dx + y * s->dy);
+    float x = b->x - a->x, y = b->y - a->y;
+    return atan2f(dx * y - dy * x, x * dx + y * dy);
 }
 
-/* Does this chain carry the stroke's line on, or bend it a little? */
-static bool carries_on(const finding *f, const chain_end *e, const stroke *s)
+/* Does this chain, from this point on, carry the stroke's line on, or bend it a little? An arc that touches the line does not. */
+static bool carries_on(const finding *f, const chain *c, int side, size_t first, const stroke *s)
 {
-    const chain *c = &f->set->chains[e->chain];
-    float way = fminf(c->length, fmaxf(s->length, 8));
-    if (c->length < 5)
+    const chain_point *start = point_from(f, c, side, first), *middle = NULL, *end = start;
+    float from = way_from(c, start, side), way = fminf(c->length - from, fminf(64, fmaxf(3 * s->length, 24)));
+    if (way < 5)
         return false;
-    float turn = turn_of(f, c, e->side, s, way);
-    /* The turn of an arc grows along it. */
-    return turn < SAME_TURN || (turn < BEND_TURN && turn_of(f, c, e->side, s, 0.5f * way) > 0.75f * turn);
+    for (size_t k = first; k < c->count && way_from(c, end, side) - from < way; k++) {
+        end = point_from(f, c, side, k);
+        if (!middle && way_from(c, end, side) - from >= 0.5f * way)
+            middle = end;
+    }
+    float turn = fabsf(turn_between(s->dx, s->dy, start, end));
+    if (turn >= BEND_TURN || !middle)
+        return false;
+    return turn < SAME_TURN || fabsf(turn_between(middle->x - start->x, middle->y - start->y, middle, end)) < ARC_TURN;
 }
 
 static bool is_carried_on(const finding *f, const chain_end *own, const stroke *s)
@@ -219,7 +237,7 @@ static bool is_carried_on(const finding *f, const chain_end *own, const stroke *
         int left = x > MEETING ? x - MEETING : 0, right = x + MEETING < f->in->width ? x + MEETING : f->in->width - 1;
         uint32_t last = (uint32_t)row * (uint32_t)f->in->width + (uint32_t)right;
         for (size_t i = first_end(f, last - (uint32_t)(right - left)); i < f->end_count && f->ends[i].pixel <= last; i++)
-            if ((f->ends[i].chain != own->chain || f->ends[i].side != own->side) && carries_on(f, &f->ends[i], s))
+            if ((f->ends[i].chain != own->chain || f->ends[i].side != own->side) && carries_on(f, &f->set->chains[f->ends[i].chain], f->ends[i].side, 0, s))
                 return true;
     }
     return false;
@@ -237,15 +255,21 @@ static bool has_ink(const finding *f, const stroke *s, float along)
     return false;
 }
 
-/* Would the stroke's outer part lie on ink that is there anyway? */
-static bool is_drawn_already(const finding *f, const stroke *s)
+/* Lets the stroke begin where it leaves the ink that is there; false when that goes on, or its outer part would lie on other ink. */
+static bool leave_ink(const finding *f, stroke *s)
 {
+    float most = LEAVING_SHARE * s->length + LEAVING;
+    s->start = 0;
+    while (s->start <= most && (has_ink(f, s, s->start) || has_ink(f, s, s->start + 1)))
+        s->start += 1;
+    if (s->start > most)
+        return false;
     int all = 0, inked = 0;
-    for (float along = 0.6f * s->length; along <= 1.15f * s->length + 1; along += 1) {
+    for (float along = s->start + 0.5f * s->length; along <= s->start + s->length; along += 1) {
         all++;
         inked += has_ink(f, s, along);
     }
-    return 5 * inked > 3 * all;
+    return 5 * inked <= 3 * all;
 }
 
 /* How long the line before the stroke is, across junctions; not counted beyond `most`. */
@@ -388,39 +412,117 @@ static bool is_own(const finding *f, const window *w)
     return !f->in->own || 2 * count > w->count;
 }
 
-/* The stroke at an end of a chain; false when the line ends there. */
-static bool find_stroke(const finding *f, const chain_end *e, stroke *out)
+/* A point of a chain where a line ends that runs on: what lies before it, the way that `side` looks, goes elsewhere. */
+typedef struct line_end {
+    const chain     *chain;
+    int              side;
+    size_t           place; /* of the point, from that side */
+    const chain_end *meets; /* the chain's end, or NULL where an arc of the same chain touches the line */
+} line_end;
+
+static bool is_needed(const finding *f, const line_end *e, stroke *s)
+{
+    if (s->length < LEAST_STROKE)
+        return false;
+    bool carried = e->meets ? is_carried_on(f, e->meets, s) : carries_on(f, e->chain, !e->side, e->chain->count - 1 - e->place, s);
+    if (carried || !leave_ink(f, s))
+        return false;
+    if (e->meets && s->start <= LEAVING) /* what leaves at once is measured from the corner */
+        s->start = 0;
+    return true;
+}
+
+/* Adds the stroke by which a line runs on, unless it should not. False when memory is gone. */
+static bool add_stroke(const finding *f, const window *w, const line_end *e)
+{
+    const chain_point *end = point_from(f, e->chain, e->side, e->place);
+    float along = (end->x - w->x) * w->dx + (end->y - w->y) * w->dy;
+    stroke s = {.x = w->x + along * w->dx, .y = w->y + along * w->dy, .dx = w->dx, .dy = w->dy, .length = f->style->length};
+    s.length *= variation_at(f, &s);
+    float line = length_before(f, &s, s.length / OWN_SHARE);
+    s.length = fminf(s.length, OWN_SHARE * fmaxf(e->meets ? e->chain->length : 0, line));
+    if (!is_own(f, w) || !is_needed(f, e, &s))
+        return true;
+    s.length += s.start;
+    find_depth(f, w, &s);
+    end_where_hidden(f, &s);
+    find_classes(f, w, &s);
+    if (s.length - s.start < LEAST_STROKE)
+        return true;
+    if (!mem_grow((void **)&f->found->strokes, &f->found->room, f->found->count + 1, sizeof *f->found->strokes))
+        return false;
+    f->found->strokes[f->found->count++] = s;
+    return true;
+}
+
+/* The nearest point to a side of the chain that is on the window's line, from `place` on towards the side. */
+static size_t place_on_line(const finding *f, const window *w, const chain *c, int side, size_t place, bool outwards)
+{
+    while (outwards && place > 0 && beside(w, point_from(f, c, side, place - 1)) <= OFF_LINE)
+        place--;
+    while (!outwards && place + 1 < c->count && beside(w, point_from(f, c, side, place)) > OFF_LINE)
+        place++;
+    return place;
+}
+
+/* The stroke at an end of a chain, where the line meets others. */
+static bool add_at_end(const finding *f, const chain_end *e)
 {
     const chain *c = &f->set->chains[e->chain];
     window w;
-    if (c->broad || c->length < LEAST_LINE || !find_line(&w, f, c, e->side) || !is_own(f, &w))
+    if (c->broad || c->length < LEAST_LINE || !find_line(&w, f, c, e->side))
+        return true;
+    return add_stroke(f, &w, &(line_end){c, e->side, place_on_line(f, &w, c, e->side, 0, false), e});
+}
+
+/* Is the chain straight from this point, which lies at this way, to `span` behind it? Asks its middle first, which is quick. */
+static bool is_straight(window *w, const finding *f, const chain *c, int side, size_t place, float span)
+{
+    const chain_point *a = point_from(f, c, side, place);
+    float way = way_from(c, a, side);
+    size_t last = place + (size_t)(0.7f * span); /* at least as many points on any slope */
+    if (last >= c->count)
         return false;
-    const chain_point *end = point_from(f, c, e->side, 0);
-    float along = (end->x - w.x) * w.dx + (end->y - w.y) * w.dy;
-    *out = (stroke){.x = w.x + along * w.dx, .y = w.y + along * w.dy, .dx = w.dx, .dy = w.dy, .length = f->style->length};
-    out->length *= variation_at(f, out);
-    out->length = fminf(out->length, OWN_SHARE * fmaxf(c->length, length_before(f, out, out->length / OWN_SHARE)));
-    if (is_carried_on(f, e, out) || is_drawn_already(f, out))
+    const chain_point *b = point_from(f, c, side, (place + last) / 2), *d = point_from(f, c, side, last);
+    float dx = d->x - a->x, dy = d->y - a->y;
+    if (fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) > 1.2f * hypotf(dx, dy))
         return false;
-    find_depth(f, &w, out);
-    end_where_hidden(f, out);
-    find_classes(f, &w, out);
-    return out->length >= LEAST_STROKE;
+    gather(w, f, c, side, way, way + span);
+    fit(w);
+    return bow_of(w) <= TANGENT_BOW;
+}
+
+/* Strokes inside a chain, where a long straight line ends in an arc that it touches: a cylinder's side at the rim. */
+static bool add_tangents(const finding *f, const chain *c, int side)
+{
+    float span = fminf(fmaxf(LEAST_TANGENT, TANGENT_TIMES * f->style->length), MOST_TANGENT);
+    bool was_straight = false, good = true;
+    for (size_t k = 0; k < c->count && good && !c->broad;) {
+        const chain_point *p = point_from(f, c, side, k);
+        if (way_from(c, p, side) + span > c->length)
+            break;
+        window w;
+        bool straight = is_straight(&w, f, c, side, k, span);
+        if (straight && !was_straight) {
+            size_t place = place_on_line(f, &w, c, side, k, true);
+            if (way_from(c, point_from(f, c, side, place), side) > skips[2]) /* lines at the chain's end have been seen to */
+                good = add_stroke(f, &w, &(line_end){c, side, place, NULL});
+        }
+        was_straight = straight;
+        k += straight ? (size_t)(0.5f * span) : 3;
+    }
+    return good;
 }
 
 bool overshoot_find(stroke_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink, const overshoot_style *style)
 {
-    finding f = {.set = set, .in = in, .ink = ink, .style = style};
+    finding f = {.set = set, .in = in, .ink = ink, .style = style, .found = out};
     *out = (stroke_set){0};
     bool good = gather_ends(&f);
-    for (size_t i = 0; i < f.end_count && good; i++) {
-        stroke s;
-        if (!find_stroke(&f, &f.ends[i], &s))
-            continue;
-        good = mem_grow((void **)&out->strokes, &out->room, out->count + 1, sizeof *out->strokes);
-        if (good)
-            out->strokes[out->count++] = s;
-    }
+    for (size_t i = 0; i < f.end_count && good; i++)
+        good = add_at_end(&f, &f.ends[i]);
+    for (size_t i = 0; i < SIDES * set->chain_count && good; i++)
+        good = add_tangents(&f, &set->chains[i / SIDES], (int)(i % SIDES));
     mem_free(f.ends);
     if (!good)
         overshoot_release(out);
@@ -438,9 +540,9 @@ void overshoot_release(stroke_set *s)
 /* The pencil's pressure along a stroke: it is lifted towards the tip. */
 static float pressure_at(const stroke *s, float along)
 {
-    float t = along / s->length;
-    t = fminf(1, fmaxf(0, (t - 0.25f) / 0.75f));
-    return 1 - 0.7f * t * t;
+    float t = (along - s->start) / (s->length - s->start);
+    t = fminf(1, fmaxf(0, (t - 0.35f) / 0.65f));
+    return 1 - 0.75f * t * t;
 }
 
 static uint32_t with_ink(uint32_t packed, const stroke *s, float share)
@@ -470,11 +572,12 @@ typedef struct painter {
 static void paint_pixel(const painter *p, uint32_t *out, float x, float y)
 {
     const stroke *s = p->stroke;
-    float along = (x - s->x) * s->dx + (y - s->y) * s->dy, beside = fabsf((y - s->y) * s->dx - (x - s->x) * s->dy);
-    if (beside > p->style->spread || along < -p->style->spread || along > s->length + p->style->spread)
+    float along = (x - s->x) * s->dx + (y - s->y) * s->dy, off = fabsf((y - s->y) * s->dx - (x - s->x) * s->dy);
+    if (off > p->style->spread || along < -p->style->spread || along > s->length + p->style->spread)
         return;
     /* It begins before the end of the line, which need not reach into the corner. */
-    float inside = fminf(fminf(0.5f * p->style->width + 0.5f - beside, s->length + 0.5f - along), along + 2.5f);
+    float first = s->start > 0 ? s->start - BEFORE_LEAVING : -BEFORE_END;
+    float inside = fminf(fminf(0.5f * p->style->width + 0.5f - off, s->length + 0.5f - along), along - first);
     if (inside > 0)
         out[0] = with_ink(out[0], s, fminf(1, inside) * pressure_at(s, along));
     if (s->depth > 0) {

@@ -5,9 +5,10 @@
 #include "lines/chain.h"
 #include "technique/technique.h"
 
-/* Lengths vary by this much, up and down; the most that a line can run on, as a multiple of the length that was asked for. */
+/* Lengths vary by this much, up and down. The most that a line can run on, as a multiple of the length that was asked for: where an arc
+ * touches it, its own length and half as much again are counted from where they part. */
 #define OVERSHOOT_VARIATION 0.3f
-#define OVERSHOOT_MOST 1.3f
+#define OVERSHOOT_MOST (2.5f * (1 + OVERSHOOT_VARIATION))
 
 typedef struct overshoot_style {
     float length; /* of an extension, about; pixels */
@@ -21,7 +22,8 @@ enum { OVERSHOOT_CLASSES = 3 }; /* profile, inner, id */
 typedef struct stroke {
     float x, y;   /* the end of the chain; pixels, centres are whole numbers */
     float dx, dy; /* unit vector */
-    float length;
+    float start;  /* how far from there it leaves the ink that is drawn already; 0 at corners */
+    float length; /* from the chain's end to the tip */
     float ink[OVERSHOOT_CLASSES]; /* of the line that runs on */
     float depth, slope; /* eye depth, or in perspective its inverse, there and its growth a pixel; depth 0: unknown */
 } stroke;
