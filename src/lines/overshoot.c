@@ -29,7 +29,7 @@ static const float LEAST_SPAN = 12, MOST_OFF = 0.8f, LEAST_BOW = 0.25f, LEAST_RA
 
 /* What leaves within the first angle is the same line, and what leaves within the second is a bend of it, unless its halves differ by the
  * third. */
-static const float SAME_TURN = 0.14f, BEND_TURN = 0.52f, ARC_TURN = 0.12f;
+static const float SAME_TURN = 0.14f, BEND_TURN = 0.37f, ARC_TURN = 0.12f;
 /* Ends this near to each other meet; and a point this far beside a line is not on it. */
 static const int MEETING = 3;
 static const float OFF_LINE = 1.2f;

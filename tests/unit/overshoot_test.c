@@ -199,7 +199,7 @@ static void curves_and_bends_do_not(void **state)
     stroke_set set = find(2, 14, false);
     assert_int_equal(set.count, 0);
     overshoot_release(&set);
-    for (int bend = 4; bend <= 24; bend += 4) { /* a line that bends a little */
+    for (int bend = 4; bend <= 20; bend += 4) { /* a line that bends a little */
         double a[2] = {40, 150}, b[2] = {160, 150}, d[2] = {160 + 120 * cos(bend * pi / 180), 150 + 120 * sin(bend * pi / 180)};
         clear();
         draw_line(a, b, 2, 0);
