@@ -21,7 +21,7 @@ static const float LEAST_LINE = 20, OWN_SHARE = 0.4f, LEAST_STROKE = 3;
  * so that arcs do not pass by their short pieces. */
 static const struct {
     float span, bow;
-} windows[] = {{96, 0.45f}, {40, 0.25f}};
+} windows[] = {{150, 0.5f}, {90, 0.45f}, {40, 0.25f}};
 
 /* Pixels at a chain's ends that other lines' ink has moved; of pointed junctions more. A chain needs this much between its ends. */
 static const float skips[] = {3, 6, 10};
@@ -141,7 +141,7 @@ static bool find_line(window *w, const finding *f, const chain *c, int side)
 {
     for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) {
         if (i > 0 && c->length < windows[i].span)
-            break; /* all of it has been seen */
+            continue; /* all of it has been seen */
         for (size_t k = 0; k < sizeof skips / sizeof *skips; k++) {
             float from = skips[k], to = fminf(from + windows[i].span, c->length - skips[0]);
             if (to - from < LEAST_SPAN)
@@ -537,12 +537,12 @@ void overshoot_release(stroke_set *s)
 
 /* --- painting ------------------------------------------------------------------------------------------------------- */
 
-/* The pencil's pressure along a stroke: it is lifted towards the tip. */
-static float pressure_at(const stroke *s, float along)
+/* The pencil's pressure along a stroke: it is lifted towards the tip. Broad pens end bluntly. */
+static float pressure_at(const stroke *s, const overshoot_style *style, float along)
 {
     float t = (along - s->start) / (s->length - s->start);
     t = fminf(1, fmaxf(0, (t - 0.35f) / 0.65f));
-    return 1 - 0.75f * t * t;
+    return 1 - style->fade * t * t;
 }
 
 static uint32_t with_ink(uint32_t packed, const stroke *s, float share)
@@ -579,7 +579,7 @@ static void paint_pixel(const painter *p, uint32_t *out, float x, float y)
     float first = s->start > 0 ? s->start - BEFORE_LEAVING : -BEFORE_END;
     float inside = fminf(fminf(0.5f * p->style->width + 0.5f - off, s->length + 0.5f - along), along - first);
     if (inside > 0)
-        out[0] = with_ink(out[0], s, fminf(1, inside) * pressure_at(s, along));
+        out[0] = with_ink(out[0], s, fminf(1, inside) * pressure_at(s, p->style, along));
     if (s->depth > 0) {
         float value = s->depth + along * s->slope;
         out[1] = with_depth(out[1], p->perspective ? 1 / value : value);
@@ -626,7 +626,7 @@ static float spread_of(const lines_common *lines)
 bool overshoot_process(const pass_pixels *in, void *out, const void *values)
 {
     const lines_common *lines = values;
-    overshoot_style style = {lines->overshoot, fminf(fmaxf(lines->width, 1), 2), spread_of(lines)};
+    overshoot_style style = {lines->overshoot, fminf(fmaxf(lines->width, 1), 2), spread_of(lines), 0.75f * fminf(1, 2.5f / lines->width)};
     size_t count = (size_t)in->width * (size_t)in->height;
     uint32_t *words = out;
     for (size_t i = 0; i < count; i++) /* other techniques' ink is drawn already; how deep it lies must be known to the end */

@@ -14,6 +14,7 @@ typedef struct overshoot_style {
     float length; /* of an extension, about; pixels */
     float width;  /* of the detected lines */
     float spread; /* how far beside the detected line its ink may come to lie */
+    float fade;   /* share of the ink that is missing at the tip */
 } overshoot_style;
 
 enum { OVERSHOOT_CLASSES = 3 }; /* profile, inner, id */

@@ -106,7 +106,6 @@ static box_verdict judge_box(const shot *s, int count, double length, double wid
     for (int e = 0; e < count; e++)
         for (int side = 0; side < 2; side++) {
             double run = run_of(s, corner_at(s, box_edges[e][!side]), corner_at(s, box_edges[e][side]), 3);
-            if (run < least_of(length)) check_note("edge %d side %d: %.2f", e, side, run);
             v.shortest = fmin(v.shortest, run);
             v.longest = fmax(v.longest, run);
             v.mean += run / (2 * count);

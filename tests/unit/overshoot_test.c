@@ -81,7 +81,7 @@ static stroke_set find(float width, float length, bool with_surfaces)
     pass_pixels in = input(with_surfaces);
     lines_find_ink(ink, edges, SIDE * SIDE, &lines);
     assert_true(chains_trace(&chains, ink, SIDE, SIDE, LINES_SPUR));
-    assert_true(overshoot_find(&strokes, &chains, &in, ink, &(overshoot_style){length, width, 4}));
+    assert_true(overshoot_find(&strokes, &chains, &in, ink, &(overshoot_style){length, width, 4, 0.75f}));
     chains_release(&chains);
     return strokes;
 }
