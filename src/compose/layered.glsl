@@ -49,14 +49,15 @@ float hatch_of(ivec2 pixel)
 }
 #endif
 
-/* Ink of this layer as its place in the stack leaves it. */
-vec4 stacked_ink(vec2 place)
+/* Ink of this layer's i-th repetition as its place in the stack leaves it. */
+vec4 stacked_ink(vec2 place, int i)
 {
     ivec2 pixel = pixel_at(place);
     vec4 ink = layer_ink(ink_at(place));
 #ifdef HAS_CUT
-    /* Cut faces are hatched in the ink of the lines. */
-    ink = over(ink, vec4(u_line_colour.rgb, 1.0) * (u_line_colour.a * hatch_of(pixel)));
+    /* Cut faces are hatched in the ink of the lines, but once, and where the fill is looked up. */
+    if (i == 0)
+        ink = over(ink, vec4(u_line_colour.rgb, 1.0) * (u_line_colour.a * hatch_of(pixel_at(fill_place()))));
 #endif
     int hidden = u_layer > 0 && ink.a > 0.0 ? 1 : 0;
     for (int once = 0; once < hidden; once++) {
@@ -69,9 +70,9 @@ vec4 stacked_ink(vec2 place)
         /* A line lies on either side of its edge; the same edge in front is within half its width. */
         float before = ink_before(pixel);
         int reach = max(int(ceil(0.5 * u_line_width)), 1);
-        for (int i = 1; i <= reach; i++)
-            before = max(before, max(max(ink_before(pixel + ivec2(i, 0)), ink_before(pixel - ivec2(i, 0))),
-                                     max(ink_before(pixel + ivec2(0, i)), ink_before(pixel - ivec2(0, i)))));
+        for (int k = 1; k <= reach; k++)
+            before = max(before, max(max(ink_before(pixel + ivec2(k, 0)), ink_before(pixel - ivec2(k, 0))),
+                                     max(ink_before(pixel + ivec2(0, k)), ink_before(pixel - ivec2(0, k)))));
         ink *= 1.0 - before;
 #endif
 #ifdef HAS_NEARER
@@ -103,7 +104,7 @@ void main()
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
         vec2 place = line_place(i);
         float line_depth = own_depth(pixel_at(place));
-        vec4 own_ink = copy_ink(stacked_ink(place), i);
+        vec4 own_ink = copy_ink(stacked_ink(place, i), i);
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(place));

@@ -23,6 +23,9 @@ float neighbour_depth(ivec2 pixel)
 #elif CONTRAST == 3
     extent += max(u_line_width, 1.0);
 #endif
+#ifdef PERTURBED
+    extent += 1.0; /* between pixels, ink reaches one farther */
+#endif
     int reach = max(int(ceil(extent)), 1);
     float least = 1.0;
 #ifdef HAS_OVERSHOOT

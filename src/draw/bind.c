@@ -21,23 +21,28 @@ static void set_cut(frame *f)
     gpu_set_vec4(f->g, "u_cut_fill", fill);
 }
 
-/* From eye space to the scene's rest pose, measured from its middle. */
-static void set_rest(frame *f)
+/* From eye space to places in the world, measured from where the frames of parts are measured from. */
+static void set_part_frames(frame *f, const figure_state *s)
 {
+    gpu_texture *frames = upload_part_frames(f->up, f->g, f->plan->scene);
     const double *view = f->camera.view.m;
-    const double middle[3] = {(f->plan->box.min.x + f->plan->box.max.x) / 2, (f->plan->box.min.y + f->plan->box.max.y) / 2,
-                              (f->plan->box.min.z + f->plan->box.max.z) / 2};
-    float rest[16] = {0};
+    float world[16] = {0};
     for (int row = 0; row < 3; row++) {
-        double moved = -middle[row];
+        double moved = -f->up->frame_origin[row];
         for (int k = 0; k < 3; k++) {
-            rest[4 * k + row] = (float)view[4 * row + k];
+            world[4 * k + row] = (float)view[4 * row + k];
             moved -= view[4 * row + k] * view[12 + k];
         }
-        rest[12 + row] = (float)moved;
+        world[12 + row] = (float)moved;
     }
-    rest[15] = 1;
-    gpu_set_mat4(f->g, "u_rest_from_eye", rest);
+    world[15] = 1;
+    gpu_set_mat4(f->g, "u_world_from_eye", world);
+    gpu_set_texture(f->g, "t_part_frames", frames, false);
+    int only = 0; /* where there are no ids there is one part */
+    for (size_t i = 0; i < f->plan->scene->part_count; i++)
+        if (s->figure->designated[i])
+            only = (int)i;
+    gpu_set_int(f->g, "u_only_part", only);
 }
 
 /* What the coarse pictures of a perturbation are measured in. */
@@ -53,7 +58,8 @@ static void set_field(frame *f, const figure_state *s)
     gpu_set_uint(f->g, "u_seed", p->seed(use->values, f->seed, f->time_s));
     /* What the pictures of normals and depth were cleared to. */
     gpu_set_float(f->g, "u_empty", (float)(s->figure->layered ? f->camera.far : s->far));
-    set_rest(f);
+    if (gpu_has_uniform(f->g, "u_world_from_eye"))
+        set_part_frames(f, s);
 }
 
 void frame_set_common(frame *f, const figure_state *s)

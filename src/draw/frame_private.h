@@ -109,7 +109,7 @@ void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the pa
 void raster_shade_deferred(frame *f, figure_state *s);
 /* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
-/* The figure's parts with their surfaces moved outwards by some pixels: normals and eye depth. */
+/* The figure's parts with their surfaces moved outwards by some pixels, into TARGET_ENLARGED. */
 void raster_enlarged(frame *f, figure_state *s, float pixels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);

@@ -156,11 +156,12 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
         settle_layers(f, p, as_sprites);
         return;
     }
+    bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
     f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
-    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->solid_count;
+    /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
+    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->solid_count && !perturbed;
     f->reflects = surface && surface->technique->reflects;
-    bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
     f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut) | CHANNEL_SHADE;

@@ -363,8 +363,14 @@ void raster_enlarged(frame *f, figure_state *s, float pixels)
     pass.colours[0] = s->targets[TARGET_ENLARGED] = frame_acquire(f, TARGET_ENLARGED);
     pass.depth = depth;
     if (!gpu_failed(f->g)) {
+        /* The clip planes hug the model; the enlarged one comes nearer and goes farther. */
+        frame wide = *f;
+        double more = 2.02 * (double)pixels / (f->height * f->camera.projection.m[5]);
+        double near = f->camera.near, far = f->camera.far;
+        camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
+                         f->camera.orthographic ? far + more : far * (1 + more));
         gpu_pass_begin(f->g, &pass);
-        draw_parts(f, &(raster_job){.state = s, .at = {0, -1, -1, -1}, .enlarge = pixels});
+        draw_parts(&wide, &(raster_job){.state = s, .at = {0, -1, -1, -1}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }

@@ -142,6 +142,7 @@ void upload_release(upload *u, gpu *g)
         gpu_mesh_destroy(g, &u->meshes[i]);
     for (size_t i = 0; i < u->texture_count && u->textures; i++)
         gpu_texture_destroy(g, &u->textures[i]);
+    gpu_target_release(g, u->part_frames);
     mem_free(u->meshes);
     mem_free(u->textures);
     mem_free(u->items);

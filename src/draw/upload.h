@@ -40,6 +40,8 @@ typedef struct upload {
     size_t        mesh_count, mesh_capacity;
     gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
     size_t        texture_count;
+    gpu_texture  *part_frames; /* NULL: not asked for yet */
+    double        frame_origin[3];
     uint64_t      triangles; /* drawn, instances counted */
     size_t        bytes;
 } upload;
@@ -50,5 +52,10 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
 gpu_texture *upload_texture(upload *u, gpu *g, const lmn_scene *scene, const texture_use *use, bool linear);
+
+/* Three texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from `frame_origin`, to where it is
+ * on the part at rest, in the scene's unit and measured from the part's middle. A part that only moves and turns keeps these places.
+ * Made when first asked for; NULL after an error. */
+gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene);
 
 #endif

@@ -8,7 +8,7 @@
 #ifdef AT_NORMAL_DEPTH
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif
-#if defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE)
+#if defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE) || defined(ENLARGED)
 uniform uint u_part_id;
 uniform uint u_surface_id;
 #endif
@@ -97,7 +97,11 @@ void main()
     bool turned = dot(facing, normal) < 0.0;
 #endif
 #ifdef AT_NORMAL_DEPTH
+#ifdef ENLARGED
+    out_normal_depth = vec4(normal.xy, float(u_part_id), -v_eye.z);
+#else
     out_normal_depth = vec4(normal, -v_eye.z);
+#endif
 #endif
 #ifdef AT_ID
 #ifdef LAYERED

@@ -1,12 +1,5 @@
 /* Gradient noise (Perlin's): three independent values at once. Seed 000, section 6.2. */
-
-uint hash_of(uvec3 v, uint seed)
-{
-    uint hash = v.x * 0x9e3779b1u ^ v.y * 0x85ebca77u ^ v.z * 0xc2b2ae3du ^ seed;
-    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
-    hash = (hash ^ (hash >> 12u)) * 0x297a2d39u;
-    return hash ^ (hash >> 15u);
-}
+#include "perturb/hash.glsl"
 
 vec3 fade_of(vec3 t)
 {
@@ -21,9 +14,16 @@ vec3 corner_of(uvec3 corner, uint seed, vec3 offset)
     return along * (2.0 / 7.0) - (offset.x + offset.y + offset.z);
 }
 
+/* Side of the lattice over the length of the waves that come out of it. */
+const float LATTICE = 0.69;
+
+/* Noise is 0 at the corners of its lattice: this keeps those of all octaves from falling together in the middle of a model. */
+const vec3 LATTICE_SHIFT = vec3(0.4331, 0.2719, 0.6173);
+
 /* In the plane; the lattice repeats after `period` places unless that is 0. */
 vec3 noise_of(vec2 place, int period, uint seed)
 {
+    place += LATTICE_SHIFT.xy * float(1u + (seed & 7u));
     vec2 low = floor(place), inside = place - low;
     vec3 share = fade_of(vec3(inside, 0.0));
     ivec2 first = ivec2(low), second = first + 1;
@@ -41,6 +41,7 @@ vec3 noise_of(vec2 place, int period, uint seed)
 /* In space. */
 vec3 noise_of(vec3 place, uint seed)
 {
+    place += LATTICE_SHIFT * float(1u + (seed & 7u));
     vec3 low = floor(place), inside = place - low, share = fade_of(inside);
     uvec3 first = uvec3(ivec3(low));
     vec3 sum = vec3(0.0);

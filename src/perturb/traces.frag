@@ -8,7 +8,9 @@ uniform vec2  u_texel;
 uniform float u_cell;
 uniform uint  u_seed;
 uniform float u_empty; /* depth where nothing is drawn */
-uniform mat4  u_rest_from_eye;
+uniform mat4  u_world_from_eye;
+uniform int   u_only_part;
+uniform sampler2D t_part_frames;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 3.0
 #include "perturb/noise.glsl"
@@ -18,10 +20,23 @@ vec4 surface_at(vec2 pixel)
 {
     vec2 at = (pixel + 0.5) * u_texel;
 #if OUTWARD == 1
-    return textureLod(t_enlarged, at, 0.0);
+    vec4 found = textureLod(t_enlarged, at, 0.0);
+    return vec4(found.xy, sqrt(max(1.0 - dot(found.xy, found.xy), 0.0)), found.w);
 #else
     vec4 found = textureLod(t_normal_depth, at, 0.0);
     return vec4(found.xyz, found.w < u_empty ? found.w : 0.0);
+#endif
+}
+
+/* The part that a pixel shows, from 0. */
+int part_at(vec2 pixel)
+{
+#if OUTWARD == 1
+    return int(textureLod(t_enlarged, (pixel + 0.5) * u_texel, 0.0).z + 0.5) - 1;
+#elif defined(HAS_ID)
+    return int(texelFetch(t_id, ivec2(pixel), 0).r) - 1;
+#else
+    return u_only_part;
 #endif
 }
 
@@ -45,27 +60,27 @@ float pixel_size(float depth)
 #if BY == 0
 /* Waves of a fixed length on the sheet: the ladder of octaves goes with the size of a pixel on the surface, and each fades in and out
  * as it enters and leaves. */
-vec3 noise_at(vec3 place, float depth)
+vec3 noise_at(vec3 place, float depth, uint seed)
 {
-    float level = log2(u_perturb_scale * pixel_size(depth)), top = floor(level) + 1.0;
+    float level = log2(LATTICE * u_perturb_scale * pixel_size(depth)), top = floor(level) + 1.0;
     vec3 sum = vec3(0.0);
     float weights = 0.0, squares = 0.0;
     for (int i = 0; i <= OCTAVES; i++) {
         float octave = top - float(i), above = octave - level;
         float weight = exp2(min(above, 0.0)) * clamp(1.0 - above, 0.0, 1.0) * clamp(above + float(OCTAVES), 0.0, 1.0);
-        sum += weight * octave_of(noise_of(place * exp2(-octave), u_seed + uint(int(octave) + 64) * 0x51ed270bu));
+        sum += weight * octave_of(noise_of(place * exp2(-octave), seed + uint(int(octave) + 64) * 0x51ed270bu));
         weights += weight;
         squares += weight * weight;
     }
     return uncertainty_of(sum, weights, squares);
 }
 #else
-vec3 noise_at(vec3 place)
+vec3 noise_at(vec3 place, uint seed)
 {
     vec3 sum = vec3(0.0);
     float weight = 1.0, weights = 0.0, squares = 0.0;
     for (int i = 0; i < OCTAVES; i++) {
-        sum += weight * octave_of(noise_of(place, u_seed + uint(i) * 0x51ed270bu));
+        sum += weight * octave_of(noise_of(place, seed + uint(i) * 0x51ed270bu));
         weights += weight;
         squares += weight * weight;
         weight *= 0.5;
@@ -75,20 +90,26 @@ vec3 noise_at(vec3 place)
 }
 #endif
 
+/* In the frame of the part, each part with waves of its own: parts that are moved keep theirs, and equal parts differ as by hand. */
 vec3 trace_of(vec2 pixel, vec4 surface)
 {
-    mat3 turn = mat3(u_rest_from_eye);
+    int part = part_at(pixel);
+    ivec2 at = ivec2(3 * (part % 1024), part / 1024);
+    mat3x4 rows = mat3x4(texelFetch(t_part_frames, at, 0), texelFetch(t_part_frames, at + ivec2(1, 0), 0),
+                         texelFetch(t_part_frames, at + ivec2(2, 0), 0));
+    uint seed = u_seed + uint(part) * 0x632be59bu;
 #if BY == 0
-    vec3 eye = place_of(pixel, surface.w);
-    return noise_at((u_rest_from_eye * vec4(eye, 1.0)).xyz, surface.w);
+    vec4 world = u_world_from_eye * vec4(place_of(pixel, surface.w), 1.0);
+    return noise_at(world * rows, surface.w, seed);
 #elif BY == 1
-    return noise_at(2.0 * (turn * surface.xyz));
+    vec4 normal = u_world_from_eye * vec4(surface.xyz, 0.0);
+    return noise_at(2.0 * (normal * rows), seed);
 #else
-    /* How much the normal turns over a twelfth of a wave. */
-    float way = max(floor(u_perturb_scale / 24.0 + 0.5), 1.0);
+    /* How much the normal turns over an eighteenth of a wave. */
+    float way = max(floor(u_perturb_scale / 36.0 + 0.5), 1.0);
     float bend = surface_at(pixel + vec2(way, 0.0)).x - surface_at(pixel - vec2(way, 0.0)).x +
                  surface_at(pixel + vec2(0.0, way)).y - surface_at(pixel - vec2(0.0, way)).y;
-    return noise_at(vec3(4.0 * bend, 0.37, 0.61));
+    return noise_at(vec3(4.0 * bend, 0.37, 0.61), seed);
 #endif
 }
 
@@ -107,7 +128,7 @@ float step_to(float neighbour, float depth, float opposite)
 float say_of(vec2 pixel, vec4 surface)
 {
     const vec2 ways[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.7071, 0.7071), vec2(0.7071, -0.7071));
-    float wave = u_perturb_scale * pixel_size(surface.w) * exp2(1.0 - float(OCTAVES)), yielded = 1.0, inside = 0.0;
+    float wave = LATTICE * u_perturb_scale * pixel_size(surface.w) * exp2(1.0 - float(OCTAVES)), yielded = 1.0, inside = 0.0;
     for (int ring = 0; ring < 2; ring++)
         for (int i = 0; i < 4; i++) {
             vec2 way = floor((ring == 0 ? 1.2 : 2.4) * u_cell * ways[i] + 0.5);

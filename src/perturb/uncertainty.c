@@ -41,7 +41,7 @@ static const param params[] = {
                    .doc = "object: the wobble moves with the model; screen: it stays on the sheet, and a moving model swims under it."),
     PARAM_ENUM_ROW(uncertainty, field, .names = field_names, .variant = true,
                    .doc = "noise: smooth waves; turbulence: waves with sharp turns, the sum of the octaves' absolute values."),
-    PARAM_FLOAT_ROW(uncertainty, scale, .def = 60, .min = 2, .max = 1000, .soft_min = 10, .soft_max = 300, .unit = UNIT_PX, .along = true,
+    PARAM_FLOAT_ROW(uncertainty, scale, .def = 90, .min = 2, .max = 1000, .soft_min = 15, .soft_max = 400, .unit = UNIT_PX, .along = true,
                     .logarithmic = true, .doc = "Length of the longest waves on the sheet, the same at any distance."),
     PARAM_INT_ROW(uncertainty, octaves, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "Waves of how many lengths; each is half as long and half as strong as the one before."),
@@ -107,11 +107,12 @@ static float reach_of(const void *values)
     return v->amount * fmaxf(edges, shades) + v->rough;
 }
 
-/* Twenty texels a wave; a tile has a whole number of them. */
+/* Texels are so small that the shortest waves of two octaves have fourteen, and so large that those to which the field spreads beside a
+ * surface (perturb/spread.glsl) reach as far as anything moves; a tile has a whole number of them. */
 static float cell_of(const void *values)
 {
     const uncertainty *v = values;
-    float cell = fmaxf(v->scale / 20, 1);
+    float cell = fmaxf(fmaxf(v->scale / 29, reach_of(values) / 7), 1);
     return v->lock == 1 && v->tile > 0 ? v->tile / ceilf(v->tile / cell) : cell;
 }
 
@@ -134,7 +135,7 @@ static const perturbation perturbs = {
 static const pass passes[] = {
     {.name = "noise", .shader = "perturb/page.frag", .writes = TARGET_UNCERTAINTY, .when = "lock=screen"},
     {.name = "enlarged", .geometry = true, .enlarge = "enlarge", .writes = TARGET_ENLARGED, .when = "lock=object&outward=enlarged"},
-    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ENLARGED}, .writes = TARGET_TRACES,
+    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ENLARGED}, .writes = TARGET_TRACES,
      .when = "lock=object"},
     {.name = "spread across", .shader = "perturb/spread_row.frag", .reads = {TARGET_TRACES}, .writes = TARGET_TRACES_ROW,
      .when = "lock=object&outward=continuous"},
@@ -145,6 +146,7 @@ static const pass passes[] = {
 const technique perturb_uncertainty = {
     .name = "uncertainty", .doc = "Lines and fill waver apart, as drawn by hand.",
     .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty), .channels = CHANNEL_NORMAL_DEPTH,
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty),
+    .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID,
     .passes = passes, .pass_count = PARAM_COUNT(passes), .perturbs = &perturbs,
 };

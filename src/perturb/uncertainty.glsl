@@ -1,5 +1,6 @@
 /* Where lines and fill are looked up. Seed 000, section 6.3 and listing 6-1; seed 003, section 4. */
 #include "perturb/field.glsl"
+#include "perturb/hash.glsl"
 
 #define LINE_COPIES REPEAT
 
@@ -7,19 +8,6 @@ vec3  s_uncertainty;
 vec2  s_place;
 vec4  s_grain; /* displacement of this grain: of lines, of fill */
 vec2  s_bare;  /* what is left of lines and of fill */
-
-uvec3 grain_hash(uvec3 v)
-{
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v;
-}
 
 /* To be called first. */
 void find_places(ivec2 pixel)
@@ -30,7 +18,8 @@ void find_places(ivec2 pixel)
     s_bare = vec2(1.0);
     int grainy = u_perturb_rough + u_perturb_tooth > 0.0 ? 1 : 0;
     for (int once = 0; once < grainy; once++) {
-        uvec3 hash = grain_hash(uvec3(uvec2(vec2(pixel) / u_perturb_grain), u_seed));
+        uvec3 place = uvec3(uvec2(vec2(pixel) / u_perturb_grain), 0u);
+        uvec3 hash = uvec3(hash_of(place, u_seed), hash_of(place, u_seed + 1u), hash_of(place, u_seed + 2u));
         s_grain = (vec4(hash.xy & 65535u, hash.xy >> 16u) * (2.0 / 65535.0) - 1.0) * (u_perturb_rough * border_share(pixel));
         float height = float(hash.z >> 8u) / 16777215.0;
         s_bare = clamp(1.0 + 5.0 * (height - u_perturb_tooth * vec2(0.5, 1.0)), 0.0, 1.0);

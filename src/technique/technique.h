@@ -29,7 +29,7 @@ typedef enum target {
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
-    TARGET_ENLARGED,   /* RGBA32F: normal and eye depth of the figure with all surfaces moved outwards; depth 0 where empty */
+    TARGET_ENLARGED,   /* RGBA32F: the figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty) */
     TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */
     TARGET_TRACES_ROW, /* coarse RGBA32F: on the way to the next */
     TARGET_UNCERTAINTY, /* coarse RGBA16F: r, g = offset of lookups, −1 … 1; b = a third value of the same kind */

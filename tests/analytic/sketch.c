@@ -439,10 +439,10 @@ static void against_each(const char *what, const char *look, const sketch_style 
                 /* What is drawn later and lies in front is blended over what is behind it. */
                 sketch_judge(&t, &both, x, y, sketch_over(p[first], p[first].a < 1 ? sketch_over(p[1 - first], ground) : ground), 3);
             }
-        sketch_check("S06", &t, &both, 0.995, what);
+        sketch_check("S06", &t, &both, 0.998, what);
         int least = ball->without_fill ? 8 : 1; /* lines alone are few pixels */
         check_at_least("C18", together, 1500 / least, "  pixels at which both have something");
-        check_at_least("C18", changed, 120 / least, "  pixels at which the perturbation turns which one is seen");
+        check_at_least("C18", changed, 80 / least, "  pixels at which the perturbation turns which one is seen");
     }
     shot_release(&both);
     shot_release(&alone[0]);
@@ -471,6 +471,12 @@ static void depths(void)
     thrice.without_fill = true;
     against_each("lines drawn three times, without fill", LOOK(ANCHOR "{\"select\":\"ball\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"}"
                                                                 ID_LINES THRICE "}," FIGURE("sharp", "#20b040", "")), &thrice, NULL, &slanted);
+    /* Parts of other rules take part in the detection of lines, as is usual; they must not cut the figure's fill. */
+    sketch_style inkless = waves;
+    inkless.ink = (sketch_paint){0, 0, 0, 0};
+    against_each("with the other part in the detection of lines",
+                 LOOK(ANCHOR "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d03020\"},\"lines\":{\"operator\":\"id\",\"profile_weight\":0,"
+                      "\"inner_weight\":0,\"id_weight\":0}" WAVES "}," FIGURE("sharp", "#20b040", "")), &inkless, NULL, &slanted);
     shot_view parallel = slanted;
     parallel.orthographic = true;
     against_each("two sketched parts, parallel rays", LOOK(ANCHOR FIGURE("ball", "#d03020", ID_LINES SCREEN_WAVES) "," FIGURE("sharp", "#20b040", ID_LINES WAVES)), &screen,
@@ -489,7 +495,7 @@ static void mask_identity(void)
     plates(&s);
     if (shot_of_shape(&drawn, &s, "mask.glb", look, NULL, &front)) {
         sketch_maps m = sketch_maps_of(&drawn);
-        int missing = 0, more = 0, beside = 0, odd = 0, odd_elsewhere = 0, odd_missing = 0, fill_only = 0;
+        int missing = 0, more = 0, beside = 0, odd = 0, odd_elsewhere = 0, odd_missing = 0, fill_only = 0, cut_off = 0;
         for (int y = 0; y < drawn.height; y++)
             for (int x = 0; x < drawn.width; x++) {
                 sketch_place e = sketch_moved(&m, x, y, 12, style.edges), f = sketch_moved(&m, x, y, 12, style.shades);
@@ -500,6 +506,7 @@ static void mask_identity(void)
                 const uint8_t *p = sketch_pixel(&drawn, x, y);
                 bool is_odd = p[0] > 240 && p[1] < 20 && p[2] > 240;
                 beside += !line && !fill && ink > 0;
+                cut_off += !line && !fill && ink > 0.2 && !there;
                 missing += (line || fill) && !there;
                 more += !line && !fill && ink <= 0 && there;
                 odd += line && !fill && ink < 0.01;
@@ -507,6 +514,7 @@ static void mask_identity(void)
                 odd_elsewhere += is_odd && (!line || fill);
                 fill_only += fill && !line;
             }
+        check_note("of %d pixels with ink beside the boundary, %d lose more than a fifth of it because no surface is within the line's reach", beside, cut_off);
         check_at_most("C17", missing, 0, "pixels with a lookup inside where nothing is drawn");
         check_at_most("C17", more, 0, "pixels where something is drawn without a lookup inside or ink (beside the boundary: %d)", beside);
         check_at_least("S07", odd, 300, "pixels where only the line's lookup is inside (where only the fill's is: %d)", fill_only);
@@ -882,10 +890,11 @@ static void samples(void)
 {
     static const char *const perturbs[] = {"{\"technique\":\"uncertainty\",\"amount\":9}", "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\"}",
                                            "{\"technique\":\"uncertainty\",\"amount\":9,\"outward\":\"enlarged\"}",
-                                           "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"tile\":100}"};
+                                           "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"tile\":100}",
+                                           "{\"technique\":\"uncertainty\",\"amount\":0.5,\"rough\":8,\"grain\":4}"};
     shape s = {0};
     plates(&s);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         shot      one, sixteen, exact;
         shot_view view = front, fine = front;
         fine.samples = 16;

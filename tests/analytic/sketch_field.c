@@ -302,8 +302,8 @@ static void rim(void)
         char   small[96], large[96];
         shot   a, b;
         double worst = 0;
-        snprintf(small, sizeof small, "\"lock\":\"%s\"", locks[l]);
-        snprintf(large, sizeof large, "\"lock\":\"%s\",\"amount\":15,\"edges_xy\":0.5", locks[l]); /* 15·1.5 px at most */
+        snprintf(small, sizeof small, "\"lock\":\"%s\",\"scale\":200", locks[l]);
+        snprintf(large, sizeof large, "\"lock\":\"%s\",\"scale\":200,\"amount\":15,\"edges_xy\":0.5", locks[l]); /* 15·1.5 px at most */
         bool ok = wall_field(&a, small, &front);
         if (wall_field(&b, large, &front) && ok) {
             for (int y = 2; y < 398; y++)
@@ -373,7 +373,7 @@ static void model(shape *s)
 static shot_view frame_view(int frame)
 {
     double angle = (30 + 1.2 * frame) * pi / 180, distance = 9 * pow(0.992, frame);
-    return (shot_view){.width = 320, .height = 240, .eye = {distance * sin(angle), 0.35 * distance, distance * cos(angle)}, .up = {0, 1, 0}};
+    return (shot_view){.width = 480, .height = 360, .eye = {distance * sin(angle), 0.35 * distance, distance * cos(angle)}, .up = {0, 1, 0}};
 }
 
 typedef enum place_class { PLACE_AMID, PLACE_WITHIN, PLACE_BEHIND, PLACE_OUTSIDE, PLACE_CLASSES } place_class;
@@ -472,10 +472,22 @@ static void add_drift(drift *d, const shot *from, const shot *to, const uint8_t 
         }
 }
 
-/* Two boxes, of which the second moves to the right by 1 in a second. */
-static bool write_moving(void)
+/* Is the pixel's surroundings all on one part and, with `flat`, on one face? */
+static bool amid(const shot *s, int x, int y, int radius, bool flat)
 {
-    static const float    times[2] = {0, 1}, ways[6] = {0, 0, 0, 1, 0, 0};
+    int own = y * s->width + x;
+    for (int v = -radius; v <= radius; v++)
+        for (int u = -radius; u <= radius; u++) {
+            int i = (y + v) * s->width + x + u;
+            if (s->id[i] != s->id[own] || (flat && fabsf(s->normal[i][0] - s->normal[own][0]) + fabsf(s->normal[i][1] - s->normal[own][1]) > 0.01f))
+                return false;
+        }
+    return true;
+}
+
+/* Two boxes, of which the second's node is turned by a quarter about Z and moved to the right. */
+static bool write_moving(const char *name, double right, bool turned)
+{
     static const uint16_t faces[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
     float corners[2][24];
     for (int part = 0; part < 2; part++)
@@ -485,57 +497,61 @@ static bool write_moving(void)
             corners[part][3 * k + 2] = k & 4 ? 0.5f : -0.5f;
         }
     FILE *bytes = fopen(check_path("moving.bin"), "wb");
-    bool  ok = bytes && fwrite(corners, sizeof corners, 1, bytes) && fwrite(faces, sizeof faces, 1, bytes) && fwrite(times, sizeof times, 1, bytes) &&
-              fwrite(ways, sizeof ways, 1, bytes);
+    bool  ok = bytes && fwrite(corners, sizeof corners, 1, bytes) && fwrite(faces, sizeof faces, 1, bytes);
     ok = bytes && fclose(bytes) == 0 && ok;
-    FILE *text = fopen(check_path("moving.gltf"), "w");
+    FILE *text = fopen(check_path("%s", name), "w");
     if (!text)
         return false;
-    fputs("{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"name\":\"still\",\"mesh\":0},{\"name\":\"moving\",\"mesh\":1}],"
+    fprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"name\":\"still\",\"mesh\":0},{\"name\":\"moving\",\"mesh\":1,"
+          "\"translation\":[%.9g,0,0],\"rotation\":[0,0,%s]}],", right, turned ? "0.70710678,0.70710678" : "0,1");
+    fputs(
           "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]},{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":2}]}],"
-          "\"buffers\":[{\"uri\":\"moving.bin\",\"byteLength\":296}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":96},"
-          "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":192,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":264,\"byteLength\":8},"
-          "{\"buffer\":0,\"byteOffset\":272,\"byteLength\":24}],\"accessors\":["
+          "\"buffers\":[{\"uri\":\"moving.bin\",\"byteLength\":264}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":96},"
+          "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":192,\"byteLength\":72}],\"accessors\":["
           "{\"bufferView\":0,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-1.4,-0.8,-0.5],\"max\":[-0.4,0.8,0.5]},"
           "{\"bufferView\":1,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-0.2,-0.8,-0.5],\"max\":[0.8,0.8,0.5]},"
-          "{\"bufferView\":2,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"},"
-          "{\"bufferView\":3,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\",\"min\":[0],\"max\":[1]},"
-          "{\"bufferView\":4,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],"
-          "\"animations\":[{\"samplers\":[{\"input\":3,\"output\":4}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}}]}]}", text);
+          "{\"bufferView\":2,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"}]}", text);
     return fclose(text) == 0 && ok;
 }
 
-/* One part moves before a still view: the field goes with it, and stays where it is on the other. */
-static void animated(void)
+/* One part is moved, and turned by a quarter, before a still view: the field goes with it, and stays where it is on the other. */
+static void moved_part(void)
 {
-    char path[560];
-    shot before, after;
-    shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true}, later = view;
-    if (!check_that("S12", write_moving(), "a moving model is written"))
-        return;
-    snprintf(path, sizeof path, "%s", check_path("moving.gltf"));
-    double pixel = 2 * 12 * tan(15 * pi / 180) / 320, sum[2] = {0}, worst[2] = {0};
-    int    count[2] = {0};
-    later.time_s = 20 * pixel; /* to the right by 20 px */
-    bool ok = shot_take(&before, path, look_of("\"lock\":\"object\""), NULL, &view);
-    if (shot_take(&after, path, look_of("\"lock\":\"object\""), NULL, &later) && ok && before.uncertainty && after.uncertainty)
-        for (int y = 8; y < 312; y++)
-            for (int x = 8; x < 290; x++) {
-                int id = before.id[y * 320 + x], way = id == 2 ? 20 : 0;
-                /* away from the gap between them, where either has a share of the say */
-                if (!id || after.id[y * 320 + x + way] != id || (id == 1 ? before.id[y * 320 + x + 16] != 1 : before.id[y * 320 + x - 16] != 2))
+    char rest[560];
+    shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true};
+    double pixel = 2 * 12 * tan(15 * pi / 180) / 320;
+    shot   before;
+    bool   ok = check_that("S12", write_moving("rest.gltf", 0, false), "a model is written");
+    snprintf(rest, sizeof rest, "%s", check_path("rest.gltf"));
+    ok = ok && shot_take(&before, rest, look_of("\"lock\":\"object\""), NULL, &view) && before.uncertainty;
+    for (int turned = 0; turned < 2 && ok; turned++) {
+        shot   after;
+        double sum[2] = {0}, worst[2] = {0};
+        int    count[2] = {0};
+        ok = write_moving("moved.gltf", 40 * pixel, turned) &&
+             shot_take(&after, check_path("moved.gltf"), look_of("\"lock\":\"object\""), NULL, &view) && after.uncertainty;
+        for (int y = 8; y < 312 && ok; y++)
+            for (int x = 8; x < 312; x++) {
+                /* Where the place is afterwards: a quarter about the middle of the page turns right into up. */
+                int id = before.id[y * 320 + x], to_x = x, to_y = y;
+                if (id == 2) {
+                    to_x = (turned ? y : x) + 40;
+                    to_y = turned ? 319 - x : y;
+                }
+                if (!id || to_x >= 312 || !amid(&before, x, y, 16, false) || !amid(&after, to_x, to_y, 16, false) || after.id[to_y * 320 + to_x] != id)
                     continue;
-                double change = hypot(at(&before, x, y, 0) - at(&after, x + way, y, 0), at(&before, x, y, 1) - at(&after, x + way, y, 1));
+                double change = hypot(at(&before, x, y, 0) - at(&after, to_x, to_y, 0), at(&before, x, y, 1) - at(&after, to_x, to_y, 1));
                 sum[id - 1] += change;
                 worst[id - 1] = fmax(worst[id - 1], change);
                 count[id - 1]++;
             }
-    for (int k = 0; k < 2; k++) {
-        check_at_least("S12", count[k], 1000, "pixels of the part that %s", k ? "moves" : "rests");
-        check_at_most("S12", count[k] ? sum[k] / count[k] : 9, 0.05, "  mean change of the field on it, greatest %.3f", worst[k]);
+        for (int k = 0; k < 2; k++) {
+            check_at_least("S12", count[k], 500, "pixels of the part that %s", !k ? "rests" : turned ? "is moved and turned" : "is moved");
+            check_at_most("S12", count[k] ? sum[k] / count[k] : 9, 0.05, "  mean change of the field on it, greatest %.3f", worst[k]);
+        }
+        shot_release(&after);
     }
     shot_release(&before);
-    shot_release(&after);
 }
 
 static double mean_drift(const drift *d, place_class class)
@@ -548,10 +564,12 @@ static double mean_drift(const drift *d, place_class class)
 static void coherence(void)
 {
     enum { FRAMES = 60 };
-    static const char *const settings[3] = {"\"amount\":4,\"lock\":\"object\"", "\"amount\":4,\"lock\":\"screen\"", "\"amount\":4,\"lock\":\"screen\""};
+    /* Waves of a tenth of the picture, as the look "sketch" has them on a page. */
+    static const char *const settings[3] = {"\"amount\":4,\"scale\":40,\"lock\":\"object\"", "\"amount\":4,\"scale\":40,\"lock\":\"screen\"",
+                                            "\"amount\":4,\"scale\":40,\"lock\":\"screen\""};
     /* Round silhouettes slide over the surface as fast as it moves on the page: outside of them nothing can be tied to a place of it. And
      * whoever approaches must see waves fade in and out, or they would not keep their length on the page. */
-    static const double limits[PLACE_CLASSES] = {0.3, 0.5, 1.2, 1};
+    static const double limits[PLACE_CLASSES] = {0.25, 0.4, 0.8, 0.8};
     static const char *const names[3] = {"on the model", "on the page", "new each frame"};
     shape s = {0};
     shot  before[3] = {{0}};
@@ -584,10 +602,16 @@ static void coherence(void)
         check_at_most("S12", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[1], (place_class)c), limits[c], "%s: change a frame, on the model over on the page",
                       place_names[c]);
         check_at_most("S11", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[2], (place_class)c), 0.1, "  on the model over new each frame");
-        check_at_most("S11", (double)drifts[0].jumps[c] / (double)drifts[0].count[c], c == PLACE_BEHIND ? 0.006 : 0.003, "  share of places whose lines jump by a quarter of the amount from a frame to the next");
+        check_at_most("S11", (double)drifts[0].jumps[c] / (double)drifts[1].jumps[c], 0.4, "  places whose lines jump by a quarter of the amount from a frame to the next, over those on the page");
     }
-    for (int k = 0; k < 3; k++)
+    double all[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < PLACE_OUTSIDE; c++)
+            all[k] += drifts[k].sum[c];
         shot_release(&before[k]);
+    }
+    check_at_most("S12", all[0] / all[1], 0.25, "all visible places: change a frame, on the model over on the page");
+    check_at_most("S11", all[0] / all[2], 0.1, "  on the model over new each frame");
     shape_release(&s);
 }
 
@@ -623,7 +647,7 @@ static void panned(void)
         shot      a, b;
         shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true}, moved = view;
         double    pixel = 2 * 12 * tan(15 * pi / 180) / 320, worst = 0, sum = 0;
-        int       count = 0;
+        int       count = 0, far = 0, wx = 0, wy = 0;
         moved.eye.x -= ways[k] * pixel;
         moved.target.x -= ways[k] * pixel;
         bool ok = field_of(&a, &s, "\"lock\":\"object\"", &view);
@@ -632,12 +656,17 @@ static void panned(void)
                 for (int x = 10; x < 270; x++)
                     if (isfinite(a.depth[y * 320 + x])) {
                         double change = hypot(at(&a, x, y, 0) - at(&b, x + ways[k], y, 0), at(&a, x, y, 1) - at(&b, x + ways[k], y, 1));
-                        worst = fmax(worst, change);
+                        if (change > worst) {
+                            worst = change;
+                            wx = x;
+                            wy = y;
+                        }
+                        far += change > 0.3;
                         sum += change;
                         count++;
                     }
             check_at_most("S12", sum / count, 0.02, "moved by %d px: mean change of the field on the model", ways[k]);
-            check_at_most("S12", worst, 0.3, "  the greatest");
+            check_at_most("S12", (double)far / count, 0.003, "  share of places where it changes by more than 0.3 (the greatest, %.3f, at %d %d)", worst, wx, wy);
         }
         shot_release(&a);
         shot_release(&b);
@@ -700,7 +729,7 @@ static void continuity(void)
             steepness a = steepness_of(&smooth), b = steepness_of(&enlarged);
             check_at_most("S12", a.worst, 4 * 2 * pi / 60, "frame %d: greatest difference of neighbouring pixels (at %d, %d from the upper left), spread from surfaces", frame,
                           a.x, a.y);
-            check_at_least("S13", b.worst / a.worst, 3, "  how much more it is with the enlarged model");
+            check_at_least("S13", b.worst / a.worst, 1.5, "  how much more it is with the enlarged model");
             check_note("enlarged: %.3f; pairs that differ by more than 0.2: %d and %d", b.worst, a.jumps, b.jumps);
             smooth_jumps += a.jumps;
             enlarged_jumps += b.jumps;
@@ -740,8 +769,8 @@ static void enlarged(void)
                     empty += far > 1 && far < width - 3 && !there;
                     inner += far < -1;
                     holes += far < -1 && !there;
-                    beyond += far > width + 4;
-                    traces += far > width + 4 && there;
+                    beyond += far > width + 6;
+                    traces += far > width + 6 && there;
                 }
                 check_at_most("S13", (double)empty / band, 0.02, "enlarged by %d px, distance %g: share of the band outside the silhouette (radius %.0f) without a field", width,
                               distances[k], radius);
@@ -753,43 +782,40 @@ static void enlarged(void)
         }
 }
 
-/* Outside, where displaced lines are looked up, the field is as strong as inside. */
+/* Outside, as far as a displaced line may lie, the field is as strong as inside, and nowhere missing. */
 static void outside(void)
 {
-    shape s = {0};
-    shot  field;
-    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
-    if (field_of(&field, &s, "\"lock\":\"object\"", &front)) {
-        double sum[2] = {0};
-        int    count[2] = {0};
-        for (int i = 0; i < 400 * 400; i++) {
-            double far = hypot(i % 400 - 199.5, i / 400 - 199.5) - 93.3;
-            if (fabs(far) > 20)
-                continue;
-            double n = (double)field.uncertainty[i][0];
-            sum[far > 0] += n * n;
-            count[far > 0]++;
+    static const int cases[][2] = {{4, 60}, {20, 60}, {40, 60}, {20, 20}, {40, 12}};
+    for (int k = 0; k < 5; k++) {
+        char      settings[96];
+        shape     s = {0};
+        shot      field;
+        shot_view view = front;
+        view.width = view.height = 480;
+        shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true); /* 112 px */
+        snprintf(settings, sizeof settings, "\"lock\":\"object\",\"amount\":%d,\"scale\":%d", cases[k][0], cases[k][1]);
+        if (field_of(&field, &s, settings, &view)) {
+            double sum[2] = {0};
+            int    count[2] = {0}, missing = 0;
+            for (int i = 0; i < 480 * 480; i++) {
+                double far = hypot(i % 480 - 239.5, i / 480 - 239.5) - 112;
+                if (fabs(far) > cases[k][0])
+                    continue;
+                double n = (double)field.uncertainty[i][0], m = (double)field.uncertainty[i][1];
+                sum[far > 0] += n * n + m * m;
+                count[far > 0]++;
+                missing += far > 0 && hypot(n, m) < 1e-4;
+            }
+            check_near("S13", sqrt(sum[1] / count[1] / (sum[0] / count[0])), 0.9, 0.4, "scale %d: strength of the field up to %d px outside over that inside", cases[k][1],
+                       cases[k][0]);
+            check_at_most("S13", (double)missing / count[1], 0.01, "  share of the pixels there without a field");
         }
-        check_near("S13", sqrt(sum[1] / count[1] / (sum[0] / count[0])), 0.9, 0.4, "strength of the field up to 20 px outside over that inside");
+        shot_release(&field);
+        shape_release(&s);
     }
-    shot_release(&field);
-    shape_release(&s);
 }
 
 /* --- of other properties ------------------------------------------------------------------------------------------- */
-
-/* Is the pixel's surroundings all on one part and, with `flat`, on one face? */
-static bool amid(const shot *s, int x, int y, int radius, bool flat)
-{
-    int own = y * s->width + x;
-    for (int v = -radius; v <= radius; v++)
-        for (int u = -radius; u <= radius; u++) {
-            int i = (y + v) * s->width + x + u;
-            if (s->id[i] != s->id[own] || (flat && fabsf(s->normal[i][0] - s->normal[own][0]) + fabsf(s->normal[i][1] - s->normal[own][1]) > 0.01f))
-                return false;
-        }
-    return true;
-}
 
 static void by_normal(void)
 {
@@ -803,7 +829,7 @@ static void by_normal(void)
         for (int y = 20; y < 340; y++)
             for (int x = 20; x < 340; x++) {
                 const float *n = field.normal[y * 360 + x];
-                if (!field.id[y * 360 + x] || !amid(&field, x, y, 12, true))
+                if (!field.id[y * 360 + x] || !amid(&field, x, y, 26, true))
                     continue;
                 int    face = n[1] > 0.5f ? 0 : n[0] > 0 ? 1 : 2;
                 double v = at(&field, x, y, 0);
@@ -854,7 +880,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"noise", noise},         {"seeds", seeds_and_time},   {"waves", waves},           {"tiles", tiles},           {"middle", middle}, {"turbulence", turbulence},
-        {"rim", rim},             {"distances", distances},    {"coherence", coherence},   {"standstill", standstill}, {"panned", panned},         {"animated", animated},
+        {"rim", rim},             {"distances", distances},    {"coherence", coherence},   {"standstill", standstill}, {"panned", panned},         {"moved part", moved_part},
         {"continuity", continuity}, {"enlarged", enlarged},    {"outside", outside},       {"normal", by_normal},      {"curvature", by_curvature},
     };
     int status = check_main(argc, argv, "sketch_field", cases, sizeof cases / sizeof *cases);

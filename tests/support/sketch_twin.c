@@ -150,7 +150,7 @@ sketch_paint sketch_copy_ink(const sketch_maps *m, const sketch_style *style, in
     sketch_paint ink = sketch_ink(edge, i ? style->repeat_inks[i - 1] : style->ink);
     *depth = sketch_depth(m, e);
     if (!isfinite(*depth) && ink.a > 0)
-        *depth = sketch_reach(m, e, 1);
+        *depth = sketch_reach(m, e, 2); /* half the line's width, and one pixel for what filtering spreads */
     return ink;
 }
 
