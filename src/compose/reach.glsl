@@ -1,5 +1,18 @@
-/* Ink outside a figure's boundary belongs to the surface it surrounds: the nearest one within the line's reach. */
+/* Ink outside a figure's boundary belongs to the surface it surrounds: the nearest one within the line's reach. Where a line runs on,
+ * it does so in space. */
 bool is_own(ivec2 at);
+
+#ifdef HAS_OVERSHOOT
+uniform vec4 u_window_depth; /* of the projection: what makes window depth of eye depth */
+
+float overshoot_depth(ivec2 pixel)
+{
+    uint bits = texelFetch(t_overshoot, pixel, 0).g;
+    float depth = uintBitsToFloat(bits);
+    float window = (u_window_depth.y - u_window_depth.x * depth) / (u_window_depth.w - u_window_depth.z * depth);
+    return bits == 0u ? 1.0 : clamp(0.5 * window + 0.5, 0.0, 1.0);
+}
+#endif
 
 float neighbour_depth(ivec2 pixel)
 {
@@ -15,6 +28,9 @@ float neighbour_depth(ivec2 pixel)
 #endif
     int reach = max(int(ceil(extent)), 1);
     float least = 1.0;
+#ifdef HAS_OVERSHOOT
+    least = overshoot_depth(pixel);
+#endif
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
             ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);

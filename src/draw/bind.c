@@ -69,6 +69,8 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_vec2(g, "u_texel", 1 / (float)f->width, 1 / (float)f->height);
     gpu_set_float(g, "u_perspective", f->camera.orthographic ? 0 : 1);
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
+    const double *m = f->camera.projection.m;
+    gpu_set_vec4(g, "u_window_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
     gpu_set_float(g, "u_near", (float)s->near);
     gpu_set_float(g, "u_far", (float)s->far);
     gpu_set_int(g, "u_layer", s->layer);
@@ -112,7 +114,7 @@ static const gpu_format formats[TARGET_COUNT] = {
     [TARGET_NEARER] = GPU_RGBA16F,       [TARGET_DASH] = GPU_R8,             [TARGET_GROUND] = GPU_RGBA16F,
     [TARGET_ENLARGED] = GPU_RGBA32F,     [TARGET_TRACES] = GPU_RGBA32F,      [TARGET_TRACES_ROW] = GPU_RGBA32F,
     [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
-    [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,
+    [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
 };
 
 gpu_texture *frame_acquire(frame *f, target t)
@@ -263,6 +265,8 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
     for (int i = 0; i < count; i++)
         if (reads[i] == TARGET_DASH && s->targets[TARGET_DASH])
             text_append(prelude, "#define HAS_DASHES\n");
+        else if (reads[i] == TARGET_OVERSHOOT && s->targets[TARGET_OVERSHOOT])
+            text_append(prelude, "#define HAS_OVERSHOOT\n");
     if (s->targets[TARGET_EDGE_BEFORE])
         text_append(prelude, "#define MAP_OF_BEFORE\n");
     if (s->targets[TARGET_NEARER])

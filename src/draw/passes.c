@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layer/layer.h"
 
 typedef struct pass_params {
     param_set   sets[5];
@@ -133,11 +134,10 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     watch_stop(f, w, group, p->name);
 }
 
-/* Each line technique has dashes of its own, or none. */
-static void forget_dashes(frame *f, figure_state *s)
+static void forget(frame *f, figure_state *s, target t)
 {
-    gpu_target_release(f->g, s->targets[TARGET_DASH]);
-    s->targets[TARGET_DASH] = NULL;
+    gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = NULL;
 }
 
 /* Where a pass has anything to do: the box around all that is drawn. */
@@ -148,22 +148,61 @@ static void box_of_interest(const figure_state *s, int out[4])
         box_widen(out, s->boxes[i]);
 }
 
+/* A picture that a pass on the CPU reads. Depths are taken as they were drawn: filters invent some beside edges. */
+static const float *read_floats(frame *f, const figure_state *s, target t, const int box[4])
+{
+    float *out = mem_alloc((size_t)box[2] * (size_t)box[3] * 4 * sizeof *out);
+    if (out)
+        gpu_read_box(f->g, t == TARGET_NORMAL_DEPTH ? s->geometry : target_of(f, s, t), box, out);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    return out;
+}
+
+/* Where the figure's own surfaces are; NULL when all are, or memory is gone. */
+static const uint8_t *read_own(frame *f, const figure_state *s, const int box[4])
+{
+    if (!s->targets[TARGET_ID] || (!s->figure->complement && !s->shared))
+        return NULL;
+    size_t count = (size_t)box[2] * (size_t)box[3];
+    uint32_t *ids = mem_alloc(count * 2 * sizeof *ids);
+    uint8_t *own = mem_alloc(count);
+    if (ids && own)
+        gpu_read_box(f->g, s->targets[TARGET_ID], box, ids);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    bool good = !gpu_failed(f->g);
+    for (size_t i = 0; i < count && good; i++) {
+        uint32_t surface = ids[2 * i + 1], figure = (surface >> SURFACE_INDEX_BITS) & FIGURES_TOGETHER_MAX;
+        own[i] = ids[2 * i] && (s->shared ? (int)figure == s->index : !(surface & SURFACE_COMPLEMENT));
+    }
+    mem_free(ids);
+    if (!good)
+        mem_free(own);
+    return good ? own : NULL;
+}
+
 /* A pass on the CPU. Outside the box its picture is undefined: nothing is inked there. */
 static void run_process(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     stopwatch w = watch_start(f);
     int box[4];
     box_of_interest(s, box);
-    size_t count = (size_t)box[2] * (size_t)box[3];
-    float *in = mem_alloc(count * 4 * sizeof *in);
-    uint8_t *out = mem_alloc(count);
+    pass_pixels in = {.own = read_own(f, s, box), .x = box[0], .y = box[1], .width = box[2], .height = box[3],
+                      .pixel = (float)(2 / (f->camera.projection.m[5] * f->height)), .perspective = !f->camera.orthographic};
+    for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
+        in.values[i] = read_floats(f, s, p->reads[i], box);
     gpu_texture *written = frame_acquire(f, p->writes);
-    if (in && out)
-        gpu_read_box(f->g, target_of(f, s, p->reads[0]), box, in);
-    if (!in || !out || (!gpu_failed(f->g) && !p->process(&(pass_pixels){in, box[2], box[3]}, out, use->values)))
+    size_t size = p->writes == TARGET_OVERSHOOT ? 2 * sizeof(uint32_t) : 1;
+    void *out = mem_calloc((size_t)box[2] * (size_t)box[3], size);
+    if (out && s->targets[p->writes])
+        gpu_read_box(f->g, s->targets[p->writes], box, out);
+    if (!out || (!gpu_failed(f->g) && !p->process(&in, out, use->values)))
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     gpu_target_write(f->g, written, box, out);
-    mem_free(in);
+    for (int i = 0; i < PASS_READS_MAX; i++)
+        mem_free((void *)in.values[i]);
+    mem_free((void *)in.own);
     mem_free(out);
     gpu_target_release(f->g, s->targets[p->writes]);
     s->targets[p->writes] = written;
@@ -173,8 +212,8 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use)
 {
     const technique *t = use->technique;
-    if (id == KIND_LINES)
-        forget_dashes(f, s);
+    if (id == KIND_LINES) /* each line technique has dashes of its own, or none */
+        forget(f, s, TARGET_DASH);
     pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
     const technique_use *lines = rule_inked_lines(s->figure->rule);
@@ -191,14 +230,12 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
     }
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
-        if (!pass_applies(id, p, use))
+        if (!pass_applies(id, p, use) || (p->stylised && f->maps))
             continue;
         if (p->geometry)
             run_geometry(f, s, p, use, kinds[id]->name);
-        else if (p->process && !f->maps) /* maps show what was detected */
-            run_process(f, s, p, use, kinds[id]->name);
         else if (p->process)
-            continue;
+            run_process(f, s, p, use, kinds[id]->name);
         else
             for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
                 run_pass(f, s, p, &params, kinds[id]->name, k);
@@ -215,8 +252,10 @@ static void fold_lines(frame *f, figure_state *s, kind_id id, const technique_us
 void passes_run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
+    if (id == KIND_LINES)
+        forget(f, s, TARGET_OVERSHOOT);
     if (id == KIND_LINES && !f->maps && rule_merged_detection(r)) {
-        forget_dashes(f, s);
+        forget(f, s, TARGET_DASH);
         return;
     }
     for (size_t i = 0; i < r->use_counts[id]; i++) {

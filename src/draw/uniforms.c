@@ -13,7 +13,7 @@ static const char *const target_names[TARGET_COUNT] = {
     [TARGET_NEARER] = "t_nearer",             [TARGET_DASH] = "t_dash",               [TARGET_GROUND] = "t_ground",
     [TARGET_ENLARGED] = "t_enlarged",         [TARGET_TRACES] = "t_traces",           [TARGET_TRACES_ROW] = "t_traces_row",
     [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
-    [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",
+    [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",              [TARGET_OVERSHOOT] = "t_overshoot",
 };
 
 const char *target_name(target t)
@@ -23,7 +23,7 @@ const char *target_name(target t)
 
 void target_declare(text *prelude, target t)
 {
-    text_append(prelude, "uniform %s %s;\n", t == TARGET_ID ? "usampler2D" : "sampler2D", target_names[t]);
+    text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
 }
 
 static void declare_variant(text *prelude, const param *p, const void *values)

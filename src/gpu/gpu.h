@@ -66,7 +66,7 @@ int  gpu_texture_height(const gpu_texture *t);
 void gpu_read(gpu *g, gpu_texture *t, void *out);
 /* The same for a part (x, y, width, height); not of depth or R8. */
 void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out);
-/* Writes a part of an 8-bit picture; rows follow each other without gaps. */
+/* Writes a part of a picture of bytes or integers; rows follow each other without gaps. */
 void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixels);
 
 /* --- programs ------------------------------------------------------------------------------------------------------ */

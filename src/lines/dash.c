@@ -8,8 +8,6 @@
 #include "base/memory.h"
 #include "lines/lines.h"
 
-/* Ink of less than a line's weight is shading and stays as it is. A side branch shorter than this comes from thinning. */
-static const float LINE_INK = 0.15f, SPUR = 3.5f;
 /* The detected map's lines reach this far from their middle; and chains of less than this share of a period stay whole. */
 static const float DETECTED_REACH = 3.5f, LEAST_PERIOD = 0.75f, LEAST_DASHES = 1.5f;
 /* Half of the widest lines, with eight samples a side. */
@@ -180,34 +178,17 @@ bool dash_paint(uint8_t *out, int width, int height, const chain_set *set, const
 
 /* --- the pass ----------------------------------------------------------------------------------------------------- */
 
-static float weight_of(float weight, colour own, colour standard)
-{
-    float alpha = isnan(own.r) ? standard.a : own.a;
-    return alpha > 0 ? weight : 0;
-}
-
-/* Pixels of lines: the strongest class of ink, as the ink shader weighs them. Lines that are translucent are lines all the same. */
-static void find_ink(uint8_t *ink, const pass_pixels *edges, const lines_common *lines)
-{
-    float profile = weight_of(lines->profile_weight, lines->colour, lines->colour);
-    float inner = weight_of(lines->inner_weight, lines->inner_colour, lines->colour);
-    float id = weight_of(lines->id_weight, lines->id_colour, lines->colour);
-    for (size_t i = 0, count = (size_t)edges->width * (size_t)edges->height; i < count; i++) {
-        const float *edge = &edges->values[4 * i];
-        ink[i] = (1 - edge[0]) * profile >= LINE_INK || (1 - edge[1]) * inner >= LINE_INK || (1 - edge[3]) * id >= LINE_INK;
-    }
-}
-
-bool dash_process(const pass_pixels *edges, uint8_t *out, const void *values)
+bool dash_process(const pass_pixels *in, void *out, const void *values)
 {
     const lines_common *lines = values;
     dash_style style = {lines->dash, lines->gap, lines->width};
     chain_set set = {0};
-    uint8_t *ink = mem_alloc((size_t)edges->width * (size_t)edges->height);
+    size_t count = (size_t)in->width * (size_t)in->height;
+    uint8_t *ink = mem_alloc(count);
     bool good = ink != NULL;
     if (good) {
-        find_ink(ink, edges, lines);
-        good = chains_trace(&set, ink, edges->width, edges->height, SPUR) && dash_paint(out, edges->width, edges->height, &set, &style);
+        lines_find_ink(ink, in->values[0], count, lines);
+        good = chains_trace(&set, ink, in->width, in->height, LINES_SPUR) && dash_paint(out, in->width, in->height, &set, &style);
     }
     chains_release(&set);
     mem_free(ink);

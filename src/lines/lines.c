@@ -1,6 +1,10 @@
 /* The table of line techniques and what all of them share. */
 #include "lines/lines.h"
 
+#include <math.h>
+
+#include "lines/overshoot.h"
+
 static const char *const contrasts[] = {"none", "double", "adaptive", "directed", NULL};
 
 static const param common[] = {
@@ -43,7 +47,30 @@ static const param common[] = {
                            "unbroken, and a dash no longer than the line is wide becomes a dot."),
     PARAM_FLOAT_ROW(lines_common, gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,
                     .only_if = "dash", .doc = "Length of the gaps between dashes."),
+    PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 64, .soft_max = 32, .unit = UNIT_PX, .reach = OVERSHOOT_MOST, .cpu_only = true,
+                    .doc = "How far straight lines run on past corners and junctions, as in architects' drafts; it varies from line to line, "
+                           "and short lines run on less. 0 ends them where they meet."),
 };
+
+/* Ink of less than this is shading. */
+static const float line_ink = 0.15f;
+
+static float weight_of(float weight, colour own, colour standard)
+{
+    float alpha = isnan(own.r) ? standard.a : own.a;
+    return alpha > 0 ? weight : 0;
+}
+
+void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_common *lines)
+{
+    float profile = weight_of(lines->profile_weight, lines->colour, lines->colour);
+    float inner = weight_of(lines->inner_weight, lines->inner_colour, lines->colour);
+    float id = weight_of(lines->id_weight, lines->id_colour, lines->colour);
+    for (size_t i = 0; i < count; i++) {
+        const float *edge = &edges[4 * i];
+        ink[i] = (1 - edge[0]) * profile >= line_ink || (1 - edge[1]) * inner >= line_ink || (1 - edge[3]) * id >= line_ink;
+    }
+}
 
 static const technique *const techniques[] = {
     &lines_discontinuity, &lines_four_tap, &lines_sobel, &lines_saito, &lines_saito_normalised, &lines_denormal,

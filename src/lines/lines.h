@@ -6,8 +6,9 @@
 
 extern const kind kind_lines;
 
-/* What the pass "dashes" does; see lines/dash.h. */
-bool dash_process(const pass_pixels *edges, uint8_t *out, const void *values);
+/* What the passes "dashes" and "overshoot" do; see lines/dash.h and lines/overshoot.h. */
+bool dash_process(const pass_pixels *in, void *out, const void *values);
+bool overshoot_process(const pass_pixels *in, void *out, const void *values);
 
 /* What every line technique has. First member of each technique's parameters. */
 typedef struct lines_common {
@@ -16,15 +17,27 @@ typedef struct lines_common {
     float   gain, threshold, sharpen;
     int32_t contrast;
     float   offset_x, offset_y, suppress, blur;
-    float   dash, gap;
+    float   dash, gap, overshoot;
 } lines_common;
 
-/* Passes that surround an operator's own. Dashes are placed before lines grow: thin ones are traced best. */
+/* Side branches shorter than this come from thinning, pixels. */
+#define LINES_SPUR 3.5f
+
+/* Pixels of lines (not 0): the strongest class of ink of an edge map, as the ink shader weighs them. Ink of less than a line's weight is
+ * shading; lines that are translucent are lines all the same. */
+void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_common *lines);
+
+/* Passes that surround an operator's own. Lines run on and are dashed before they grow: thin ones are traced best. */
 #define LINES_PASSES_BEFORE                                                                                           \
     {.name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                      \
      .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"}
 #define LINES_PASSES_BEHIND                                                                                           \
-    {.name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash"},       \
+    {.name = "overshoot", .process = overshoot_process, .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH},                  \
+     .writes = TARGET_OVERSHOOT, .when = "overshoot", .stylised = true},                                              \
+    {.name = "overshoot ink", .shader = "lines/edge/overshoot.frag", .reads = {TARGET_EDGE, TARGET_OVERSHOOT},        \
+     .writes = TARGET_EDGE, .when = "overshoot", .stylised = true},                                                   \
+    {.name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",        \
+     .stylised = true},                                                                                               \
     {.name = "grow", .shader = "lines/edge/grow.frag", .reads = {TARGET_EDGE}, .writes = TARGET_EDGE,                 \
      .when = "width>2"},                                                                                              \
     {.name = "ground", .shader = "lines/ground.frag", .reads = {TARGET_SHADE, TARGET_PAGE},                           \

@@ -59,6 +59,7 @@ typedef struct param {
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               cpu_only;    /* no uniform */
     bool               along;       /* a length along lines, which makes them no wider */
+    float              reach;       /* lengths: how many times as far they can reach; 0 is once */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
     const char        *example;     /* PARAM_TEXT: a value that does something, for tests */
     bool               is_selector; /* PARAM_TEXT: selects parts; src/look checks it */

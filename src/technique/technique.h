@@ -27,6 +27,7 @@ typedef enum target {
     TARGET_NEARER_ROW, /* RGBA16F: on the way to the next */
     TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
+    TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_ENLARGED,   /* RGBA32F: the figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty) */
     TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */
@@ -39,14 +40,17 @@ typedef enum target {
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 10 };
+enum { PASS_READS_MAX = 11 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
-/* What a pass on the CPU reads: a part of a picture, row 0 at the bottom. */
+/* What a pass on the CPU reads: a part of its pictures, row 0 at the bottom. */
 typedef struct pass_pixels {
-    const float *values; /* 4 a pixel */
-    int          width, height;
+    const float   *values[PASS_READS_MAX]; /* of each picture that it reads, 4 a pixel */
+    const uint8_t *own;    /* not 0 where the figure's own surfaces are; NULL: all that is there is its own */
+    int            x, y, width, height; /* of the part */
+    float          pixel;  /* side of a pixel at depth 1 in perspective, at any depth without, file units */
+    bool           perspective;
 } pass_pixels;
 
 /* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
@@ -59,11 +63,12 @@ typedef struct pass {
     bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
     bool        geometry; /* draws the figure's parts again instead of a full screen: shaded and inked by the shader file's ink_at */
     const char *enlarge;  /* with geometry: key of the length in pixels by which surfaces are moved along their normals; no shader */
-    /* Instead of a shader: work on the CPU, from the first picture that is read (of floats) to the written one (R8). Gets the
-     * technique's values; false when memory is gone. */
-    bool      (*process)(const pass_pixels *in, uint8_t *out, const void *values);
+    /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of the figure's line
+     * techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
+    bool      (*process)(const pass_pixels *in, void *out, const void *values);
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
+    bool        stylised; /* left out in maps, which show what was detected */
     bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
 } pass;
 

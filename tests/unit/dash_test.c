@@ -415,7 +415,7 @@ static void maps_are_weighed(void **state)
                                   .dash = 8, .gap = 5};
             for (int i = 0; i < W * H * 4; i++)
                 values[i] = i % 4 == channel && i / 4 / W == 4 ? 0 : 1;
-            assert_true(dash_process(&(pass_pixels){values, W, H}, out, &lines));
+            assert_true(dash_process(&(pass_pixels){.values = {values}, .width = W, .height = H}, out, &lines));
             int open = 0;
             for (int x = 0; x < W; x++)
                 open += out[4 * W + x] < 128;
