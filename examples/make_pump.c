@@ -3,10 +3,9 @@
  * Every part is one closed shell (solid.h), and no part cuts into another: what fits has a clearance of some hundredths. Threads
  * are left out, as on drawings. Lengths are millimetres; the shafts run along z, the driving end is at +z, +y is up. The inlet is
  * at +x, the outlet at −x. */
-#include "solid.h"
+#include "model.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { ROUND = 64, SMALL_ROUND = 40 };
@@ -588,10 +587,7 @@ static void build_spring(mesh *m)
 
 typedef enum material { CASTING, COVER, STEEL, GEAR, BRASS, RUBBER, IRON, ZINC, FIBRE, MATERIALS } material;
 
-static const struct {
-    const char *name;
-    double      colour[3]; /* linear */
-} materials[MATERIALS] = {
+static const model_material materials[MATERIALS] = {
     [CASTING] = {"Casting", {0.110, 0.180, 0.270}}, [COVER] = {"Machined casting", {0.190, 0.270, 0.350}},
     [STEEL] = {"Steel", {0.520, 0.540, 0.570}},     [GEAR] = {"Hardened steel", {0.350, 0.370, 0.410}},
     [BRASS] = {"Brass", {0.600, 0.390, 0.120}},     [RUBBER] = {"Rubber", {0.025, 0.025, 0.030}},
@@ -602,33 +598,22 @@ static const struct {
 typedef enum group { CASING, DRIVE, IDLER, BEARINGS, VALVE, GROUPS } group;
 
 /* Drive and idler have their axles as origins, so that they can be turned. */
-static const struct {
-    const char *name;
-    double      at[3];
-} groups[GROUPS] = {
+static const model_group groups[GROUPS] = {
     [CASING] = {"Casing", {0}},     [DRIVE] = {"Drive", {0, 19.5, 0}},  [IDLER] = {"Idler", {0, -19.5, 0}},
     [BEARINGS] = {"Bearings", {0}}, [VALVE] = {"Relief valve", {0, 0, -13}},
 };
 
-typedef struct part {
-    const char *name;
-    group       group;
-    material    material;
-    void (*build)(mesh *); /* parts with the same one share a mesh */
-    double at[3];
-} part;
-
 enum { PARTS_MAX = 32 };
 
 typedef struct assembly {
-    part parts[PARTS_MAX];
-    int  count;
-    char names[6][8]; /* of the bolts */
+    model_part parts[PARTS_MAX];
+    int        count;
+    char       names[6][8]; /* of the bolts */
 } assembly;
 
 static void list_parts(assembly *a)
 {
-    static const part rest[] = {
+    static const model_part rest[] = {
         {"Drive shaft", DRIVE, STEEL, build_drive_shaft, {0}},
         {"Gear key", DRIVE, ZINC, build_gear_key, {0}},
         {"Drive gear", DRIVE, GEAR, build_drive_gear, {0}},
@@ -642,125 +627,28 @@ static void list_parts(assembly *a)
         {"Bush 4", BEARINGS, BRASS, build_short_bush, {0, -19.5, 33.2}},
         {"Seal", BEARINGS, RUBBER, build_seal, {0, 19.5, 51}},
     };
-    a->parts[a->count++] = (part){"Housing", CASING, CASTING, build_housing, {0}};
-    a->parts[a->count++] = (part){"Gasket", CASING, FIBRE, build_gasket, {0}};
-    a->parts[a->count++] = (part){"Cover", CASING, COVER, build_cover, {0}};
+    a->parts[a->count++] = (model_part){"Housing", CASING, CASTING, build_housing, {0}};
+    a->parts[a->count++] = (model_part){"Gasket", CASING, FIBRE, build_gasket, {0}};
+    a->parts[a->count++] = (model_part){"Cover", CASING, COVER, build_cover, {0}};
     for (int b = 0; b < 6; b++) {
-        part *p = &a->parts[a->count++];
+        model_part *p = &a->parts[a->count++];
         snprintf(a->names[b], sizeof a->names[b], "Bolt %d", (b + 1) % 10);
-        *p = (part){a->names[b], CASING, ZINC, build_bolt, {0, 0, bolt_seat + fit}};
+        *p = (model_part){a->names[b], CASING, ZINC, build_bolt, {0, 0, bolt_seat + fit}};
         bolt_place(b, p->at);
     }
     for (size_t i = 0; i < sizeof rest / sizeof *rest; i++)
         a->parts[a->count++] = rest[i];
-    a->parts[a->count++] = (part){"Valve ball", VALVE, STEEL, build_ball, {ball_place(), 0, 0}};
-    a->parts[a->count++] = (part){"Valve spring", VALVE, STEEL, build_spring, {ball_place(), 0, 0}};
-    a->parts[a->count++] = (part){"Valve plug", VALVE, ZINC, build_plug, {body_radius + fit, 0, 0}};
-}
-
-/* --- the file ---------------------------------------------------------------------------------------------------- */
-
-typedef struct text {
-    char  *bytes;
-    size_t size;
-    FILE  *stream;
-} text;
-
-/* The binary chunk and the JSON lists that grow while meshes are put into it. */
-typedef struct glb {
-    text bytes, views, accessors, meshes;
-    int  view_count, accessor_count, mesh_count;
-} glb;
-
-static void text_start(text *t)
-{
-    *t = (text){0};
-    t->stream = open_memstream(&t->bytes, &t->size);
-    if (!t->stream)
-        give_up();
-}
-
-static void text_end(text *t)
-{
-    if (fclose(t->stream) != 0)
-        give_up();
-}
-
-/* target: 34962 for vertices, 34963 for indices, 0 for other things. */
-static int put_view(glb *g, const void *bytes, size_t size, int target)
-{
-    static const char zeros[4];
-    fprintf(g->views.stream, "%s{\"buffer\":0,\"byteOffset\":%ld,\"byteLength\":%zu", g->view_count ? "," : "",
-            ftell(g->bytes.stream), size);
-    fprintf(g->views.stream, target ? ",\"target\":%d}" : "}", target);
-    fwrite(bytes, 1, size, g->bytes.stream);
-    fwrite(zeros, 1, (4 - size % 4) % 4, g->bytes.stream);
-    return g->view_count++;
-}
-
-static int put_floats(glb *g, const float *values, uint32_t count, int components, const char *type, int target)
-{
-    int view = put_view(g, values, (size_t)count * (size_t)components * sizeof *values, target);
-    fprintf(g->accessors.stream, "%s{\"bufferView\":%d,\"componentType\":5126,\"count\":%u,\"type\":\"%s\"",
-            g->accessor_count ? "," : "", view, count, type);
-    for (int end = 0; end < 2; end++) {
-        fprintf(g->accessors.stream, end ? ",\"max\":[" : ",\"min\":[");
-        for (int k = 0; k < components; k++) {
-            float most = values[k];
-            for (uint32_t i = 1; i < count; i++) {
-                float value = values[i * (uint32_t)components + (uint32_t)k];
-                most = (end ? value > most : value < most) ? value : most;
-            }
-            fprintf(g->accessors.stream, "%s%.9g", k ? "," : "", (double)most);
-        }
-        fprintf(g->accessors.stream, "]");
-    }
-    fprintf(g->accessors.stream, "}");
-    return g->accessor_count++;
-}
-
-static int put_indices(glb *g, const mesh *m)
-{
-    bool small = m->point_count <= UINT16_MAX;
-    size_t size = small ? sizeof(uint16_t) : sizeof(uint32_t);
-    unsigned char *bytes = malloc(m->index_count * size);
-    if (!bytes)
-        give_up();
-    for (uint32_t i = 0; i < m->index_count; i++)
-        for (size_t k = 0; k < size; k++)
-            bytes[i * size + k] = (unsigned char)(m->indices[i] >> (8 * k));
-    int view = put_view(g, bytes, m->index_count * size, 34963);
-    free(bytes);
-    fprintf(g->accessors.stream, ",{\"bufferView\":%d,\"componentType\":%d,\"count\":%u,\"type\":\"SCALAR\"}", view,
-            small ? 5123 : 5125, m->index_count);
-    return g->accessor_count++;
-}
-
-static void put_mesh(glb *g, const part *p)
-{
-    mesh m = {0};
-    p->build(&m);
-    drop_unused(&m);
-    float *positions = malloc(m.point_count * 3 * sizeof *positions);
-    if (!positions)
-        give_up();
-    for (uint32_t i = 0; i < m.point_count * 3; i++)
-        positions[i] = (float)(m.points[i / 3].at[i % 3] / (GRID * 1000)); /* the file's metres */
-    int vertices = put_floats(g, positions, m.point_count, 3, "VEC3", 34962), indices = put_indices(g, &m);
-    fprintf(g->meshes.stream, "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d},\"indices\":%d,\"material\":%d}]}",
-            g->mesh_count ? "," : "", vertices, indices, p->material);
-    free(positions);
-    free(m.points);
-    free(m.indices);
-    g->mesh_count++;
+    a->parts[a->count++] = (model_part){"Valve ball", VALVE, STEEL, build_ball, {ball_place(), 0, 0}};
+    a->parts[a->count++] = (model_part){"Valve spring", VALVE, STEEL, build_spring, {ball_place(), 0, 0}};
+    a->parts[a->count++] = (model_part){"Valve plug", VALVE, ZINC, build_plug, {body_radius + fit, 0, 0}};
 }
 
 /* One turn of both shafts in four seconds, the driving one the way that brings the oil from the inlet (at +x) to the outlet. */
-static void put_animation(glb *g, FILE *json)
+static void animate(glb *g, FILE *json)
 {
     enum { KEYS = 4 };
     static const float times[KEYS] = {0, (float)4 / 3, (float)8 / 3, 4};
-    int input = put_floats(g, times, KEYS, 1, "SCALAR", 0);
+    int input = glb_put_floats(g, times, KEYS, 1, "SCALAR", 0);
     fprintf(json, "\"animations\":[{\"name\":\"Run\",\"samplers\":[");
     for (int way = 1; way >= -1; way -= 2) {
         float values[KEYS][4] = {0};
@@ -768,7 +656,7 @@ static void put_animation(glb *g, FILE *json)
             values[k][2] = (float)(way * round(sin(PI * k / 3) * 1e6) / 1e6);
             values[k][3] = (float)(round(cos(PI * k / 3) * 1e6) / 1e6);
         }
-        int output = put_floats(g, values[0], KEYS, 4, "VEC4", 0);
+        int output = glb_put_floats(g, values[0], KEYS, 4, "VEC4", 0);
         fprintf(json, "%s{\"input\":%d,\"output\":%d}", way < 0 ? "," : "", input, output);
     }
     fprintf(json, "],\"channels\":[");
@@ -778,103 +666,12 @@ static void put_animation(glb *g, FILE *json)
     fprintf(json, "]}],");
 }
 
-static void put_translation(FILE *json, const double at[3])
-{
-    if (at[0] != 0 || at[1] != 0 || at[2] != 0)
-        fprintf(json, ",\"translation\":[%.7g,%.7g,%.7g]", at[0] / 1000, at[1] / 1000, at[2] / 1000);
-}
-
-/* Node 0 is the pump, then come the groups, then the parts. */
-static void put_nodes(FILE *json, const assembly *a, const int *mesh_of)
-{
-    fprintf(json, "\"nodes\":[{\"name\":\"Gear pump\",\"children\":[1,2,3,4,5]}");
-    for (int k = 0; k < GROUPS; k++) {
-        fprintf(json, ",{\"name\":\"%s\"", groups[k].name);
-        put_translation(json, groups[k].at);
-        const char *before = ",\"children\":[";
-        for (int i = 0; i < a->count; i++)
-            if ((int)a->parts[i].group == k) {
-                fprintf(json, "%s%d", before, 1 + GROUPS + i);
-                before = ",";
-            }
-        fprintf(json, "]}");
-    }
-    for (int i = 0; i < a->count; i++) {
-        fprintf(json, ",{\"name\":\"%s\",\"mesh\":%d", a->parts[i].name, mesh_of[i]);
-        put_translation(json, a->parts[i].at);
-        fprintf(json, "}");
-    }
-    fprintf(json, "],");
-}
-
-static void put_materials(FILE *json)
-{
-    fprintf(json, "\"materials\":[");
-    for (int k = 0; k < MATERIALS; k++)
-        fprintf(json,
-                "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],\"metallicFactor\":0,"
-                "\"roughnessFactor\":0.6}}",
-                k ? "," : "", materials[k].name, materials[k].colour[0], materials[k].colour[1], materials[k].colour[2]);
-    fprintf(json, "],");
-}
-
-static void put_word(FILE *file, size_t word)
-{
-    for (int k = 0; k < 4; k++)
-        fputc((int)(word >> (8 * k) & 255), file);
-}
-
-static bool save(const char *path, const text *json, const text *bytes)
-{
-    FILE *file = fopen(path, "wb");
-    if (!file)
-        return false;
-    size_t padding = (4 - json->size % 4) % 4;
-    fwrite("glTF", 1, 4, file);
-    put_word(file, 2);
-    put_word(file, 12 + 8 + json->size + padding + 8 + bytes->size);
-    put_word(file, json->size + padding);
-    fwrite("JSON", 1, 4, file);
-    fwrite(json->bytes, 1, json->size, file);
-    fwrite("   ", 1, padding, file);
-    put_word(file, bytes->size);
-    fwrite("BIN\0", 1, 4, file);
-    fwrite(bytes->bytes, 1, bytes->size, file);
-    bool good = !ferror(file);
-    return fclose(file) == 0 && good;
-}
-
 int main(int count, char **arguments)
 {
     if (count != 2)
         return EXIT_FAILURE;
     assembly a = {.count = 0};
-    int mesh_of[PARTS_MAX];
     list_parts(&a);
-    glb g = {0};
-    text json, *lists[] = {&g.bytes, &g.views, &g.accessors, &g.meshes, &json};
-    for (int k = 0; k < 5; k++)
-        text_start(lists[k]);
-    fprintf(json.stream, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner make_pump\",\"copyright\":\"CC0-1.0\"},"
-                         "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],");
-    for (int i = 0; i < a.count; i++) {
-        int like = 0;
-        while (a.parts[like].build != a.parts[i].build)
-            like++;
-        mesh_of[i] = like < i ? mesh_of[like] : g.mesh_count;
-        if (like == i)
-            put_mesh(&g, &a.parts[i]);
-    }
-    put_nodes(json.stream, &a, mesh_of);
-    put_animation(&g, json.stream);
-    put_materials(json.stream);
-    for (int k = 0; k < 4; k++)
-        text_end(lists[k]);
-    fprintf(json.stream, "\"meshes\":[%s],\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}",
-            g.meshes.bytes, g.accessors.bytes, g.views.bytes, g.bytes.size);
-    text_end(&json);
-    bool saved = save(arguments[1], &json, &g.bytes);
-    for (int k = 0; k < 5; k++)
-        free(lists[k]->bytes);
-    return saved ? EXIT_SUCCESS : EXIT_FAILURE;
+    const model pump = {"make_pump", "Gear pump", 1000, materials, MATERIALS, groups, GROUPS, a.parts, a.count, animate};
+    return model_write(&pump, arguments[1]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

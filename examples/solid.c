@@ -313,18 +313,25 @@ void lathe(mesh *m, const frame *f, const double (*profile)[2], int count, int s
         *last = before;
 }
 
-void extrude(mesh *m, const outline *outer, const outline *holes, int hole_count, double from, double to)
+void extrude_along(mesh *m, const frame *f, const outline *outer, const outline *holes, int hole_count, double from, double to)
 {
-    const frame f = {.along = FRONT};
-    ring low = put_ring(m, &f, outer, from), high = put_ring(m, &f, outer, to), low_holes[HOLES_MAX], high_holes[HOLES_MAX];
+    static const direction opposites[] = {
+        [RIGHT] = LEFT, [LEFT] = RIGHT, [UP] = DOWN, [DOWN] = UP, [FRONT] = BACK, [BACK] = FRONT,
+    };
+    ring low = put_ring(m, f, outer, from), high = put_ring(m, f, outer, to), low_holes[HOLES_MAX], high_holes[HOLES_MAX];
     sew(m, &low, &high);
     for (int h = 0; h < hole_count; h++) {
-        low_holes[h] = put_ring(m, &f, &holes[h], from);
-        high_holes[h] = put_ring(m, &f, &holes[h], to);
+        low_holes[h] = put_ring(m, f, &holes[h], from);
+        high_holes[h] = put_ring(m, f, &holes[h], to);
         sew(m, &high_holes[h], &low_holes[h]);
     }
-    cap(m, BACK, &low, low_holes, hole_count);
-    cap(m, FRONT, &high, high_holes, hole_count);
+    cap(m, opposites[f->along], &low, low_holes, hole_count);
+    cap(m, f->along, &high, high_holes, hole_count);
+}
+
+void extrude(mesh *m, const outline *outer, const outline *holes, int hole_count, double from, double to)
+{
+    extrude_along(m, &(frame){.along = FRONT}, outer, holes, hole_count, from, to);
 }
 
 void drop_unused(mesh *m)

@@ -1,8 +1,9 @@
 /* Solids that are sewn from rings of points: strips between rings, flat faces within them. A shell is closed when every ring
  * was used twice, where one strip or face ends and where the next begins; a hole that leads through is simply a longer walk.
  *
- * Points lie on a grid of 0.1 µm and flat faces are divided in whole numbers, so that every machine makes the same triangles.
- * Whatever fails ends the program: nothing that fails here can be mended by whoever runs it. */
+ * Each model has its unit of length. Points lie on a grid of 1/10000 of it and flat faces are divided in whole numbers, so that
+ * every machine makes the same triangles. Whatever fails ends the program: nothing that fails here can be
+ * mended by whoever runs it. */
 #ifndef EXAMPLES_SOLID_H
 #define EXAMPLES_SOLID_H
 
@@ -11,7 +12,7 @@
 
 enum { RING_MAX = 640, HOLES_MAX = 16 };
 
-#define GRID 10000.0 /* steps per millimetre */
+#define GRID 10000.0 /* steps per unit of length */
 #define PI   3.14159265358979323846
 
 typedef struct point {
@@ -67,7 +68,8 @@ void lathe(mesh *m, const frame *f, const double (*profile)[2], int count, int s
     lathe(mesh, frame, (const double[][2]){__VA_ARGS__}, (int)(sizeof((const double[][2]){__VA_ARGS__}) / sizeof(double[2])),      \
           segments, first, last)
 
-/* A plate with holes between two heights, standing up to the front. */
+/* A plate with holes between two heights along f->along, or standing up to the front. */
+void extrude_along(mesh *m, const frame *f, const outline *outer, const outline *holes, int hole_count, double from, double to);
 void extrude(mesh *m, const outline *outer, const outline *holes, int hole_count, double from, double to);
 
 /* Removes points that no triangle uses. */

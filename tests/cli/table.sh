@@ -321,7 +321,7 @@ group_looks() {
 
 group_sketch() {
     local look
-    for look in sketch chalk redraw sketch-blueprint; do
+    for look in sketch draft chalk redraw sketch-blueprint; do
         row 0 '' 'a.png' draw "$gear" $small --look $look -o a.png && is_png a.png 64 64
     done
     # Nothing moves: the very picture of the look without it.

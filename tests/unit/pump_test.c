@@ -2,7 +2,7 @@
  * material. Looks that see through, and sections even more, show every mistake in that. */
 #include <math.h>
 
-#include "import_support.h"
+#include "closed_parts.h"
 
 typedef struct corner3 {
     double x, y, z;
@@ -93,34 +93,10 @@ static void has_its_parts(void **state)
     assert_in_range(info.triangles, 15000, 60000);
 }
 
-static int compare_edges(const void *a, const void *b)
-{
-    const uint64_t *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* Every edge is used once, and once in the other direction. */
 static void parts_are_closed(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < scene->mesh_count; i++) {
-        assert_int_equal(scene->meshes[i].primitive_count, 1);
-        const primitive *p = scene->meshes[i].primitives;
-        uint64_t *edges = mem_alloc(2 * p->index_count * sizeof *edges), *back = edges + p->index_count;
-        assert_non_null(edges);
-        for (uint32_t k = 0; k < p->index_count; k++) {
-            uint64_t from = p->indices[k], to = p->indices[k % 3 == 2 ? k - 2 : k + 1];
-            edges[k] = from << 32 | to;
-            back[k] = to << 32 | from;
-        }
-        qsort(edges, p->index_count, sizeof *edges, compare_edges);
-        qsort(back, p->index_count, sizeof *back, compare_edges);
-        for (uint32_t k = 0; k < p->index_count; k++) {
-            assert_true(k == 0 || edges[k] != edges[k - 1]);
-            assert_int_equal(edges[k], back[k]);
-        }
-        mem_free(edges);
-    }
+    assert_closed(scene);
 }
 
 static corner3 minus(corner3 a, corner3 b)

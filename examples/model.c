@@ -1,0 +1,225 @@
+#include "model.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct text {
+    char  *bytes;
+    size_t size;
+    FILE  *stream;
+} text;
+
+/* The binary chunk and the JSON lists that grow while meshes are put into it. */
+struct glb {
+    text bytes, views, accessors, meshes;
+    int  view_count, accessor_count, mesh_count;
+};
+
+static void text_start(text *t)
+{
+    *t = (text){0};
+    t->stream = open_memstream(&t->bytes, &t->size);
+    if (!t->stream)
+        give_up();
+}
+
+static void text_end(text *t)
+{
+    if (fclose(t->stream) != 0)
+        give_up();
+}
+
+/* target: 34962 for vertices, 34963 for indices, 0 for other things. */
+static int put_view(glb *g, const void *bytes, size_t size, int target)
+{
+    static const char zeros[4];
+    fprintf(g->views.stream, "%s{\"buffer\":0,\"byteOffset\":%ld,\"byteLength\":%zu", g->view_count ? "," : "",
+            ftell(g->bytes.stream), size);
+    fprintf(g->views.stream, target ? ",\"target\":%d}" : "}", target);
+    fwrite(bytes, 1, size, g->bytes.stream);
+    fwrite(zeros, 1, (4 - size % 4) % 4, g->bytes.stream);
+    return g->view_count++;
+}
+
+int glb_put_floats(glb *g, const float *values, uint32_t count, int components, const char *type, int target)
+{
+    int view = put_view(g, values, (size_t)count * (size_t)components * sizeof *values, target);
+    fprintf(g->accessors.stream, "%s{\"bufferView\":%d,\"componentType\":5126,\"count\":%u,\"type\":\"%s\"",
+            g->accessor_count ? "," : "", view, count, type);
+    for (int end = 0; end < 2; end++) {
+        fprintf(g->accessors.stream, end ? ",\"max\":[" : ",\"min\":[");
+        for (int k = 0; k < components; k++) {
+            float most = values[k];
+            for (uint32_t i = 1; i < count; i++) {
+                float value = values[i * (uint32_t)components + (uint32_t)k];
+                most = (end ? value > most : value < most) ? value : most;
+            }
+            fprintf(g->accessors.stream, "%s%.9g", k ? "," : "", (double)most);
+        }
+        fprintf(g->accessors.stream, "]");
+    }
+    fprintf(g->accessors.stream, "}");
+    return g->accessor_count++;
+}
+
+static int put_indices(glb *g, const mesh *m)
+{
+    bool small = m->point_count <= UINT16_MAX;
+    size_t size = small ? sizeof(uint16_t) : sizeof(uint32_t);
+    unsigned char *bytes = malloc(m->index_count * size);
+    if (!bytes)
+        give_up();
+    for (uint32_t i = 0; i < m->index_count; i++)
+        for (size_t k = 0; k < size; k++)
+            bytes[i * size + k] = (unsigned char)(m->indices[i] >> (8 * k));
+    int view = put_view(g, bytes, m->index_count * size, 34963);
+    free(bytes);
+    fprintf(g->accessors.stream, ",{\"bufferView\":%d,\"componentType\":%d,\"count\":%u,\"type\":\"SCALAR\"}", view,
+            small ? 5123 : 5125, m->index_count);
+    return g->accessor_count++;
+}
+
+static void put_mesh(glb *g, const model_part *p, double units_per_metre)
+{
+    mesh m = {0};
+    p->build(&m);
+    drop_unused(&m);
+    float *positions = malloc(m.point_count * 3 * sizeof *positions);
+    if (!positions)
+        give_up();
+    for (uint32_t i = 0; i < m.point_count * 3; i++)
+        positions[i] = (float)(m.points[i / 3].at[i % 3] / (GRID * units_per_metre));
+    int vertices = glb_put_floats(g, positions, m.point_count, 3, "VEC3", 34962), indices = put_indices(g, &m);
+    fprintf(g->meshes.stream, "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d},\"indices\":%d,\"material\":%d}]}",
+            g->mesh_count ? "," : "", vertices, indices, p->material);
+    free(positions);
+    free(m.points);
+    free(m.indices);
+    g->mesh_count++;
+}
+
+static bool same_mesh(const model_part *a, const model_part *b)
+{
+    return a->build == b->build && a->material == b->material;
+}
+
+static int *put_meshes(glb *g, const model *m)
+{
+    int *mesh_of = calloc((size_t)m->part_count, sizeof *mesh_of);
+    if (!mesh_of)
+        give_up();
+    for (int i = 0; i < m->part_count; i++) {
+        int like = 0;
+        while (!same_mesh(&m->parts[like], &m->parts[i]))
+            like++;
+        mesh_of[i] = like < i ? mesh_of[like] : g->mesh_count;
+        if (like == i)
+            put_mesh(g, &m->parts[i], m->units_per_metre);
+    }
+    return mesh_of;
+}
+
+static void put_translation(FILE *json, const double at[3], double units_per_metre)
+{
+    if (at[0] != 0 || at[1] != 0 || at[2] != 0)
+        fprintf(json, ",\"translation\":[%.7g,%.7g,%.7g]", at[0] / units_per_metre, at[1] / units_per_metre,
+                at[2] / units_per_metre);
+}
+
+static void put_rotation(FILE *json, int quarter_turns)
+{
+    static const char *const turned[4] = {"", "0,0.70710678,0,0.70710678", "0,1,0,0", "0,-0.70710678,0,0.70710678"};
+    if (quarter_turns % 4 != 0)
+        fprintf(json, ",\"rotation\":[%s]", turned[quarter_turns % 4]);
+}
+
+/* Node 0 is the whole, then come the groups, then the parts. Every group has a part. */
+static void put_nodes(FILE *json, const model *m, const int *mesh_of)
+{
+    fprintf(json, "\"nodes\":[{\"name\":\"%s\",\"children\":[1", m->name);
+    for (int k = 1; k < m->group_count; k++)
+        fprintf(json, ",%d", 1 + k);
+    fprintf(json, "]}");
+    for (int k = 0; k < m->group_count; k++) {
+        fprintf(json, ",{\"name\":\"%s\"", m->groups[k].name);
+        put_translation(json, m->groups[k].at, m->units_per_metre);
+        put_rotation(json, m->groups[k].quarter_turns);
+        const char *before = ",\"children\":[";
+        for (int i = 0; i < m->part_count; i++)
+            if (m->parts[i].group == k) {
+                fprintf(json, "%s%d", before, 1 + m->group_count + i);
+                before = ",";
+            }
+        fprintf(json, "]}");
+    }
+    for (int i = 0; i < m->part_count; i++) {
+        fprintf(json, ",{\"name\":\"%s\",\"mesh\":%d", m->parts[i].name, mesh_of[i]);
+        put_translation(json, m->parts[i].at, m->units_per_metre);
+        fprintf(json, "}");
+    }
+    fprintf(json, "],");
+}
+
+static void put_materials(FILE *json, const model *m)
+{
+    fprintf(json, "\"materials\":[");
+    for (int k = 0; k < m->material_count; k++) {
+        const model_material *one = &m->materials[k];
+        fprintf(json,
+                "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],\"metallicFactor\":0,"
+                "\"roughnessFactor\":0.6}}",
+                k ? "," : "", one->name, one->colour[0], one->colour[1], one->colour[2]);
+    }
+    fprintf(json, "],");
+}
+
+static void put_word(FILE *file, size_t word)
+{
+    for (int k = 0; k < 4; k++)
+        fputc((int)(word >> (8 * k) & 255), file);
+}
+
+static bool save(const char *path, const text *json, const text *bytes)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        return false;
+    size_t padding = (4 - json->size % 4) % 4;
+    fwrite("glTF", 1, 4, file);
+    put_word(file, 2);
+    put_word(file, 12 + 8 + json->size + padding + 8 + bytes->size);
+    put_word(file, json->size + padding);
+    fwrite("JSON", 1, 4, file);
+    fwrite(json->bytes, 1, json->size, file);
+    fwrite("   ", 1, padding, file);
+    put_word(file, bytes->size);
+    fwrite("BIN\0", 1, 4, file);
+    fwrite(bytes->bytes, 1, bytes->size, file);
+    bool good = !ferror(file);
+    return fclose(file) == 0 && good;
+}
+
+bool model_write(const model *m, const char *path)
+{
+    glb g = {0};
+    text json, *lists[] = {&g.bytes, &g.views, &g.accessors, &g.meshes, &json};
+    for (int k = 0; k < 5; k++)
+        text_start(lists[k]);
+    fprintf(json.stream, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner %s\",\"copyright\":\"CC0-1.0\"},"
+                         "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", m->generator);
+    int *mesh_of = put_meshes(&g, m);
+    put_nodes(json.stream, m, mesh_of);
+    free(mesh_of);
+    if (m->animate)
+        m->animate(&g, json.stream);
+    put_materials(json.stream, m);
+    for (int k = 0; k < 4; k++)
+        text_end(lists[k]);
+    fprintf(json.stream, "\"meshes\":[%s],\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}",
+            g.meshes.bytes, g.accessors.bytes, g.views.bytes, g.bytes.size);
+    text_end(&json);
+    bool saved = save(path, &json, &g.bytes);
+    for (int k = 0; k < 5; k++)
+        free(lists[k]->bytes);
+    return saved;
+}
