@@ -189,7 +189,8 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
     int box[4];
     box_of_interest(s, box);
     pass_pixels in = {.own = read_own(f, s, box), .x = box[0], .y = box[1], .width = box[2], .height = box[3],
-                      .pixel = (float)(2 / (f->camera.projection.m[5] * f->height)), .perspective = !f->camera.orthographic};
+                      .pixel = (float)(2 / (f->camera.projection.m[5] * f->height)), .scale = (float)f->samples,
+                      .perspective = !f->camera.orthographic};
     for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
         in.values[i] = read_floats(f, s, p->reads[i], box);
     gpu_texture *written = frame_acquire(f, p->writes);

@@ -13,9 +13,9 @@
 
 enum { WINDOW_MAX = 192, SIDES = 2 };
 
-/* Lines shorter than this are detail and end where they end; a line runs on by a share of its length at most, and not by less than a
- * dot. */
-static const float LEAST_LINE = 20, OWN_SHARE = 0.4f, LEAST_STROKE = 3;
+/* Lines shorter than this, in pixels as they are seen, are detail and end where they end; a line runs on by a share of its length at
+ * most, and not by less than a dot. */
+static const float LEAST_LINE = 20, OWN_SHARE = 0.3f, LEAST_STROKE = 3;
 
 /* The part of a chain that tells its direction, and how far it may bow: long ones first, then shorter ones that must be straighter,
  * so that arcs do not pass by their short pieces. */
@@ -422,7 +422,7 @@ typedef struct line_end {
 
 static bool is_needed(const finding *f, const line_end *e, stroke *s)
 {
-    if (s->length < LEAST_STROKE)
+    if (s->length < LEAST_STROKE * f->in->scale)
         return false;
     bool carried = e->meets ? is_carried_on(f, e->meets, s) : carries_on(f, e->chain, !e->side, e->chain->count - 1 - e->place, s);
     if (carried || !leave_ink(f, s))
@@ -447,7 +447,7 @@ static bool add_stroke(const finding *f, const window *w, const line_end *e)
     find_depth(f, w, &s);
     end_where_hidden(f, &s);
     find_classes(f, w, &s);
-    if (s.length - s.start < LEAST_STROKE)
+    if (s.length - s.start < LEAST_STROKE * f->in->scale)
         return true;
     if (!mem_grow((void **)&f->found->strokes, &f->found->room, f->found->count + 1, sizeof *f->found->strokes))
         return false;
@@ -470,7 +470,7 @@ static bool add_at_end(const finding *f, const chain_end *e)
 {
     const chain *c = &f->set->chains[e->chain];
     window w;
-    if (c->broad || c->length < LEAST_LINE || !find_line(&w, f, c, e->side))
+    if (c->broad || c->length < LEAST_LINE * f->in->scale || !find_line(&w, f, c, e->side))
         return true;
     return add_stroke(f, &w, &(line_end){c, e->side, place_on_line(f, &w, c, e->side, 0, false), e});
 }
@@ -626,7 +626,7 @@ static float spread_of(const lines_common *lines)
 bool overshoot_process(const pass_pixels *in, void *out, const void *values)
 {
     const lines_common *lines = values;
-    overshoot_style style = {lines->overshoot, fminf(fmaxf(lines->width, 1), 2), spread_of(lines), 0.75f * fminf(1, 2.5f / lines->width)};
+    overshoot_style style = {lines->overshoot, fminf(fmaxf(lines->width, 1), 2), spread_of(lines), 0.75f * fminf(1, 2.5f * in->scale / lines->width)};
     size_t count = (size_t)in->width * (size_t)in->height;
     uint32_t *words = out;
     for (size_t i = 0; i < count; i++) /* other techniques' ink is drawn already; how deep it lies must be known to the end */

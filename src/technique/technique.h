@@ -50,6 +50,7 @@ typedef struct pass_pixels {
     const uint8_t *own;    /* not 0 where the figure's own surfaces are; NULL: all that is there is its own */
     int            x, y, width, height; /* of the part */
     float          pixel;  /* side of a pixel at depth 1 in perspective, at any depth without, file units */
+    float          scale;  /* pixels of the picture to one that is seen: more than 1 with several samples */
     bool           perspective;
 } pass_pixels;
 

@@ -70,7 +70,7 @@ static lines_common lines_of(float width, float length)
 
 static pass_pixels input(bool with_surfaces)
 {
-    return (pass_pixels){.values = {edges, with_surfaces ? surfaces : NULL}, .width = SIDE, .height = SIDE, .pixel = 1};
+    return (pass_pixels){.values = {edges, with_surfaces ? surfaces : NULL}, .width = SIDE, .height = SIDE, .pixel = 1, .scale = 1};
 }
 
 static stroke_set find(float width, float length, bool with_surfaces)
@@ -353,7 +353,7 @@ static void noise_is_harmless(void **state)
     for (int round = 0; round < 60; round++) {
         int width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
         uint32_t share = next_random(&seed) % 256;
-        pass_pixels in = {.values = {edges, surfaces}, .width = width, .height = height, .pixel = 0.01f, .perspective = round % 2};
+        pass_pixels in = {.values = {edges, surfaces}, .width = width, .height = height, .pixel = 0.01f, .scale = 1, .perspective = round % 2};
         for (int i = 0; i < width * height * 4; i++) {
             edges[i] = next_random(&seed) % 256 < share ? 0 : 1;
             surfaces[i] = (float)(next_random(&seed) % 5);
