@@ -1,11 +1,12 @@
-/* Frames of parts: where a part is at rest, whatever its node does with it. What is tied to an object is computed in its frame. */
+/* Frames of parts: where a part is at rest, whatever its node does with it. What is tied to an object is computed in its frame. Parts that
+ * always move together share one, so that what is drawn runs on from part to part. */
 #include "draw/upload.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-enum { PARTS_A_ROW = 1024, TEXELS_A_PART = 3, POLAR_STEPS = 12 };
+enum { PARTS_A_ROW = 1024, TEXELS_A_PART = 4, POLAR_STEPS = 12 };
 
 /* The inverse transpose of a 3×3 matrix (columns); false when it has none. */
 static bool inverse_transpose(const double m[9], double out[9])
@@ -63,25 +64,80 @@ static vec3 middle_of(const lmn_scene *scene, const node *n)
     return (vec3){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
 }
 
-/* Three rows that take a place in the world, measured from `origin`, into the part's frame. */
-static void write_frame(const upload *u, const lmn_scene *scene, size_t part_index, const double origin[3], float *rows)
+/* Whom a node moves with: the lowest node above all that has no animated node between. So a model that is turned as a whole is followed, and
+ * so is whatever is animated. */
+typedef struct mover {
+    double turn[9]; /* columns; its rotation */
+    box3   box;     /* of its parts' middles, in its axes and the scene's unit */
+    bool   ready;
+} mover;
+
+static int32_t mover_of(const lmn_scene *scene, const bool *animated, int32_t index)
 {
-    const node *n = &scene->nodes[scene->parts[part_index].node];
-    const mat4 *world = &u->worlds[scene->parts[part_index].node];
-    vec3 local = middle_of(scene, n);
+    while (!animated[index] && scene->nodes[index].parent != NONE)
+        index = scene->nodes[index].parent;
+    for (const node *n = &scene->nodes[index]; n->mesh == NONE && n->first_child != NONE && n->first_child == n->last_child &&
+                                               !animated[n->first_child]; n = &scene->nodes[index])
+        index = n->first_child;
+    return index;
+}
+
+static void mark_animated(const lmn_scene *scene, bool *animated)
+{
+    for (size_t i = 0; i < scene->animation_count; i++)
+        for (size_t k = 0; k < scene->animations[i].channel_count; k++)
+            if (scene->animations[i].channels[k].node >= 0 && (size_t)scene->animations[i].channels[k].node < scene->node_count)
+                animated[scene->animations[i].channels[k].node] = true;
+}
+
+/* A part's middle in its mover's axes, which stays where it is when the mover moves and turns. */
+static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, int32_t mover_index, size_t part_index)
+{
+    const mat4 *own = &u->worlds[mover_index], *world = &u->worlds[scene->parts[part_index].node];
+    vec3 local = middle_of(scene, &scene->nodes[scene->parts[part_index].node]);
     const double middle[3] = {(double)local.x, (double)local.y, (double)local.z};
-    double turn[9];
-    rotation_of(world, turn);
+    double way[3], out[3];
+    for (int k = 0; k < 3; k++) {
+        way[k] = world->m[12 + k] - own->m[12 + k];
+        for (int c = 0; c < 3; c++)
+            way[k] += world->m[4 * c + k] * middle[c];
+    }
+    for (int row = 0; row < 3; row++)
+        out[row] = m->turn[3 * row] * way[0] + m->turn[3 * row + 1] * way[1] + m->turn[3 * row + 2] * way[2];
+    return (vec3){(float)out[0], (float)out[1], (float)out[2]};
+}
+
+/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, and the mover's number. */
+static void write_frame(const upload *u, const mover *m, int32_t mover_index, const double origin[3], float *rows)
+{
+    const float middle[3] = {(m->box.min.x + m->box.max.x) / 2, (m->box.min.y + m->box.max.y) / 2, (m->box.min.z + m->box.max.z) / 2};
     for (int row = 0; row < 3; row++) {
-        double moved = 0;
+        double moved = -(double)middle[row];
         for (int k = 0; k < 3; k++) {
-            double centre = world->m[12 + k];
-            for (int c = 0; c < 3; c++)
-                centre += world->m[4 * c + k] * middle[c];
-            rows[4 * row + k] = (float)turn[3 * row + k];
-            moved += turn[3 * row + k] * (origin[k] - centre);
+            rows[4 * row + k] = (float)m->turn[3 * row + k];
+            moved += m->turn[3 * row + k] * (origin[k] - u->worlds[mover_index].m[12 + k]);
         }
         rows[4 * row + 3] = (float)moved;
+    }
+    rows[12] = (float)mover_index;
+}
+
+static void write_frames(const upload *u, const lmn_scene *scene, mover *movers, const bool *animated, float *values)
+{
+    for (size_t i = 0; i < scene->part_count; i++) {
+        int32_t index = mover_of(scene, animated, scene->parts[i].node);
+        mover  *m = &movers[index];
+        if (!m->ready) {
+            rotation_of(&u->worlds[index], m->turn);
+            m->box = box3_empty();
+            m->ready = true;
+        }
+        vec3 middle = middle_in(u, scene, m, index, i);
+        m->box = box3_union(m->box, (box3){middle, middle});
+    }
+    for (size_t i = 0; i < scene->part_count; i++) {
+        int32_t index = mover_of(scene, animated, scene->parts[i].node);
+        write_frame(u, &movers[index], index, u->frame_origin, &values[4 * TEXELS_A_PART * i]);
     }
 }
 
@@ -91,10 +147,8 @@ gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene)
         return u->part_frames;
     int rows = (int)((scene->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
     float *values = mem_calloc((size_t)rows * (size_t)width, 4 * sizeof *values);
-    if (!values) {
-        gpu_fail(g, LMN_MEMORY, "out of memory");
-        return NULL;
-    }
+    mover *movers = mem_calloc(scene->node_count, sizeof *movers);
+    bool  *animated = mem_calloc(scene->node_count, sizeof *animated);
     box3 box = box3_empty();
     for (size_t i = 0; i < scene->part_count; i++)
         box = box3_union(box, u->part_boxes[i]);
@@ -103,10 +157,16 @@ gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene)
         u->frame_origin[1] = ((double)box.min.y + (double)box.max.y) / 2;
         u->frame_origin[2] = ((double)box.min.z + (double)box.max.z) / 2;
     }
-    for (size_t i = 0; i < scene->part_count; i++)
-        write_frame(u, scene, i, u->frame_origin, &values[4 * TEXELS_A_PART * i]);
-    u->part_frames = gpu_target_acquire(g, width, rows, GPU_RGBA32F);
-    gpu_target_write(g, u->part_frames, (int[]){0, 0, width, rows}, values);
+    if (values && movers && animated) {
+        mark_animated(scene, animated);
+        write_frames(u, scene, movers, animated, values);
+        u->part_frames = gpu_target_acquire(g, width, rows, GPU_RGBA32F);
+        gpu_target_write(g, u->part_frames, (int[]){0, 0, width, rows}, values);
+    } else {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+    }
     mem_free(values);
+    mem_free(movers);
+    mem_free(animated);
     return u->part_frames;
 }

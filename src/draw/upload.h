@@ -53,9 +53,9 @@ void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
 gpu_texture *upload_texture(upload *u, gpu *g, const lmn_scene *scene, const texture_use *use, bool linear);
 
-/* Three texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from `frame_origin`, to where it is
- * on the part at rest, in the scene's unit and measured from the part's middle. A part that only moves and turns keeps these places.
- * Made when first asked for; NULL after an error. */
+/* Four texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from `frame_origin`, to where it is
+ * when nothing has moved, in the scene's unit; and a number in the fourth one's first component. Parts of one file without animated nodes between
+ * have the same frame and number; when what they hang on moves or turns, they keep these places. Made when first asked for; NULL after an error. */
 gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene);
 
 #endif

@@ -90,14 +90,14 @@ vec3 noise_at(vec3 place, uint seed)
 }
 #endif
 
-/* In the frame of the part, each part with waves of its own: parts that are moved keep theirs, and equal parts differ as by hand. */
+/* In the frame of what the part moves with: who is moved keeps his waves, and they run on from part to part. */
 vec3 trace_of(vec2 pixel, vec4 surface)
 {
     int part = part_at(pixel);
-    ivec2 at = ivec2(3 * (part % 1024), part / 1024);
+    ivec2 at = ivec2(4 * (part % 1024), part / 1024);
     mat3x4 rows = mat3x4(texelFetch(t_part_frames, at, 0), texelFetch(t_part_frames, at + ivec2(1, 0), 0),
                          texelFetch(t_part_frames, at + ivec2(2, 0), 0));
-    uint seed = u_seed + uint(part) * 0x632be59bu;
+    uint seed = u_seed + uint(texelFetch(t_part_frames, at + ivec2(3, 0), 0).r) * 0x632be59bu;
 #if BY == 0
     vec4 world = u_world_from_eye * vec4(place_of(pixel, surface.w), 1.0);
     return noise_at(world * rows, surface.w, seed);

@@ -485,11 +485,15 @@ static bool amid(const shot *s, int x, int y, int radius, bool flat)
     return true;
 }
 
-/* Two boxes, of which the second's node is turned by a quarter about Z and moved to the right. */
-static bool write_moving(const char *name, double right, bool turned)
+/* What is moved in a model of two boxes. */
+typedef enum moved { MOVED_NOTHING, MOVED_PART, TURNED_PART, TURNED_ALL, MOVED_KINDS } moved;
+
+/* Two boxes below one node; the second's node is animated. What moves goes to the right; what turns, turns by a quarter about Z. */
+static bool write_moving(const char *name, double right, moved what)
 {
     static const uint16_t faces[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    float corners[2][24];
+    static const char *const turns[2] = {"0,0,0,1", "0,0,0.70710678,0.70710678"};
+    float corners[2][24], key[4] = {0, what == MOVED_PART || what == TURNED_PART ? (float)right : 0, 0, 0};
     for (int part = 0; part < 2; part++)
         for (int k = 0; k < 8; k++) {
             corners[part][3 * k] = (k & 1 ? 0.5f : -0.5f) + (part ? 0.3f : -0.9f);
@@ -497,60 +501,71 @@ static bool write_moving(const char *name, double right, bool turned)
             corners[part][3 * k + 2] = k & 4 ? 0.5f : -0.5f;
         }
     FILE *bytes = fopen(check_path("moving.bin"), "wb");
-    bool  ok = bytes && fwrite(corners, sizeof corners, 1, bytes) && fwrite(faces, sizeof faces, 1, bytes);
+    bool  ok = bytes && fwrite(corners, sizeof corners, 1, bytes) && fwrite(faces, sizeof faces, 1, bytes) && fwrite(key, sizeof key, 1, bytes);
     ok = bytes && fclose(bytes) == 0 && ok;
     FILE *text = fopen(check_path("%s", name), "w");
     if (!text)
         return false;
-    fprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"name\":\"still\",\"mesh\":0},{\"name\":\"moving\",\"mesh\":1,"
-          "\"translation\":[%.9g,0,0],\"rotation\":[0,0,%s]}],", right, turned ? "0.70710678,0.70710678" : "0,1");
-    fputs(
-          "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]},{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":2}]}],"
-          "\"buffers\":[{\"uri\":\"moving.bin\",\"byteLength\":264}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":96},"
-          "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":192,\"byteLength\":72}],\"accessors\":["
+    fprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[2]}],\"nodes\":[{\"name\":\"still\",\"mesh\":0},{\"name\":\"moving\",\"mesh\":1,"
+          "\"translation\":[%.9g,0,0],\"rotation\":[%s]},{\"name\":\"all\",\"children\":[0,1],\"rotation\":[%s]}],",
+          (double)key[1], turns[what == TURNED_PART], turns[what == TURNED_ALL]);
+    fputs("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]},{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":2}]}],"
+          "\"buffers\":[{\"uri\":\"moving.bin\",\"byteLength\":280}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":96},"
+          "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":192,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":264,\"byteLength\":4},"
+          "{\"buffer\":0,\"byteOffset\":268,\"byteLength\":12}],\"accessors\":["
           "{\"bufferView\":0,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-1.4,-0.8,-0.5],\"max\":[-0.4,0.8,0.5]},"
           "{\"bufferView\":1,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-0.2,-0.8,-0.5],\"max\":[0.8,0.8,0.5]},"
-          "{\"bufferView\":2,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"}]}", text);
+          "{\"bufferView\":2,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"},"
+          "{\"bufferView\":3,\"componentType\":5126,\"count\":1,\"type\":\"SCALAR\",\"min\":[0],\"max\":[0]},"
+          "{\"bufferView\":4,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}],"
+          "\"animations\":[{\"samplers\":[{\"input\":3,\"output\":4}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}}]}]}", text);
     return fclose(text) == 0 && ok;
 }
 
-/* One part is moved, and turned by a quarter, before a still view: the field goes with it, and stays where it is on the other. */
+/* How the field at places of both parts changes between two drawings; `right` is in pixels. */
+static void compare_moved(const shot *before, const shot *after, moved what, int right)
+{
+    static const char *const names[2][MOVED_KINDS] = {{"", "rests", "rests", "is turned with all"}, {"", "is moved", "is moved and turned", "is turned with all"}};
+    double sum[2] = {0}, worst[2] = {0};
+    int    count[2] = {0};
+    for (int y = 8; y < 312; y++)
+        for (int x = 8; x < 312; x++) {
+            /* Where the place is afterwards: a quarter about the middle of the page turns right into up. */
+            int  id = before->id[y * 320 + x];
+            bool own = id == 2 && what != TURNED_ALL, turned = what == TURNED_ALL || (own && what == TURNED_PART);
+            int  to_x = (turned ? y : x) + (own ? right : 0), to_y = turned ? 319 - x : y;
+            if (!id || to_x >= 312 || !amid(before, x, y, 16, false) || !amid(after, to_x, to_y, 16, false) || after->id[to_y * 320 + to_x] != id)
+                continue;
+            double change = hypot(at(before, x, y, 0) - at(after, to_x, to_y, 0), at(before, x, y, 1) - at(after, to_x, to_y, 1));
+            sum[id - 1] += change;
+            worst[id - 1] = fmax(worst[id - 1], change);
+            count[id - 1]++;
+        }
+    for (int k = 0; k < 2; k++) {
+        check_at_least("S12", count[k], 500, "pixels of the part that %s", names[k][what]);
+        check_at_most("S12", count[k] ? sum[k] / count[k] : 9, 0.05, "  mean change of the field on it, greatest %.3f", worst[k]);
+    }
+}
+
+/* A part, or all, is moved or turned by a quarter before a still view: the field goes with it, and stays where it is on what rests. */
 static void moved_part(void)
 {
     char rest[560];
     shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true};
     double pixel = 2 * 12 * tan(15 * pi / 180) / 320;
     shot   before;
-    bool   ok = check_that("S12", write_moving("rest.gltf", 0, false), "a model is written");
+    bool   ok = check_that("S12", write_moving("rest.gltf", 0, MOVED_NOTHING), "a model is written");
     snprintf(rest, sizeof rest, "%s", check_path("rest.gltf"));
     ok = ok && shot_take(&before, rest, look_of("\"lock\":\"object\""), NULL, &view) && before.uncertainty;
-    for (int turned = 0; turned < 2 && ok; turned++) {
-        shot   after;
-        double sum[2] = {0}, worst[2] = {0};
-        int    count[2] = {0};
-        ok = write_moving("moved.gltf", 40 * pixel, turned) &&
+    for (int what = MOVED_PART; what < MOVED_KINDS && ok; what++) {
+        shot after;
+        ok = write_moving("moved.gltf", 40 * pixel, (moved)what) &&
              shot_take(&after, check_path("moved.gltf"), look_of("\"lock\":\"object\""), NULL, &view) && after.uncertainty;
-        for (int y = 8; y < 312 && ok; y++)
-            for (int x = 8; x < 312; x++) {
-                /* Where the place is afterwards: a quarter about the middle of the page turns right into up. */
-                int id = before.id[y * 320 + x], to_x = x, to_y = y;
-                if (id == 2) {
-                    to_x = (turned ? y : x) + 40;
-                    to_y = turned ? 319 - x : y;
-                }
-                if (!id || to_x >= 312 || !amid(&before, x, y, 16, false) || !amid(&after, to_x, to_y, 16, false) || after.id[to_y * 320 + to_x] != id)
-                    continue;
-                double change = hypot(at(&before, x, y, 0) - at(&after, to_x, to_y, 0), at(&before, x, y, 1) - at(&after, to_x, to_y, 1));
-                sum[id - 1] += change;
-                worst[id - 1] = fmax(worst[id - 1], change);
-                count[id - 1]++;
-            }
-        for (int k = 0; k < 2; k++) {
-            check_at_least("S12", count[k], 500, "pixels of the part that %s", !k ? "rests" : turned ? "is moved and turned" : "is moved");
-            check_at_most("S12", count[k] ? sum[k] / count[k] : 9, 0.05, "  mean change of the field on it, greatest %.3f", worst[k]);
-        }
+        if (ok)
+            compare_moved(&before, &after, (moved)what, 40);
         shot_release(&after);
     }
+    check_that("S12", ok, "all are drawn");
     shot_release(&before);
 }
 
