@@ -52,7 +52,7 @@ static const option options[] = {
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
-    {"aov", 0, OPTION_TEXT, AT(maps), "DIR", "Write depth, normal, id, edge and shade maps into this folder."},
+    {"aov", 0, OPTION_TEXT, AT(maps), "DIR", "Write depth, normal, id, edge and shade maps into this folder, of sketches the field of uncertainty, too."},
     {"report", 0, OPTION_TEXT, AT(report), "FILE|-", "Write what was drawn as JSON."},
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No warnings and no progress."},
     {"verbose", 'v', OPTION_FLAG, AT(verbose), NULL, "Say what is done and how long it takes."},

@@ -25,6 +25,9 @@ float neighbour_depth(ivec2 pixel)
 #endif
 #ifdef PERTURBED
     extent += 1.0; /* between pixels, ink reaches one farther */
+#ifdef BROAD_LINES
+    extent += most_broadening();
+#endif
 #endif
     int reach = max(int(ceil(extent)), 1);
     float least = 1.0;

@@ -27,10 +27,11 @@ float own_depth(ivec2 at)
 #endif
 
 #ifdef PERTURBED
-/* Paper where the fill fell short of the outline; not where a surface has none. Seed 000, section 6.4. */
-vec4 fallback_at(ivec2 at)
+/* Paper where the fill fell short of the outline, and under the grains that it leaves bare; not where a surface has none. What stands behind is
+ * hidden by it. Seed 000, section 6.4. */
+vec4 fallback_of(float alpha)
 {
-    return vec4(u_perturb_fallback.rgb, 1.0) * (u_perturb_fallback.a * texelFetch(t_shade, at, 0).a);
+    return vec4(u_perturb_fallback.rgb, 1.0) * (u_perturb_fallback.a * alpha);
 }
 #endif
 
@@ -59,7 +60,7 @@ void main()
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
         for (int once = 0; once < bare; once++)
-            fill = fallback_at(pixel_at(place));
+            fill = fallback_of(texelFetch(t_shade, pixel_at(place), 0).a);
 #else
         int search = line_depth >= 1.0 && max(own_ink.a, fill.a) > 0.0 ? 1 : 0;
 #endif
@@ -69,7 +70,10 @@ void main()
         ink = over(own_ink, ink);
     }
 #endif
-    vec4 colour = u_filled ? ink + fill * (fill_share() * (1.0 - ink.a)) : ink;
+#ifdef PERTURBED
+    fill = mix(fallback_of(fill.a), fill, fill_share());
+#endif
+    vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour;

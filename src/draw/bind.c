@@ -203,7 +203,8 @@ static bool needs_map(const technique_use *compose)
 const pass *rule_merged_detection(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
-    if (!compose || !compose->technique->merges_when || needs_map(compose) || rule_use(r, KIND_PERTURB) || r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
+    if (!compose || !compose->technique->merges_when || needs_map(compose) || rule_use(r, KIND_PERTURB) ||
+        r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
         !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
         return NULL;
     const pass *only = NULL;

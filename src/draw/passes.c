@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "layer/layer.h"
+#include "lines/lines.h"
 
 typedef struct pass_params {
     param_set   sets[5];
@@ -43,6 +44,9 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     if (params->perturbed && goes_onto_page(p)) {
         text_append(&prelude, "#define PERTURBED\n");
+        const technique_use *lines = rule_inked_lines(s->figure->rule);
+        if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
+            text_append(&prelude, "#define BROAD_LINES\n");
         snprintf(path, sizeof path, "%s+%s", params->perturbed->places, p->shader);
     }
     return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);

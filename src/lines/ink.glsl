@@ -11,7 +11,14 @@ vec4 edge_at(vec2 place)
 #ifdef MERGED
     return out_edge;
 #elif defined(PERTURBED)
-    return textureLod(t_edge, (place + 0.5) / u_size, 0.0);
+    vec4 edge = textureLod(t_edge, (place + 0.5) / u_size, 0.0);
+#ifdef BROAD_LINES
+    float wider = broadening();
+    vec4 beside = textureLod(t_edge, (place + vec2(wider, 0.0) + 0.5) / u_size, 0.0);
+    vec4 above = textureLod(t_edge, (place + vec2(0.0, wider) + 0.5) / u_size, 0.0);
+    edge = wider > 0.0 ? min(edge, min(beside, above)) : max(edge, max(beside, above));
+#endif
+    return edge;
 #else
     return texelFetch(t_edge, clamp(ivec2(place), ivec2(0), ivec2(u_size) - 1), 0);
 #endif

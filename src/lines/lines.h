@@ -27,6 +27,9 @@ typedef struct lines_common {
  * shading; lines that are translucent are lines all the same. */
 void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_common *lines);
 
+/* Lines wider than this, in pixels, are grown from the detected map. */
+enum { LINES_GROW_FROM = 2 };
+
 /* Passes that surround an operator's own. Lines run on and are dashed before they grow: thin ones are traced best. */
 #define LINES_PASSES_BEFORE                                                                                           \
     {.name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                      \

@@ -36,7 +36,7 @@ static const char *const outward_names[] = {"continuous", "enlarged", NULL};
 
 static const param params[] = {
     PARAM_FLOAT_ROW(uncertainty, amount, .def = 4, .min = 0, .max = 64, .soft_max = 16, .unit = UNIT_PX,
-                    .doc = "Largest displacement; 0 draws exactly."),
+                    .doc = "Largest displacement for a degree of uncertainty of 1; 0 draws exactly, without grain or pressure."),
     PARAM_ENUM_ROW(uncertainty, lock, .names = lock_names, .variant = true,
                    .doc = "object: the wobble moves with the model; screen: it stays on the sheet, and a moving model swims under it."),
     PARAM_ENUM_ROW(uncertainty, field, .names = field_names, .variant = true,
@@ -81,7 +81,8 @@ static const param params[] = {
     PARAM_FLOAT_ROW(uncertainty, pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
                     .doc = "How much the weight of lines varies along them."),
     PARAM_COLOUR_ROW(uncertainty, fallback, .can_auto = true, .def_auto = true, .auto_ground = true,
-                     .doc = "Ground inside the outline where the fill fell short; auto takes the page's. Not in what is seen through."),
+                     .doc = "Ground inside the outline where the fill fell short or left grains bare; auto takes the page's, none shows what "
+                            "is behind. Not in what is seen through."),
 };
 
 static bool is_active(const void *values)
@@ -119,8 +120,8 @@ static float cell_of(const void *values)
 static uint32_t seed_of(const void *values, uint32_t seed, double time_s)
 {
     const uncertainty *v = values;
-    /* A frame at exactly the turn belongs to the new wobble, whatever its time was rounded to. */
-    uint32_t phase = (uint32_t)(int64_t)floor(time_s * (double)v->boil + 1e-6);
+    /* A frame at the turn belongs to the new wobble, also when its time was rounded to six digits. */
+    uint32_t phase = (uint32_t)(int64_t)floor(time_s * (double)v->boil + 1e-4);
     return (seed + (uint32_t)v->seed) * 2654435761u ^ phase * 2246822519u;
 }
 

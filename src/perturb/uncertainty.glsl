@@ -49,15 +49,36 @@ vec2 line_place(int i)
     return s_place + u_perturb_amount * (degree * way) + s_grain.xy;
 }
 
-/* The ink that the i-th repetition leaves. */
+/* Share of its ink that a line loses where it is eased most; broad ones thin instead. */
+#ifdef BROAD_LINES
+#define EASED_AWAY 0.2
+#else
+#define EASED_AWAY 0.6
+#endif
+
+/* The ink that the i-th repetition leaves. Pressed, the soft rims of a line fill and it grows wider; eased, they go first and it thins. */
 vec4 copy_ink(vec4 ink, int i)
 {
-    /* Lines have soft rims, so that more ink makes them wider, too. */
-    float side = (i & 1) == 0 ? 1.0 : -1.0;
-    ink *= s_bare.x * min(exp2(-2.2 * u_perturb_pressure * side * s_uncertainty.z), 1.0 / max(ink.a, 1e-4));
+    float force = u_perturb_pressure * ((i & 1) == 0 ? s_uncertainty.z : -s_uncertainty.z);
+    float pressed = min(ink.a * (1.0 + 4.0 * max(force, 0.0)), 1.0);
+    float eased = max(1.0 - (1.0 - pressed) * (1.0 + 1.5 * max(-force, 0.0)), 0.0) * (1.0 - EASED_AWAY * max(-force, 0.0));
+    ink *= s_bare.x * eased / max(ink.a, 1e-4);
     if (i > 0) {
         vec4 colour = u_perturb_repeat_colours[(i - 1) % u_perturb_repeat_colours_count];
         ink = vec4(colour.rgb, 1.0) * (ink.a * colour.a);
     }
     return ink;
 }
+
+#ifdef BROAD_LINES
+/* How much thicker lines are at most, pixels, and how much thicker (or, negative, thinner) they are here; thin ones are all rim. */
+float most_broadening()
+{
+    return 0.75 * u_perturb_pressure * (u_line_width - 1.0);
+}
+
+float broadening()
+{
+    return most_broadening() * s_uncertainty.z;
+}
+#endif
