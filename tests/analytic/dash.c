@@ -127,14 +127,6 @@ static void runs_along_edges(void)
     }
 }
 
-static int differing(const shot *a, const shot *b, int tolerance)
-{
-    int count = 0;
-    for (int i = 0; i < 4 * a->width * a->height; i++)
-        count += abs(a->picture[i] - b->picture[i]) > tolerance;
-    return count;
-}
-
 static void what_stays(void)
 {
     shot plain, zero, dashed, again, es, one, two;
@@ -144,12 +136,12 @@ static void what_stays(void)
     other.es = true;
     bool good = shot_of_shape(&plain, &s, "dash.glb", shot_line_look(LINES), NULL, &box_view);
     if (draw(&zero, torus_of, "0", "17", "2", &box_view) && good)
-        check_at_most("dash", differing(&plain, &zero, 0), 0, "values that dash 0 changes");
+        check_at_most("dash", shot_differing(&plain, &zero, 0), 0, "values that dash 0 changes");
     good = draw(&dashed, torus_of, "9", "6", "2", &box_view);
     if (draw(&again, torus_of, "9", "6", "2", &box_view) && good)
-        check_at_most("dash", differing(&dashed, &again, 0), 0, "values that differ in a second drawing");
+        check_at_most("dash", shot_differing(&dashed, &again, 0), 0, "values that differ in a second drawing");
     if (draw(&es, torus_of, "9", "6", "2", &other) && good)
-        check_at_most("GLES", differing(&dashed, &es, 1), 0, "values that differ in the other dialect");
+        check_at_most("GLES", shot_differing(&dashed, &es, 1), 0, "values that differ in the other dialect");
     /* Of two line techniques each has its own dashes: unbroken blue over and under dashed red. */
     static const char *const pairs[2] = {
         "[{\"operator\":\"discontinuity\",\"colour\":\"#ff0000\",\"dash\":9},{\"operator\":\"discontinuity\",\"colour\":\"#0000ff\"}]",

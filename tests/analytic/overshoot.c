@@ -154,14 +154,6 @@ static void edges_of_a_box(void)
             }
 }
 
-static int differing(const shot *a, const shot *b, int tolerance)
-{
-    int count = 0;
-    for (int i = 0; i < 4 * a->width * a->height; i++)
-        count += abs(a->picture[i] - b->picture[i]) > tolerance;
-    return count;
-}
-
 static void what_stays(void)
 {
     shot plain, zero, run, again, es;
@@ -171,12 +163,12 @@ static void what_stays(void)
     box_of(&s);
     bool good = shot_of_shape(&plain, &s, "overshoot.glb", shot_line_look(LINES), NULL, &box_view);
     if (draw(&zero, box_of, "0", "2", shot_line_look(LINES), &box_view) && good)
-        check_at_most("overshoot", differing(&plain, &zero, 0), 0, "values that overshoot 0 changes");
+        check_at_most("overshoot", shot_differing(&plain, &zero, 0), 0, "values that overshoot 0 changes");
     good = draw(&run, box_of, "14", "2", shot_line_look(LINES), &box_view);
     if (draw(&again, box_of, "14", "2", shot_line_look(LINES), &box_view) && good)
-        check_at_most("overshoot", differing(&run, &again, 0), 0, "values that differ in a second drawing");
+        check_at_most("overshoot", shot_differing(&run, &again, 0), 0, "values that differ in a second drawing");
     if (draw(&es, box_of, "14", "2", shot_line_look(LINES), &other) && good)
-        check_at_most("GLES", differing(&run, &es, 1), 0, "values that differ in the other dialect");
+        check_at_most("GLES", shot_differing(&run, &es, 1), 0, "values that differ in the other dialect");
     shot_release(&plain);
     shot_release(&zero);
     shot_release(&run);
@@ -201,7 +193,7 @@ static void round_things(void)
         view.eye = dvec_of(2 + 2 * i, 3.4, 6.3);
         bool good = draw(&plain, sphere_of, "0", "2", shot_line_look(LINES), &view);
         if (draw(&run, sphere_of, "20", "2", shot_line_look(LINES), &view) && good)
-            check_at_most("overshoot", differing(&plain, &run, 0), 0, "values of a sphere that change");
+            check_at_most("overshoot", shot_differing(&plain, &run, 0), 0, "values of a sphere that change");
         shot_release(&plain);
         shot_release(&run);
     }

@@ -348,3 +348,11 @@ int shot_ink(const shot *s, int x, int y)
     const uint8_t *e = &s->edge[4 * ((size_t)y * (size_t)s->width + (size_t)x)];
     return e[2] < e[3] ? e[2] : e[3];
 }
+
+int shot_differing(const shot *a, const shot *b, int tolerance)
+{
+    int count = 0;
+    for (int i = 0; i < 4 * a->width * a->height; i++)
+        count += abs(a->picture[i] - b->picture[i]) > tolerance;
+    return count;
+}

@@ -64,6 +64,9 @@ const char *shot_line_look(const char *lines);
 /* A shot that nobody drew: matrices of the view, an edge map without ink, the given depth range. For trying out references. */
 void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth);
 
+/* How many values of two pictures of one size are farther apart than this. */
+int shot_differing(const shot *a, const shot *b, int tolerance);
+
 /* Does the report have a warning with this code? */
 bool shot_has_warning(const shot *s, const char *code);
 

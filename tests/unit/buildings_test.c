@@ -136,14 +136,8 @@ static void assert_has_parts(const lmn_scene *scene, const char *const *names, s
 {
     assert_int_equal(scene->warnings.count, 0);
     assert_in_range(lmn_scene_info_of(scene).triangles, 10000, 60000);
-    for (size_t n = 0; n < count; n++) {
-        size_t found = 0;
-        for (size_t i = 0; i < scene->part_count; i++)
-            found += strcmp(scene->parts[i].name, names[n]) == 0;
-        if (found != 1)
-            print_error("%s: %zu parts\n", names[n], found);
-        assert_int_equal(found, 1);
-    }
+    for (size_t n = 0; n < count; n++)
+        assert_one_part(scene, names[n]);
 }
 
 static void have_their_parts(void **state)

@@ -33,4 +33,15 @@ static inline void assert_closed(const lmn_scene *scene)
     }
 }
 
+/* Fails unless exactly one part has this name. */
+static inline void assert_one_part(const lmn_scene *scene, const char *name)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < scene->part_count; i++)
+        found += strcmp(scene->parts[i].name, name) == 0;
+    if (found != 1)
+        print_error("%s: %zu parts\n", name, found);
+    assert_int_equal(found, 1);
+}
+
 #endif

@@ -76,14 +76,8 @@ static void has_its_parts(void **state)
     assert_int_equal(scene->part_count, 24);
     assert_int_equal(scene->warnings.count, 0);
     assert_int_equal(scene->animation_count, 1);
-    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
-        size_t found = 0;
-        for (size_t i = 0; i < scene->part_count; i++)
-            found += strcmp(scene->parts[i].name, names[n]) == 0;
-        if (found != 1)
-            print_error("%s: %zu parts\n", names[n], found);
-        assert_int_equal(found, 1);
-    }
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+        assert_one_part(scene, names[n]);
     lmn_scene_info info = lmn_scene_info_of(scene);
     static const double low[3] = {-0.056, -0.066, -0.0305}, high[3] = {0.056, 0.0565, 0.098};
     for (int k = 0; k < 3; k++) {
