@@ -620,22 +620,25 @@ static void build_range(mesh *m)
     place(m, kept, 0, -range_axis, 0, 0);
 }
 
-static void build_range_frames(mesh *m)
+typedef void facade_maker(mesh *m, const facade *f);
+
+static void fill_range_openings(mesh *m, facade_maker *of_gable, facade_maker *of_wall)
 {
-    facade_frames(m, &range_gable);
+    of_gable(m, &range_gable);
     place(m, 0, 0, -range_axis, 0, 0);
     uint32_t kept = m->point_count;
-    facade_outer_frames(m, &range_west_wall);
+    of_wall(m, &range_west_wall);
     place(m, kept, 90, 0, 0, 0);
+}
+
+static void build_range_frames(mesh *m)
+{
+    fill_range_openings(m, facade_frames, facade_outer_frames);
 }
 
 static void build_range_panes(mesh *m)
 {
-    facade_panes(m, &range_gable);
-    place(m, 0, 0, -range_axis, 0, 0);
-    uint32_t kept = m->point_count;
-    facade_panes(m, &range_west_wall);
-    place(m, kept, 90, 0, 0, 0);
+    fill_range_openings(m, facade_panes, facade_panes);
 }
 
 static void build_range_roof(mesh *m)

@@ -198,8 +198,7 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
     for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
         in.values[i] = read_floats(f, s, p->reads[i], box);
     gpu_texture *written = frame_acquire(f, p->writes);
-    size_t size = p->writes == TARGET_OVERSHOOT ? 2 * sizeof(uint32_t) : 1;
-    void *out = mem_calloc((size_t)box[2] * (size_t)box[3], size);
+    void *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
     if (out && s->targets[p->writes])
         gpu_read_box(f->g, s->targets[p->writes], box, out);
     if (!out || (!gpu_failed(f->g) && !p->process(&in, out, use->values)))

@@ -62,6 +62,8 @@ void         gpu_target_release(gpu *g, gpu_texture *t);
 void gpu_targets_trim(gpu *g);
 int  gpu_texture_width(const gpu_texture *t);
 int  gpu_texture_height(const gpu_texture *t);
+/* Bytes of a texel as gpu_target_write takes it. */
+size_t gpu_texel_size(const gpu_texture *t);
 /* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, RGBA32UI → 4, DEPTH32F → 1 float. */
 void gpu_read(gpu *g, gpu_texture *t, void *out);
 /* The same for a part (x, y, width, height); not of depth or R8. */

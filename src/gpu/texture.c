@@ -7,17 +7,18 @@
 
 typedef struct format_row {
     GLenum internal, format, type;
+    size_t size; /* of a texel outside of GL, bytes */
 } format_row;
 
 static const format_row formats[GPU_FORMAT_COUNT] = {
-    [GPU_R8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
-    [GPU_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
-    [GPU_SRGB8] = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE},
-    [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT},
-    [GPU_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
-    [GPU_RG32UI] = {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT},
-    [GPU_RGBA32UI] = {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT},
-    [GPU_DEPTH32F] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
+    [GPU_R8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1},
+    [GPU_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    [GPU_SRGB8] = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+    [GPU_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
+    [GPU_RG32UI] = {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
+    [GPU_RGBA32UI] = {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},
+    [GPU_DEPTH32F] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
 };
 
 int gpu_texture_width(const gpu_texture *t)
@@ -28,6 +29,11 @@ int gpu_texture_width(const gpu_texture *t)
 int gpu_texture_height(const gpu_texture *t)
 {
     return t->height;
+}
+
+size_t gpu_texel_size(const gpu_texture *t)
+{
+    return formats[t->format].size;
 }
 
 static GLint wrap_of(gpu_wrap wrap)

@@ -55,7 +55,7 @@ vec3 noise_of(vec3 place, uint seed)
     return sum;
 }
 
-/* A sum of octaves as an uncertainty, −1 … 1 with a mean square around 0.4; `weights` and `squares`: sums of the octaves' weights. */
+/* A sum of octaves as an uncertainty, −1 … 1 with a root mean square around 0.4; `weights` and `squares`: sums of the octaves' weights. */
 vec3 uncertainty_of(vec3 sum, float weights, float squares)
 {
 #if FIELD == 1

@@ -90,7 +90,7 @@ vec3 noise_at(vec3 place, uint seed)
 }
 #endif
 
-/* In the frame of what the part moves with: who is moved keeps his waves, and they run on from part to part. */
+/* In the frame of what the part moves with: what is moved keeps its waves, and they run on from part to part. */
 vec3 trace_of(vec2 pixel, vec4 surface)
 {
     int part = part_at(pixel);

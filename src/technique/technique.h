@@ -77,7 +77,9 @@ struct pass;
 
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
-    const char *places; /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl */
+    /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl. With BROAD_LINES also
+     * broadening and most_broadening; see lines/ink.glsl and compose/reach.glsl. */
+    const char *places;
     bool      (*active)(const void *values); /* false: pictures are what they are without it */
     float     (*reach)(const void *values);  /* how far it moves anything, pixels */
     float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
