@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "scene/solid.h"
 
 enum { PARTS_A_ROW = 1024, TEXELS_A_PART = 4, POLAR_STEPS = 12 };
 
@@ -55,10 +56,9 @@ static void rotation_of(const mat4 *world, double out[9])
 /* The middle of a part's mesh in its own axes. */
 static vec3 middle_of(const lmn_scene *scene, const node *n)
 {
-    const mesh *m = &scene->meshes[n->mesh];
-    box3 box = box3_empty();
-    for (size_t i = 0; i < m->primitive_count; i++)
-        box = box3_union(box, m->primitives[i].bounds);
+    box3 box = n->solid != NONE ? solid_bounds(scene, &scene->solids[n->solid]) : box3_empty();
+    for (size_t i = 0; n->mesh != NONE && i < scene->meshes[n->mesh].primitive_count; i++)
+        box = box3_union(box, scene->meshes[n->mesh].primitives[i].bounds);
     if (box3_is_empty(box))
         return (vec3){0, 0, 0};
     return (vec3){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
@@ -76,7 +76,7 @@ static int32_t mover_of(const lmn_scene *scene, const bool *animated, int32_t in
 {
     while (!animated[index] && scene->nodes[index].parent != NONE)
         index = scene->nodes[index].parent;
-    for (const node *n = &scene->nodes[index]; n->mesh == NONE && n->first_child != NONE && n->first_child == n->last_child &&
+    for (const node *n = &scene->nodes[index]; n->mesh == NONE && n->solid == NONE && n->first_child != NONE && n->first_child == n->last_child &&
                                                !animated[n->first_child]; n = &scene->nodes[index])
         index = n->first_child;
     return index;

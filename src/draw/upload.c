@@ -127,7 +127,7 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
         if (progress && !progress((double)i / (double)scene->part_count, "preparing", user))
             status = error_set(error, LMN_CANCELLED, "cancelled");
-        if (status == LMN_OK)
+        if (status == LMN_OK && scene->nodes[scene->parts[i].node].mesh != NONE)
             status = upload_part(out, g, scene, i, &shared[first[scene->nodes[scene->parts[i].node].mesh]], error);
         out->part_boxes[i] = part_bounds(scene, out->worlds, i);
     }

@@ -1,7 +1,7 @@
 /* World matrices and bounds. */
 #include "base/memory.h"
 #include "scene/mesh.h"
-#include "scene/scene.h"
+#include "scene/solid.h"
 
 /* Bounds of turned and posed meshes are exact as long as all of a scene's nodes take about this many points; beyond, boxes
  * around boxes do. Otherwise a small file that draws one large mesh a million times would take hours. */
@@ -124,6 +124,8 @@ box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
 {
     const node *n = &s->nodes[node_index];
     box3 box = box3_empty();
+    if (n->solid != NONE)
+        return box3_transform(solid_bounds(s, &s->solids[n->solid]), &worlds[node_index]);
     if (n->mesh == NONE)
         return box;
     const mesh *m = &s->meshes[n->mesh];

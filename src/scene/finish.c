@@ -117,6 +117,8 @@ static lmn_status check_nodes(const check *c)
         const node *n = &s->nodes[i];
         if (!in_range(n->mesh, s->mesh_count))
             return broken(c, "node", i, "mesh");
+        if (!in_range(n->solid, s->solid_count))
+            return broken(c, "node", i, "solid");
         if (!in_range(n->skin, s->skin_count))
             return broken(c, "node", i, "skin");
         if (!in_range(n->camera, s->camera_count))

@@ -49,7 +49,7 @@ static json_t *attributes_json(const node *n)
 static json_t *part_materials(const lmn_scene *s, const mesh *m)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < m->primitive_count; i++) {
+    for (size_t i = 0; m && i < m->primitive_count; i++) {
         int32_t index = m->primitives[i].material;
         bool seen = false;
         for (size_t k = 0; k < i && !seen && i < 64; k++)
@@ -70,7 +70,7 @@ static json_t *parts_json(const lmn_scene *s)
         json_t *entry = json_pack("{s:I,s:o,s:o,s:I,s:I,s:o,s:o,s:o}", "id", (json_int_t)(i + 1), "name",
                                   string_or_null(p->name), "path", string_or_null(p->path), "triangles",
                                   (json_int_t)(p->triangles * instances), "instances", (json_int_t)instances, "bounds",
-                                  bounds_json(p->bounds), "materials", part_materials(s, &s->meshes[n->mesh]),
+                                  bounds_json(p->bounds), "materials", part_materials(s, n->mesh != NONE ? &s->meshes[n->mesh] : NULL),
                                   "attributes", attributes_json(n));
         json_array_append_new(list, entry);
     }

@@ -5,11 +5,11 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/parts.h"
-#include "scene/scene.h"
+#include "scene/solid.h"
 
 /* Where the elements of `from` begin in `into`. */
 typedef struct offsets {
-    int32_t nodes, meshes, materials, images, cameras, lights, skins;
+    int32_t nodes, meshes, materials, images, cameras, lights, skins, solids;
 } offsets;
 
 static bool reserve_all(lmn_scene *into, const lmn_scene *from)
@@ -23,6 +23,7 @@ static bool reserve_all(lmn_scene *into, const lmn_scene *from)
            RESERVE(cameras, camera_count, camera_capacity, from->camera_count) &&
            RESERVE(lights, light_count, light_capacity, from->light_count) &&
            RESERVE(skins, skin_count, skin_capacity, from->skin_count) &&
+           RESERVE(solids, solid_count, solid_capacity, from->solid_count) &&
            RESERVE(animations, animation_count, animation_capacity, from->animation_count) &&
            RESERVE(files, file_count, file_capacity, 1);
 #undef RESERVE
@@ -45,7 +46,11 @@ static void shift_references(lmn_scene *s, const offsets *by)
         shift(&n->skin, by->skins);
         shift(&n->camera, by->cameras);
         shift(&n->light, by->lights);
+        shift(&n->solid, by->solids);
     }
+    for (size_t i = 0; i < s->solid_count; i++)
+        for (size_t k = 0; k < s->solids[i].node_count; k++)
+            shift(&s->solids[i].nodes[k].mesh, by->meshes);
     for (size_t i = 0; i < s->mesh_count; i++)
         for (size_t k = 0; k < s->meshes[i].primitive_count; k++)
             shift(&s->meshes[i].primitives[k].material, by->materials);
@@ -140,6 +145,7 @@ static void move_elements(lmn_scene *into, lmn_scene *from)
     MOVE(lights, light_count);
     MOVE(skins, skin_count);
     MOVE(animations, animation_count);
+    MOVE(solids, solid_count);
     MOVE(parts, part_count);
 #undef MOVE
 }
@@ -149,7 +155,7 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
 {
     offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,  (int32_t)into->material_count,
                   (int32_t)into->image_count,    (int32_t)into->camera_count, (int32_t)into->light_count,
-                  (int32_t)into->skin_count};
+                  (int32_t)into->skin_count,     (int32_t)into->solid_count};
     shift_references(from, &by);
     int32_t root = by.nodes - 1;
     node *n = scene_append_node(into); /* room was reserved */

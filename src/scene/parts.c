@@ -1,4 +1,5 @@
 #include "scene/parts.h"
+#include "scene/solid.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -119,8 +120,7 @@ static char *make_unique(path_set *set, char *path)
 
 static bool is_part(const lmn_scene *s, int32_t index)
 {
-    int32_t m = s->nodes[index].mesh;
-    return m != NONE && mesh_triangle_count(&s->meshes[m]) > 0;
+    return node_triangle_count(s, &s->nodes[index]) > 0;
 }
 
 static bool add_part(listing *l, int32_t index)
@@ -140,7 +140,7 @@ static bool add_part(listing *l, int32_t index)
     p->path = path ? make_unique(&l->seen, path) : NULL;
     if (!p->path)
         return false;
-    p->triangles = mesh_triangle_count(&l->scene->meshes[l->scene->nodes[index].mesh]);
+    p->triangles = node_triangle_count(l->scene, &l->scene->nodes[index]);
     p->bounds = node_bounds(l->scene, l->worlds, index);
     return true;
 }

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/parts.h"
+#include "scene/solid.h"
 
 /* One counter for the process: a renderer keeps GPU copies of the scene it drew last and knows it by address and revision, and
  * a new scene may lie where an old one was. */
@@ -49,7 +50,7 @@ node *scene_append_node(lmn_scene *s)
     if (!n)
         return NULL;
     n->parent = n->first_child = n->last_child = n->next_sibling = NONE;
-    n->mesh = n->skin = n->camera = n->light = NONE;
+    n->mesh = n->skin = n->camera = n->light = n->solid = NONE;
     n->rotation[3] = 1;
     n->scale[0] = n->scale[1] = n->scale[2] = 1;
     n->matrix = mat4_identity();
@@ -96,6 +97,17 @@ light *scene_append_light(lmn_scene *s)
 skin *scene_append_skin(lmn_scene *s)
 {
     return append((void **)&s->skins, &s->skin_capacity, &s->skin_count, sizeof *s->skins);
+}
+
+solid *scene_append_solid(lmn_scene *s, solid_kind root)
+{
+    solid *made = append((void **)&s->solids, &s->solid_capacity, &s->solid_count, sizeof *made);
+    if (!made)
+        return NULL;
+    if (solid_append(made, NONE, root) == 0)
+        return made;
+    s->solid_count--;
+    return NULL;
 }
 
 animation *scene_append_animation(lmn_scene *s)
@@ -182,9 +194,12 @@ static void release_drawables(lmn_scene *s)
         node_release(&s->nodes[i]);
     for (size_t i = 0; i < s->mesh_count; i++)
         mesh_release(&s->meshes[i]);
+    for (size_t i = 0; i < s->solid_count; i++)
+        solid_release(&s->solids[i]);
     parts_release(s->parts, s->part_count);
     mem_free(s->nodes);
     mem_free(s->meshes);
+    mem_free(s->solids);
 }
 
 static void release_appearance(lmn_scene *s)

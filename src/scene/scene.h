@@ -115,6 +115,7 @@ typedef struct node {
     mat4       matrix;
     double     translation[3], rotation[4] /* x y z w */, scale[3];
     int32_t    mesh, skin, camera, light;
+    int32_t    solid; /* a node has a mesh or a solid */
     mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
     size_t     instance_count; /* 0: the node itself is the one instance */
     float     *morph_weights; /* NULL: the mesh's */
@@ -175,6 +176,8 @@ struct lmn_scene {
     size_t     skin_count, skin_capacity;
     animation *animations;
     size_t     animation_count, animation_capacity;
+    struct solid *solids; /* scene/solid.h */
+    size_t     solid_count, solid_capacity;
     part      *parts;
     size_t     part_count;
     char     **files; /* paths as they were given, one per merged file */

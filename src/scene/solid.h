@@ -1,0 +1,56 @@
+/* Solids: trees of set operations over closed meshes (constructive solid geometry). Nobody computes their surface: drawing finds
+ * it pixel by pixel. Seed 003, section 2; seed 000, section 5.6. */
+#ifndef LIMNER_SCENE_SOLID_H
+#define LIMNER_SCENE_SOLID_H
+
+#include "scene/scene.h"
+
+/* An operand is a closed mesh; an operation has any number of operands in order. A union or intersection without operands is empty, a
+ * difference takes all later operands from the first. */
+typedef enum solid_kind { SOLID_OPERAND, SOLID_UNION, SOLID_INTERSECTION, SOLID_DIFFERENCE } solid_kind;
+
+/* One node of the tree. Its place in the solid is parent · matrix. */
+typedef struct solid_node {
+    solid_kind kind;
+    int32_t    parent, first_child, last_child, next_sibling; /* NONE when absent */
+    mat4       matrix;
+    bool       has_colour; /* of all operands below that have no colour from above: the outermost decides */
+    vec4       colour;     /* linear, straight alpha */
+    int32_t    mesh;       /* operand: the scene's mesh, NONE: empty */
+    char      *name;       /* "cylinder"; may be NULL */
+    uint32_t   line;       /* of the file; 0: unknown */
+} solid_node;
+
+typedef struct solid {
+    solid_node *nodes; /* 0 is the root; parents come before their children */
+    size_t      node_count, node_capacity;
+} solid;
+
+enum { SOLID_OPERANDS_MAX = 65534, SOLID_DEPTH_MAX = 4096 };
+
+/* Appends a solid with its root; NULL when memory is gone. A scene node draws it by its `solid`. */
+solid *scene_append_solid(lmn_scene *scene, solid_kind root);
+/* Appends a node as the last child: identity matrix, no colour, no mesh. Returns its index, NONE when memory is gone. Pointers to
+ * nodes are valid until the next append. */
+int32_t solid_append(solid *s, int32_t parent, solid_kind kind);
+void    solid_release(solid *s);
+
+/* An operand with all that stands above it in the tree folded in. */
+typedef struct solid_operand {
+    int32_t node, mesh;
+    mat4    matrix; /* to the solid's space */
+    bool    has_colour;
+    vec4    colour;
+    box3    box;    /* solid's space */
+} solid_operand;
+
+/* The operands in the order of the tree that have a mesh with triangles; free with mem_free. False when memory is gone. */
+bool solid_operands(const lmn_scene *scene, const solid *s, solid_operand **out, size_t *count);
+/* Where the solid can be at most: boxes of operands, united, intersected, or that of the first. */
+box3 solid_bounds(const lmn_scene *scene, const solid *s);
+/* Triangles of all operands. */
+uint64_t solid_triangle_count(const lmn_scene *scene, const solid *s);
+/* Of what one instance of the node draws. */
+uint64_t node_triangle_count(const lmn_scene *scene, const node *n);
+
+#endif
