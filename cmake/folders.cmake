@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base scene sheet technique light gpu construct import export layer lines surface perturb compose finish look draw api)
+set(LIMNER_FOLDERS base scene sheet technique light gpu construct csg import export layer lines surface perturb compose finish look draw api)
 
 add_library(limner SHARED)
 foreach(folder IN LISTS LIMNER_FOLDERS)
