@@ -20,6 +20,7 @@
 #define LIMIT_CSG_VALUES      ((size_t)1 << 25)   /* numbers and other values of a .csg file */
 #define LIMIT_SCAD_SECONDS    60                  /* the openscad process that evaluates a .scad file */
 #define LIMIT_POLYGON_CORNERS 65536               /* of one face in PLY or OBJ */
+#define LIMIT_SHAPE_POINTS    ((size_t)4000000)   /* of one shape made from numbers */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
 #define LIMIT_LOOK_RULES      256
 #define LIMIT_LOOK_TECHNIQUES 64                  /* of one kind in a rule */
