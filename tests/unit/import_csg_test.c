@@ -1,61 +1,7 @@
 /* OpenSCAD's evaluated files: syntax, what each word means, and what is refused. */
-#include "import_support.h"
-
-#include <dirent.h>
-#include <math.h>
-
-#include <jansson.h>
+#include "csg_support.h"
 
 #include "base/limits.h"
-#include "scene/solid.h"
-
-static lmn_scene *load_text(const char *text)
-{
-    return load_or_fail(temp_file("model.csg", text, strlen(text)));
-}
-
-static lmn_status status_of(const char *text, lmn_error *error)
-{
-    return load_status(temp_file("model.csg", text, strlen(text)), error);
-}
-
-static const solid *only_solid(const lmn_scene *s)
-{
-    assert_int_equal(s->part_count, 1);
-    assert_int_equal(s->solid_count, 1);
-    return &s->solids[0];
-}
-
-static size_t warnings_of(const lmn_scene *s, warning_code code)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->warnings.count; i++)
-        count += s->warnings.items[i].code == code ? s->warnings.items[i].count : 0;
-    return count;
-}
-
-static void check_box(const lmn_scene *s, const double low[3], const double high[3], double within)
-{
-    lmn_scene_info info = lmn_scene_info_of(s);
-    for (int i = 0; i < 3; i++) {
-        if (fabs(info.bounds_min[i] - low[i]) > within || fabs(info.bounds_max[i] - high[i]) > within)
-            print_error("axis %d: %.9g … %.9g, expected %.9g … %.9g\n", i, info.bounds_min[i], info.bounds_max[i], low[i], high[i]);
-        assert_true(fabs(info.bounds_min[i] - low[i]) <= within && fabs(info.bounds_max[i] - high[i]) <= within);
-    }
-}
-
-#define CHECK_BOX(s, x0, y0, z0, x1, y1, z1) check_box(s, (const double[3]){x0, y0, z0}, (const double[3]){x1, y1, z1}, 1e-5)
-
-/* Loads, compares the bounds, and wants no warning. */
-static void expect_box(const char *text, double x0, double y0, double z0, double x1, double y1, double z1)
-{
-    lmn_scene *s = load_text(text);
-    for (size_t i = 0; i < s->warnings.count; i++)
-        print_error("%s: %s\n", text, s->warnings.items[i].text);
-    assert_int_equal(s->warnings.count, 0);
-    CHECK_BOX(s, x0, y0, z0, x1, y1, z1);
-    lmn_scene_destroy(&s);
-}
 
 /* --- syntax ------------------------------------------------------------------------------------------------------------ */
 
@@ -88,6 +34,13 @@ static void errors_tell_line_and_column(void **state)
     assert_non_null(strstr(error.message, "group in line 1 is never closed"));
 }
 
+static size_t repeat(char *text, size_t size, const char *word, int count)
+{
+    for (int i = 0; i < count; i++, size += strlen(word))
+        memcpy(text + size, word, strlen(word));
+    return size;
+}
+
 static void nesting_has_a_limit(void **state)
 {
     (void)state;
@@ -101,12 +54,10 @@ static void nesting_has_a_limit(void **state)
         {"[", "", "]", DEEP, LMN_LIMIT},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        size_t size = *cases[i].open == '[' ? (size_t)sprintf(text, "cube(") : 0;
-        for (int k = 0; k < cases[i].depth; k++)
-            size += (size_t)sprintf(text + size, "%s", cases[i].open);
-        size += (size_t)sprintf(text + size, "%s", cases[i].middle);
-        for (int k = 0; k < cases[i].depth; k++)
-            size += (size_t)sprintf(text + size, "%s", cases[i].close);
+        size_t size = repeat(text, 0, *cases[i].open == '[' ? "cube(" : "", 1);
+        size = repeat(text, size, cases[i].open, cases[i].depth);
+        size = repeat(text, size, cases[i].middle, 1);
+        size = repeat(text, size, cases[i].close, cases[i].depth);
         lmn_error error;
         lmn_status status = load_status(temp_file("deep.csg", text, size), &error);
         if (status != cases[i].expected)
