@@ -2,7 +2,9 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base scene sheet technique light gpu construct import export layer lines surface perturb compose finish look draw api)
+set(LIMNER_FOLDERS base scene sheet technique light gpu construct csg import export layer lines surface perturb compose finish look draw api)
+
+set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 
 add_library(limner SHARED)
 foreach(folder IN LISTS LIMNER_FOLDERS)
@@ -12,6 +14,10 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     target_include_directories(limner_${folder} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(limner_${folder} PRIVATE PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG
                                                    PkgConfig::WEBP PkgConfig::DEFLATE PkgConfig::ASSIMP PkgConfig::GLU)
+    # Only what makes shapes sees the libraries for them.
+    if(folder STREQUAL construct)
+      target_link_libraries(limner_${folder} PRIVATE ${LIMNER_SHAPE_LIBRARIES})
+    endif()
     target_link_libraries(limner PRIVATE limner_${folder})
     list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_${folder}>)
   endif()
@@ -44,7 +50,7 @@ target_link_libraries(limner PRIVATE limner_embedded)
 list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 
 set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
-    PkgConfig::ASSIMP PkgConfig::GLU ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
+    PkgConfig::ASSIMP PkgConfig::GLU ${LIMNER_SHAPE_LIBRARIES} ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)
 set_target_properties(limner PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)

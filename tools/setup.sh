@@ -7,6 +7,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
           libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
           libpng-dev libjpeg-dev libwebp-dev libdeflate-dev libglu1-mesa-dev
+          libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
           libcmocka-dev)
 
 if ! command -v dpkg-query > /dev/null; then

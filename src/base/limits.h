@@ -17,6 +17,7 @@
 #define LIMIT_JSON_BYTES      ((size_t)1 << 29)   /* a .gltf file, or the JSON chunk of a .glb */
 #define LIMIT_JSON_DEPTH      256
 #define LIMIT_POLYGON_CORNERS 65536               /* of one face in PLY or OBJ */
+#define LIMIT_SHAPE_POINTS    ((size_t)4000000)   /* of one shape made from numbers */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
 #define LIMIT_LOOK_RULES      256
 #define LIMIT_LOOK_TECHNIQUES 64                  /* of one kind in a rule */

@@ -119,6 +119,7 @@ static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_dra
     if (!(farthest >= nearest))
         nearest = farthest = 1;
     camera_set_range(c, nearest, farthest);
+    camera_reach_to(c, solids_farthest(&s->renderer->up, c, s->plan.selected));
     return LMN_OK;
 }
 
@@ -214,7 +215,7 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
         bool blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;
-        cut_out = blended && s->plan.solid[item->part_index]; /* what is seen through keeps its opacity */
+        cut_out = blended && s->plan.opaque[item->part_index]; /* what is seen through keeps its opacity */
     }
     if (cut_out)
         warnings_add(&d->warnings, WARNING_TRANSPARENCY, "transparent materials are drawn as cut-outs");

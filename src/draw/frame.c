@@ -11,6 +11,7 @@ static void release_targets(frame *f, figure_state *s)
 {
     for (int i = 0; i < TARGET_COUNT; i++)
         gpu_target_release(f->g, s->targets[i]);
+    solids_release(f, &s->solids);
 }
 
 static void clear_page(frame *f)

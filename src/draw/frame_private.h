@@ -20,6 +20,21 @@ void   tiles_start(tile_grid *t, const int band[4]); /* all full */
  * band reach `margin` beyond it. Returns how many. */
 size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4]);
 
+/* The surfaces of solids, layer after layer: what the evaluation of their trees found. */
+typedef struct solid_layers {
+    bool         ready;
+    bool         first_only;  /* nothing behind the nearest was looked for */
+    int          box[4];      /* pixels where solids can be */
+    float        window_depth[4]; /* u_window_depth of the projection that the surfaces' depths belong to */
+    int          count;       /* layers there are */
+    int          index;       /* of the current one */
+    gpu_texture *surfaces;    /* of the current layer: (any), depth, key, normal */
+    gpu_texture *nearest;     /* of layer 0 */
+    gpu_texture **kept;       /* all of them, when they did not fit into one list; else NULL */
+    gpu_texture *planes;
+    gpu_buffer  *heads, *nodes, *chain, *counter;
+} solid_layers;
+
 /* A figure while it is drawn: its pictures and its range of depth. */
 typedef struct figure_state {
     const figure *figure;
@@ -37,6 +52,7 @@ typedef struct figure_state {
     size_t        box_count;
     bool          filled;    /* the fill is drawn with these lines */
     double        near, far;
+    solid_layers  solids;    /* of the figure and what may hide it */
 } figure_state;
 
 /* What the figures share that are seen through together: the pictures of one layer at a time. */
@@ -59,6 +75,7 @@ typedef struct layer_stack {
     gpu_texture  *nodes[2];     /* lists: nodes of up to eight layers */
     gpu_buffer   *heads, *list, *counter;
     int           node_vectors;
+    solid_layers  solids;       /* of all figures */
 } layer_stack;
 
 /* --- figure.c --- */
@@ -103,6 +120,9 @@ bool                 pass_applies(kind_id id, const pass *p, const technique_use
 gpu_texture         *target_of(const frame *f, const figure_state *s, target t);
 
 /* --- raster.c: the geometry pass --- */
+/* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
+void raster_set_transform(frame *f, const mat4 *world);
+void raster_set_projection(frame *f);
 void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless deferred */
 void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
@@ -117,6 +137,13 @@ void raster_layer(frame *f, layer_stack *stack, bool first);
 void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
+
+/* --- solids.c: evaluation of solids --- */
+/* Finds the surfaces of the solids among the wanted items (one a draw item), only the nearest or all. Errors stick to the GPU. */
+void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only);
+/* Makes layer `index` current; layers are asked for in order, from any number to the next or from 0. */
+void solids_select(frame *f, solid_layers *s, int index);
+void solids_release(frame *f, solid_layers *s);
 
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */

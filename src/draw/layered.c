@@ -75,6 +75,7 @@ static void stack_close(frame *f, layer_stack *stack)
     gpu_target_release(f->g, stack->before_depth);
     gpu_target_release(f->g, stack->before_id);
     gpu_target_release(f->g, stack->mask);
+    solids_release(f, &stack->solids);
     lists_release(f, stack);
     mem_free(stack->states);
     mem_free(stack->hidden);

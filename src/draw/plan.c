@@ -124,13 +124,13 @@ static bool is_seen_through(const rule *r)
     return compose && compose->technique->layered;
 }
 
-static void find_solid_parts(plan *p)
+static void find_opaque_parts(plan *p)
 {
     for (size_t i = 0; i < p->figure_count; i++)
         for (size_t part = 0; part < p->scene->part_count && !is_seen_through(p->figures[i].rule); part++)
             if (p->figures[i].designated[part]) {
-                p->solid[part] = true;
-                p->solid_count++;
+                p->opaque[part] = true;
+                p->opaque_count++;
             }
 }
 
@@ -160,7 +160,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
     f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
-    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->solid_count && !perturbed;
+    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
@@ -404,10 +404,10 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
     out->box = box3_empty();
     out->has_cut = up->has_cut;
     out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
-    out->solid = mem_calloc(scene->part_count, sizeof *out->solid);
+    out->opaque = mem_calloc(scene->part_count, sizeof *out->opaque);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
-    bool good = out->selected && out->solid && out->figures && out->rules;
+    bool good = out->selected && out->opaque && out->figures && out->rules;
     for (size_t r = 0; good && r < look->rule_count; r++) {
         out->rule_count++;
         if (!copy_rule(&out->rules[r], &look->rules[r], wishes->pixel_scale))
@@ -430,7 +430,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
         status = prepare_layers(out, up, notes, error);
     if (status != LMN_OK)
         return status;
-    find_solid_parts(out);
+    find_opaque_parts(out);
     for (size_t i = 0; i < out->figure_count; i++)
         settle_figure(&out->figures[i], out, wishes->as_sprites);
     order_figures(out);
@@ -448,6 +448,6 @@ void plan_release(plan *p)
     mem_free(p->rules);
     mem_free(p->figures);
     mem_free(p->selected);
-    mem_free(p->solid);
+    mem_free(p->opaque);
     memset(p, 0, sizeof *p);
 }

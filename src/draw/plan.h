@@ -29,8 +29,8 @@ typedef struct plan {
     rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t           rule_count;
     bool            *selected; /* per part: drawn by some figure */
-    bool            *solid;    /* per part: drawn by a figure that is not seen through, so that it may hide others */
-    size_t           selected_count, solid_count;
+    bool            *opaque;   /* per part: drawn by a figure that is not seen through, so that it may hide others */
+    size_t           selected_count, opaque_count;
     figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
     size_t           figure_count;
     box3             box; /* of the selection, which the picture is fitted to, before it is cut */

@@ -1,5 +1,6 @@
 /* The geometry pass: a figure's parts into its G-buffer or onto the page. */
 #include "draw/frame_private.h"
+#include "base/memory.h"
 #include "layer/layer.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
 {
     if (f->mirror && f->mirror->designated[item->part_index])
         return false; /* a mirror does not see itself */
-    return fig->designated[item->part_index] || (fig->complement && f->plan->solid[item->part_index]);
+    return fig->designated[item->part_index] || (fig->complement && f->plan->opaque[item->part_index]);
 }
 
 /* The item's material; `room` holds it when it is painted in the figure's highlight. */
@@ -84,8 +85,7 @@ static void set_material(gpu *g, const material *m, item_textures t, bool layere
     }
 }
 
-/* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
-static void set_transform(frame *f, const mat4 *world)
+void raster_set_transform(frame *f, const mat4 *world)
 {
     mat4 both = mat4_multiply(&f->camera.view, world);
     float model_view[16], normal[9];
@@ -107,7 +107,7 @@ static void set_transform(frame *f, const mat4 *world)
     gpu_set_mat3(f->g, "u_normal_matrix", normal);
 }
 
-static void set_projection(frame *f)
+void raster_set_projection(frame *f)
 {
     float projection[16];
     for (int i = 0; i < 16; i++)
@@ -125,6 +125,7 @@ static const outputs no_outputs = {-1, -1, -1, -1};
 /* One run over the parts. */
 typedef struct raster_job {
     const figure_state *state;  /* of the only figure; NULL: whose part it is in the stack */
+    solid_layers       *solids; /* the surfaces of solids, found when first needed */
     const layer_stack  *stack;
     outputs             at;
     const pass         *inking; /* lines on top and no complement */
@@ -171,13 +172,11 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     snprintf(path, size, "%s", joined);
 }
 
-static gpu_program *raster_program(frame *f, const figure_state *s, const draw_item *item, const material *m, item_textures t,
-                                   const raster_job *job)
+/* `prelude` says what the material needs; it is used up. */
+static gpu_program *raster_program(frame *f, const figure_state *s, const char *vertex, text prelude, const raster_job *job)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    text prelude = {0};
     declare_outputs(&prelude, job);
-    declare_material(&prelude, item, m, t);
     if (f->mirror)
         text_append(&prelude, "#define CLIPPED\n");
     if (s->targets[TARGET_REFLECTION])
@@ -190,7 +189,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const draw_i
     }
     if (job->inking)
         declare_ink(&prelude, path, sizeof path, f, s, job->inking);
-    return program_of(f, job->node_vectors ? GPU_FAST : GPU_FLOOR, "layer/raster.vert", path, &prelude);
+    return program_of(f, job->node_vectors ? GPU_FAST : GPU_FLOOR, vertex, path, &prelude);
 }
 
 static void set_ink(frame *f, const figure_state *s, const pass *inking)
@@ -222,23 +221,12 @@ typedef struct raster_setup {
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
-static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
+/* What programs of the geometry pass get, wherever their surfaces come from. */
+static void set_pass(frame *f, const raster_job *job, const figure_state *s)
 {
-    if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
-        item->has_colours == last->has_colours && item->is_cut == last->is_cut)
-        return;
-    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    material tinted;
-    const material *m = material_of(f, s->figure, item, &tinted);
-    item_textures t = textures_of(f, item, m);
-    gpu_program *program = raster_program(f, s, item, m, t, job);
-    gpu_use(f->g, program, (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_less = job->stack != NULL});
-    if (gpu_failed(f->g))
-        return;
     frame_set_common(f, s);
-    set_projection(f);
     if (job->at.shade >= 0)
-        uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+        uniforms_set(f->g, use_own_set(KIND_SURFACE, rule_use(s->figure->rule, KIND_SURFACE)));
     if (job->inking)
         set_ink(f, s, job->inking);
     set_layers(f, job);
@@ -246,6 +234,28 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
         gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
     if (s->targets[TARGET_REFLECTION])
         gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
+}
+
+static gpu_state state_of(const raster_job *job)
+{
+    return (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_less = job->stack != NULL};
+}
+
+static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
+{
+    if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
+        item->has_colours == last->has_colours && item->is_cut == last->is_cut)
+        return;
+    material tinted;
+    const material *m = material_of(f, s->figure, item, &tinted);
+    item_textures t = textures_of(f, item, m);
+    text prelude = {0};
+    declare_material(&prelude, item, m, t);
+    gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
+    if (gpu_failed(f->g))
+        return;
+    set_pass(f, job, s);
+    raster_set_projection(f);
     set_material(f->g, m, t, job->stack != NULL);
     *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, true, last->triangles};
 }
@@ -273,19 +283,24 @@ static const figure_state *owner_of(const frame *f, const raster_job *job, const
     return job->state;
 }
 
+static void set_ids(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, uint32_t order)
+{
+    gpu_set_uint(f->g, "u_part_id", item->part_id);
+    bool other = job->state && !job->only && !s->figure->designated[item->part_index];
+    gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
+    gpu_set_uint(f->g, "u_order", order);
+}
+
 static void draw_item_of(frame *f, const raster_job *job, const draw_item *item, raster_setup *last)
 {
-    const figure_state *s = owner_of(f, job, item);
+    const figure_state *s = item->is_solid ? NULL : owner_of(f, job, item);
     if (!s)
         return;
     set_up(f, job, s, item, last);
     if (gpu_failed(f->g))
         return;
-    set_transform(f, &item->world);
-    gpu_set_uint(f->g, "u_part_id", item->part_id);
-    bool other = job->state && !job->only && !s->figure->designated[item->part_index];
-    gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
-    gpu_set_uint(f->g, "u_order", last->triangles);
+    raster_set_transform(f, &item->world);
+    set_ids(f, job, s, item, last->triangles);
     if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
         gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
     if (item->is_cut)
@@ -294,12 +309,84 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     last->triangles += gpu_mesh_triangles(item->mesh);
 }
 
-/* Draws parts into the current pass. Layers order what coincides by part and then by facing; when peeling, whatever is drawn first
+/* The current surfaces of a solid part, as a sprite. */
+static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
+{
+    const figure_state *s = owner_of(f, job, item);
+    text prelude = {0};
+    text_append(&prelude, "#define SOLID\n");
+    gpu_use(f->g, raster_program(f, s, "gpu/boxes.vert", prelude, job), state_of(job));
+    if (gpu_failed(f->g))
+        return;
+    set_pass(f, job, s);
+    gpu_set_texture(f->g, "t_surfaces", job->solids->surfaces, false);
+    gpu_set_texture(f->g, "t_operands", f->up->operand_table, false);
+    gpu_set_vec4(f->g, "u_solid_depth", job->solids->window_depth);
+    raster_set_projection(f);
+    gpu_set_vec2(f->g, "u_solid_size", (float)f->width, (float)f->height);
+    float highlight[4] = {0, 0, 0, 0};
+    if (s->figure->highlight)
+        uniforms_linear(*s->figure->highlight, highlight);
+    gpu_set_vec4(f->g, "u_highlight", highlight);
+    gpu_set_float(f->g, "u_alpha_cutoff", 0);
+    gpu_set_int(f->g, "u_unlit", 0);
+    set_ids(f, job, s, item, 0);
+    int box[1][4];
+    camera_pixels(&f->camera, f->up->part_boxes[item->part_index], f->width, f->height, 2, box[0]);
+    gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+    gpu_draw_boxes(f->g, box, 1);
+}
+
+/* The solids that this run draws, one flag an item; NULL when there are none. The caller frees it. */
+static bool *solids_wanted(frame *f, const raster_job *job)
+{
+    const upload *up = f->up;
+    bool *wanted = NULL;
+    for (size_t i = 0; i < up->item_count && !gpu_failed(f->g); i++) {
+        if (!up->items[i].is_solid || !owner_of(f, job, &up->items[i]))
+            continue;
+        if (!wanted && !(wanted = mem_calloc(up->item_count, sizeof *wanted)))
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        if (wanted)
+            wanted[i] = true;
+    }
+    return wanted;
+}
+
+/* Layer after layer; in front of what follows them only the nearest is needed. */
+static void draw_solids(frame *f, const gpu_pass *pass, const raster_job *job, const bool *wanted)
+{
+    const upload *up = f->up;
+    gpu_pass again = *pass;
+    again.clear = false;
+    int count = job->solids->count;
+    int needed = job->node_vectors ? job->stack->limit : job->peeled ? count : 1;
+    count = count < needed ? count : needed;
+    for (int layer = 0; layer < count && !gpu_failed(f->g); layer++) {
+        if (layer != job->solids->index) {
+            solids_select(f, job->solids, layer);
+            gpu_pass_begin(f->g, &again);
+        }
+        for (size_t i = 0; i < up->item_count && !gpu_failed(f->g); i++)
+            if (wanted[i] && !(i > 0 && wanted[i - 1] && up->items[i - 1].part_index == up->items[i].part_index))
+                draw_solid(f, job, &up->items[i]);
+    }
+}
+
+/* Draws parts into a pass. Layers order what coincides by part and then by facing; when peeling, whatever is drawn first
  * stays, so parts come in that order, front faces before back faces. Lists are sorted later. */
-static void draw_parts(frame *f, const raster_job *job)
+static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
 {
     raster_setup last = {0};
     const upload *up = f->up;
+    bool *wanted = solids_wanted(f, job);
+    if (wanted)
+        solids_open(f, job->solids, wanted, !job->stack);
+    if (gpu_failed(f->g)) {
+        mem_free(wanted);
+        return;
+    }
+    gpu_pass_begin(f->g, pass);
     bool by_facing = job->stack && !job->node_vectors;
     for (size_t first = 0, end; first < up->item_count && !gpu_failed(f->g); first = end) {
         end = first + 1;
@@ -312,6 +399,9 @@ static void draw_parts(frame *f, const raster_job *job)
         }
     }
     gpu_cull_faces(f->g, GPU_CULL_NONE);
+    if (wanted)
+        draw_solids(f, pass, job, wanted);
+    mem_free(wanted);
 }
 
 /* Adds a channel to the geometry pass; background is depth "far", normal to the viewer, id 0, and no colour. */
@@ -349,8 +439,7 @@ void raster_figure(frame *f, figure_state *s)
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
     outputs o = open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
     if (!gpu_failed(f->g)) {
-        gpu_pass_begin(f->g, &pass);
-        draw_parts(f, &(raster_job){.state = s, .at = o});
+        draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = o});
     }
     watch_stop(f, w, "", "geometry");
 }
@@ -369,8 +458,7 @@ void raster_enlarged(frame *f, figure_state *s, float pixels)
         double near = f->camera.near, far = f->camera.far;
         camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
                          f->camera.orthographic ? far + more : far * (1 + more));
-        gpu_pass_begin(f->g, &pass);
-        draw_parts(&wide, &(raster_job){.state = s, .at = {0, -1, -1, -1}, .enlarge = pixels});
+        draw_parts(&wide, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }
@@ -406,8 +494,7 @@ void raster_direct(frame *f, figure_state *s)
     stopwatch w = watch_start(f);
     gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    gpu_pass_begin(f->g, &pass);
-    draw_parts(f, &(raster_job){.state = s, .at = {-1, -1, -1, 0}});
+    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}});
     watch_stop(f, w, "", "geometry");
 }
 
@@ -416,8 +503,7 @@ void raster_inked(frame *f, figure_state *s, const pass *inking)
 {
     gpu_pass onto = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(onto.scissor, s->pixels, sizeof onto.scissor);
-    gpu_pass_begin(f->g, &onto);
-    draw_parts(f, &(raster_job){.state = s, .at = {-1, -1, -1, 0}, .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
+    draw_parts(f, &onto, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}, .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
 }
 
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude)
@@ -437,8 +523,7 @@ void raster_layer(frame *f, layer_stack *stack, bool first)
     /* Part and facing order what coincides. */
     outputs o = open_outputs(f, stack->channels | CHANNEL_ID, stack->targets, &pass, f->camera.far);
     if (!gpu_failed(f->g)) {
-        gpu_pass_begin(f->g, &pass);
-        draw_parts(f, &(raster_job){.stack = stack, .at = o, .peeled = !first});
+        draw_parts(f, &pass, &(raster_job){.stack = stack, .solids = &stack->solids, .at = o, .peeled = !first});
     }
     watch_stop(f, w, "layers", "peel");
 }
@@ -448,13 +533,12 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
     /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
     gpu_pass pass = {.depth = f->page_depth};
     memcpy(pass.scissor, stack->around, sizeof pass.scissor);
-    gpu_pass_begin(f->g, &pass);
     outputs o = no_outputs;
     if (stack->channels & CHANNEL_SHADE)
         o.shade = 0;
     if (stack->channels & CHANNEL_ALBEDO)
         o.albedo = 0;
-    draw_parts(f, &(raster_job){.stack = stack, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
+    draw_parts(f, &pass, &(raster_job){.stack = stack, .solids = &stack->solids, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
 }
 
 void raster_mask(frame *f, layer_stack *stack, const bool *parts)
@@ -463,8 +547,9 @@ void raster_mask(frame *f, layer_stack *stack, const bool *parts)
     stack->mask = frame_acquire(f, TARGET_DEPTH);
     gpu_pass pass = {.depth = stack->mask, .clear = true};
     if (!gpu_failed(f->g)) {
-        gpu_pass_begin(f->g, &pass);
-        draw_parts(f, &(raster_job){.state = &stack->states[0], .at = no_outputs, .only = parts});
+        solid_layers solids = {.ready = false};
+        draw_parts(f, &pass, &(raster_job){.state = &stack->states[0], .solids = &solids, .at = no_outputs, .only = parts});
+        solids_release(f, &solids);
     }
     watch_stop(f, w, "layers", "mask");
 }

@@ -127,10 +127,14 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
         if (progress && !progress((double)i / (double)scene->part_count, "preparing", user))
             status = error_set(error, LMN_CANCELLED, "cancelled");
-        if (status == LMN_OK && scene->nodes[scene->parts[i].node].mesh != NONE)
+        if (status == LMN_OK && scene->nodes[scene->parts[i].node].solid != NONE)
+            status = upload_solid_part(out, g, scene, i, error);
+        else if (status == LMN_OK)
             status = upload_part(out, g, scene, i, &shared[first[scene->nodes[scene->parts[i].node].mesh]], error);
         out->part_boxes[i] = part_bounds(scene, out->worlds, i);
     }
+    if (status == LMN_OK)
+        status = upload_solids_close(out, g, error);
     mem_free(first);
     mem_free(shared);
     return status;
@@ -143,6 +147,11 @@ void upload_release(upload *u, gpu *g)
     for (size_t i = 0; i < u->texture_count && u->textures; i++)
         gpu_texture_destroy(g, &u->textures[i]);
     gpu_target_release(g, u->part_frames);
+    gpu_target_release(g, u->operand_table);
+    gpu_buffer_release(g, u->program_buffer);
+    csg_program_release(&u->program);
+    mem_free(u->planes);
+    mem_free(u->operands);
     mem_free(u->meshes);
     mem_free(u->textures);
     mem_free(u->items);

@@ -2,6 +2,7 @@
 #ifndef LIMNER_DRAW_UPLOAD_H
 #define LIMNER_DRAW_UPLOAD_H
 
+#include "csg/csg.h"
 #include "gpu/gpu.h"
 #include "scene/cut.h"
 #include "scene/scene.h"
@@ -14,6 +15,10 @@ typedef struct draw_item {
     size_t    part_index;
     int32_t   material;
     bool      has_uvs, has_colours;
+    bool      is_solid; /* operands of a solid: nothing of them is drawn as it is */
+    uint32_t  first_operand, operand_count; /* solids: numbers from first_operand + 1 on */
+    uint32_t  first_plane, plane_count;
+    box3      reach;  /* world axes; of all operands, what is taken away too */
     bool      is_cut; /* a cut face: unlit, hatched */
     float     nearer; /* window depth by which it is drawn nearer, so that cut faces of parts that overlap do not flicker */
 } draw_item;
@@ -40,6 +45,13 @@ typedef struct upload {
     size_t        mesh_count, mesh_capacity;
     gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
     size_t        texture_count;
+    csg_program   program;     /* of all solids */
+    csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
+    size_t        plane_count, plane_capacity;
+    float       (*operands)[8]; /* per operand: linear colour, part, taken away, 0, 0 */
+    size_t        operand_capacity;
+    gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
+    gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */
     gpu_texture  *part_frames; /* NULL: not asked for yet */
     double        frame_origin[3];
     uint64_t      triangles; /* drawn, instances counted */

@@ -43,6 +43,11 @@ lmn_status upload_add_mesh(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_dat
 bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
+/* --- upload_solid.c --- */
+lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error);
+/* What shaders read about all solids; once they are all there. */
+lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
+
 /* --- upload_cut.c --- */
 /* Cuts one instance; what is left of it is added unless it stays whole. */
 lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world, cut_verdict *verdict, lmn_error *error);

@@ -202,8 +202,16 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     m->bytes += add_attribute(m, 2, 2, data->vertex_count, data->uvs[0]);
     m->bytes += add_attribute(m, 3, 2, data->vertex_count, data->uvs[1]);
     m->bytes += add_attribute(m, 4, 4, data->vertex_count, data->colours);
-    glGenBuffers(1, &m->buffers[5]);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[5]);
+    if (data->keys) {
+        glGenBuffers(1, &m->buffers[5]);
+        glBindBuffer(GL_ARRAY_BUFFER, m->buffers[5]);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->vertex_count), data->keys, GL_STATIC_DRAW);
+        glVertexAttribIPointer(5, 1, GL_UNSIGNED_INT, 0, NULL);
+        glEnableVertexAttribArray(5);
+        m->bytes += sizeof(uint32_t) * (size_t)data->vertex_count;
+    }
+    glGenBuffers(1, &m->buffers[6]);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[6]);
     size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, data->indices, GL_STATIC_DRAW);
     m->bytes += index_bytes;
@@ -219,7 +227,7 @@ void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
     if (!*m)
         return;
     glDeleteVertexArrays(1, &(*m)->array);
-    glDeleteBuffers(6, (*m)->buffers);
+    glDeleteBuffers(7, (*m)->buffers);
     mem_free(*m);
     *m = NULL;
 }

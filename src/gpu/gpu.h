@@ -84,6 +84,7 @@ size_t       gpu_program_count(const gpu *g);
 typedef struct gpu_mesh_data {
     uint32_t        vertex_count, index_count;
     const float    *positions, *normals, *uvs[2], *colours;
+    const uint32_t *keys; /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
@@ -98,6 +99,8 @@ gpu_buffer *gpu_buffer_acquire(gpu *g, size_t bytes);
 void        gpu_buffer_release(gpu *g, gpu_buffer *b);
 /* Sets the first `bytes` to copies of a word. */
 void        gpu_buffer_fill(gpu *g, gpu_buffer *b, uint32_t word, size_t bytes);
+/* Writes the first bytes. */
+void        gpu_buffer_write(gpu *g, gpu_buffer *b, const void *data, size_t bytes);
 void        gpu_buffer_bind(gpu *g, gpu_buffer *b, int binding);
 void        gpu_buffer_read(gpu *g, gpu_buffer *b, size_t bytes, void *out);
 /* What shaders wrote is seen by everything after. */

@@ -1,6 +1,14 @@
 /* The geometry pass: writes those channels of the G-buffer that the figure needs, each where the prelude places it. */
 #include "light/point.glsl"
+#ifdef SOLID
+#include "csg/surface.glsl"
+#define IS_FRONT surface_front
+#define WINDOW_DEPTH surface_depth
+#else
 #include "layer/material.glsl"
+#define IS_FRONT gl_FrontFacing
+#define WINDOW_DEPTH gl_FragCoord.z
+#endif
 #if defined(CUT_FACE) && defined(AT_SHADE)
 #include "light/cut.glsl"
 #endif
@@ -8,7 +16,7 @@
 #ifdef AT_NORMAL_DEPTH
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif
-#if defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE) || defined(ENLARGED)
+#if defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE) || defined(ENLARGED) || defined(SOLID)
 uniform uint u_part_id;
 uniform uint u_surface_id;
 #endif
@@ -45,7 +53,7 @@ uniform vec4 u_clip_plane; /* eye space; what lies below is left out */
 /* The depth buffer's: at the near plane, rounding gives numbers below 0. */
 float stored_depth()
 {
-    return clamp(gl_FragCoord.z, 0.0, 1.0);
+    return clamp(WINDOW_DEPTH, 0.0, 1.0);
 }
 
 #include "layer/order.glsl"
@@ -53,8 +61,13 @@ float stored_depth()
 
 void main()
 {
+#ifdef SOLID
+    if (!fetch_surface(u_part_id))
+        discard;
+    gl_FragDepth = surface_depth;
+#endif
 #ifdef LAYERED
-    uvec2 id = uvec2(u_part_id, u_surface_id | (gl_FrontFacing ? 0u : SURFACE_BACK));
+    uvec2 id = uvec2(u_part_id, u_surface_id | (IS_FRONT ? 0u : SURFACE_BACK));
 #endif
 #ifdef PEELED
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -75,7 +88,7 @@ void main()
 #endif
 #ifdef MERGED
     /* Early z reject by hand: only what the first pass left visible goes through edge detection. */
-    if (gl_FragCoord.z > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r)
+    if (WINDOW_DEPTH > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r)
         discard;
 #endif
     vec4 albedo = model_colour();
@@ -92,9 +105,13 @@ void main()
     vec3 normal = model_normal();
 #if defined(AT_SHADE) || defined(DEFERRED)
     /* Lit from the side that is seen: the flat normal decides which that is, so that rims of smooth shapes never flip. */
+#ifdef SOLID
+    bool turned = !surface_front;
+#else
     vec3 facing = cross(dFdx(v_eye), dFdy(v_eye));
     facing *= sign(-dot(facing, u_perspective > 0.5 ? v_eye : vec3(0.0, 0.0, -1.0)));
     bool turned = dot(facing, normal) < 0.0;
+#endif
 #endif
 #ifdef AT_NORMAL_DEPTH
 #ifdef ENLARGED

@@ -1,0 +1,46 @@
+/* A fragment of an operand: its key (operand, plane, back-facing) and its depth. Fragments that lie in a plane which several operands share
+ * get that plane's depth at the pixel, by the same arithmetic whichever triangle they come from: what is coincident is equal. */
+in vec3 v_normal;
+flat in uint v_key;
+
+uniform sampler2D t_planes; /* eye space, 256 a row */
+uniform vec2 u_unproject;
+uniform vec2 u_size;
+uniform vec4 u_window_depth;
+uniform float u_perspective;
+
+uint fragment_key()
+{
+    return v_key | (gl_FrontFacing ? 0u : 1u);
+}
+
+float depth_on(vec4 plane, float otherwise)
+{
+    vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
+    vec3 across = vec3(ndc * u_unproject, 0.0), along = vec3(across.xy * u_perspective, -1.0), from = across * (1.0 - u_perspective);
+    float slope = dot(plane.xyz, along);
+    float distance = (plane.w - dot(plane.xyz, from)) / slope;
+    float z = -distance;
+    float clip = u_window_depth.x * z + u_window_depth.y, w = u_window_depth.z * z + u_window_depth.w;
+    /* Nearly along the ray there is no telling; such fragments are few and thin. */
+    return abs(slope) > 1e-4 * length(along) ? clip / w * 0.5 + 0.5 : otherwise;
+}
+
+float fragment_depth()
+{
+    float depth = gl_FragCoord.z;
+    uint plane = (v_key & 0xFFFEu) >> 1;
+    int shared_plane = plane != 0u ? 1 : 0;
+    for (int once = 0; once < shared_plane; once++)
+        depth = depth_on(texelFetch(t_planes, ivec2(int(plane - 1u) & 255, int(plane - 1u) >> 8), 0), depth);
+    return clamp(depth, 0.0, 1.0);
+}
+
+/* Octahedron coordinates in 16 bits each. */
+uint packed_normal()
+{
+    vec3 n = v_normal / max(abs(v_normal.x) + abs(v_normal.y) + abs(v_normal.z), 1e-30);
+    vec2 flat_normal = n.z < 0.0 ? (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0) : n.xy;
+    uvec2 steps = uvec2(clamp(flat_normal * 0.5 + 0.5, 0.0, 1.0) * 65534.0 + 0.5);
+    return steps.x | steps.y << 16;
+}

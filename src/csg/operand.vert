@@ -1,0 +1,24 @@
+/* Triangles of operands to eye space. */
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 5) in uint a_key;
+
+uniform mat4 u_model_view;
+uniform mat3 u_normal_matrix;
+uniform mat4 u_projection;
+uniform uint u_first_operand;
+uniform uint u_first_plane;
+
+/* Every pass must find the same depth. */
+invariant gl_Position;
+
+out vec3 v_normal;
+flat out uint v_key; /* operand, plane */
+
+void main()
+{
+    v_normal = u_normal_matrix * a_normal;
+    uint plane = a_key & 0xFFFEu;
+    v_key = (a_key & 0xFFFF0000u) + (u_first_operand << 16) + (plane != 0u ? plane + (u_first_plane << 1) : 0u);
+    gl_Position = u_projection * (u_model_view * vec4(a_position, 1.0));
+}

@@ -1,0 +1,195 @@
+/* Which fragments are surfaces of the solids: the pixel's list is walked from front to back, in rounds of the nearest few, and with each
+ * fragment an operand is entered or left and the terms above it are counted. Where a whole tree's value changes, there is the surface.
+ * Fragments at the same depth in one plane are one event: the state before and after them decides, so that flush unions have no
+ * wall inside and flush cuts leave no skin; of such fragments the first operand that changes the solid in that direction
+ * gives the surface. Roth 1982, per pixel; seed 003, 5.1; rows K02, K03, C3, C5, C6. */
+layout(std430, binding = 3) readonly buffer heads_block { uint heads[]; };
+layout(std430, binding = 4) readonly buffer nodes_block { uvec4 nodes[]; };
+layout(std430, binding = 6) readonly buffer program_block { uvec2 links[]; };
+#ifndef FIRST_ONLY
+layout(std430, binding = 5) buffer count_block { uint node_count; uint layer_count; };
+layout(std430, binding = 7) writeonly buffer chain_block { uint chain[]; }; /* per node: the next surface behind */
+#endif
+
+uniform vec4 u_list_box;
+uniform uint u_operand_count;
+layout(location = 0) out uvec4 out_surface; /* of the nearest: the next behind, depth, key, normal; all 0 where there is none */
+
+const uint FAR = 0xFFFFFFFFu; /* deeper than any depth */
+
+uint inside[OPERAND_WORDS];
+#if TERMS > 0
+int held[TERMS]; /* operands of each term that hold, more than when nothing is there */
+#endif
+
+/* Goes through the operand's surface. Returns whether the whole tree changes; `value` is then the new one, `entered` the operand's. */
+bool go_through(uint operand, out bool value, out bool entered)
+{
+    uint bit = 1u << (operand & 31u), word = inside[operand >> 5] ^ bit;
+    inside[operand >> 5] = word;
+    value = entered = (word & bit) != 0u;
+    uint link = links[operand].x;
+#if TERMS > 0
+    while (link != 0u) {
+        uint term = (link >> 1) - 1u;
+        uvec2 above = links[u_operand_count + term];
+        bool more = value != ((link & 1u) != 0u);
+        int before = held[term], after = before + (more ? 1 : -1), need = int(above.y);
+        held[term] = after;
+        value = after >= need;
+        if (value == (before >= need))
+            return false;
+        link = above.x;
+    }
+#endif
+    return true;
+}
+
+/* Fragments of one plane at one depth, or a single one. */
+uint group_depth, group_key; /* key: plane and solid */
+uint group_changes;
+bool group_value;
+uint group_owner[2]; /* the first node that makes less, and that makes more of the solid */
+
+uint first_surface, last_surface, surface_count;
+
+void end_group()
+{
+    bool changed = (group_changes & 1u) != 0u;
+    uint owner = group_value ? group_owner[1] : group_owner[0];
+    group_changes = 0u;
+    if (!changed)
+        return;
+#ifndef FIRST_ONLY
+    if (last_surface != 0u)
+        chain[last_surface - 1u] = owner;
+    last_surface = owner;
+    surface_count++;
+#endif
+    if (first_surface == 0u)
+        first_surface = owner;
+}
+
+void take(uint depth, uint key, uint node)
+{
+    uint operand = (key >> 16) - 1u, facts = links[operand].y, plane = key & 0xFFFEu;
+    uint own = (facts >> 1) << 16 | plane;
+    if (plane == 0u || depth != group_depth || own != group_key) {
+        end_group();
+        group_depth = depth;
+        group_key = own;
+        group_owner[0] = group_owner[1] = 0u;
+    }
+    bool value, entered;
+    bool changes = go_through(operand, value, entered);
+    group_value = changes ? value : group_value;
+    group_changes += changes ? 1u : 0u;
+    int towards = entered != ((facts & 1u) != 0u) ? 1 : 0;
+    if (group_owner[towards] == 0u)
+        group_owner[towards] = node;
+}
+
+/* The nearest KEPT fragments behind (depth, key, node), in order. */
+uint depths[KEPT], keys[KEPT], kept[KEPT];
+
+void sort_nearest(uint head, uint least_depth, uint least_key, uint least_node)
+{
+    for (int k = 0; k < KEPT; k++) {
+        depths[k] = FAR;
+        keys[k] = FAR;
+        kept[k] = FAR;
+    }
+    uint i = head;
+    while (i != 0u) {
+        uvec4 node = nodes[i - 1u];
+        uint depth = node.y, key = node.z, mine = i;
+        bool behind = depth > least_depth || (depth == least_depth && (key > least_key || (key == least_key && mine > least_node)));
+        depth = behind ? depth : FAR;
+        for (int k = 0; k < KEPT; k++) {
+            bool nearer = depth < depths[k] || (depth == depths[k] && (key < keys[k] || (key == keys[k] && mine < kept[k])));
+            uint d = depths[k], y = keys[k], n = kept[k];
+            depths[k] = nearer ? depth : d;
+            keys[k] = nearer ? key : y;
+            kept[k] = nearer ? mine : n;
+            depth = nearer ? d : depth;
+            key = nearer ? y : key;
+            mine = nearer ? n : mine;
+        }
+        i = node.x;
+    }
+}
+
+#ifdef EYE_MAY_BE_INSIDE
+/* What is entered and never left, or left and never entered, was around the eye already. */
+void start_inside(uint head)
+{
+    uint i = head;
+    while (i != 0u) {
+        uvec4 node = nodes[i - 1u];
+        bool value, entered;
+        go_through((node.z >> 16) - 1u, value, entered);
+        i = node.x;
+    }
+}
+#endif
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(u_list_box.xy);
+    uint head = heads[pixel.y * int(u_list_box.z) + pixel.x];
+    for (int k = 0; k < OPERAND_WORDS; k++)
+        inside[k] = 0u;
+#if TERMS > 0
+    for (int k = 0; k < TERMS; k++)
+        held[k] = 0;
+#endif
+    group_depth = FAR;
+    group_key = 0u;
+    group_changes = 0u;
+    group_value = false;
+    group_owner[0] = group_owner[1] = 0u;
+    first_surface = last_surface = surface_count = 0u;
+#ifdef EYE_MAY_BE_INSIDE
+    start_inside(head);
+#endif
+    uint least_depth = 0u, least_key = 0u, least_node = 0u;
+    uint open = head;
+    while (open != 0u) {
+        sort_nearest(open, least_depth, least_key, least_node);
+        bool full = depths[KEPT - 1] != FAR;
+        while (depths[0] != FAR) {
+            least_depth = depths[0];
+            least_key = keys[0];
+            least_node = kept[0];
+            for (int k = 0; k < KEPT - 1; k++) {
+                depths[k] = depths[k + 1];
+                keys[k] = keys[k + 1];
+                kept[k] = kept[k + 1];
+            }
+            depths[KEPT - 1] = FAR;
+            take(least_depth, least_key, least_node);
+#ifdef FIRST_ONLY
+            depths[0] = first_surface != 0u ? FAR : depths[0];
+#endif
+        }
+        open = full ? head : 0u;
+#ifdef FIRST_ONLY
+        open = first_surface != 0u ? 0u : open;
+#endif
+    }
+    end_group();
+    uvec4 surface = uvec4(0u);
+    uint found = first_surface;
+    while (found != 0u) {
+        surface = nodes[found - 1u];
+        found = 0u;
+    }
+#ifndef FIRST_ONLY
+    surface.x = first_surface;
+    if (last_surface != 0u)
+        chain[last_surface - 1u] = 0u;
+    if (surface_count > layer_count)
+        atomicMax(layer_count, surface_count);
+#endif
+    out_surface = surface;
+}

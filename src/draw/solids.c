@@ -1,0 +1,333 @@
+/* Solids: which surface lies at which pixel. One geometry pass puts every fragment of the operands into lists, one a pixel (GL 4.3 storage
+ * blocks), and one pass over the picture sorts them and runs the trees: 16 bytes a fragment, 4 more where all layers are
+ * wanted, and 20 a pixel. Where the lists have no room for all of the picture, it is done in bands. */
+#include "draw/frame_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { KEPT = 8, NODE_BYTES = 16, PLANES_A_ROW = 256, BANDS_MAX = 4096 };
+
+double solids_farthest(const upload *u, const view_camera *camera, const bool *selected)
+{
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (size_t i = 0; i < u->item_count; i++)
+        if (u->items[i].is_solid && selected[u->items[i].part_index])
+            camera_depth_range(camera, u->items[i].reach, &nearest, &farthest);
+    return farthest;
+}
+
+/* A plane in eye space: the inverse transpose of the way there, from the cofactors of its rotation part. */
+static void eye_plane(const mat4 *to_eye, const csg_plane *p, float out[4])
+{
+    const double *m = to_eye->m;
+    double c[9] = {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+                   m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
+                   m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
+    double n[3], place[3], length = 0, distance = 0;
+    for (int k = 0; k < 3; k++) {
+        n[k] = c[k] * p->normal[0] + c[3 + k] * p->normal[1] + c[6 + k] * p->normal[2];
+        place[k] = m[12 + k];
+        for (int j = 0; j < 3; j++)
+            place[k] += m[4 * j + k] * p->normal[j] * p->distance;
+        length += n[k] * n[k];
+    }
+    length = length > 0 ? sqrt(length) : 1;
+    for (int k = 0; k < 3; k++) {
+        distance += n[k] / length * place[k];
+        out[k] = (float)(n[k] / length);
+    }
+    out[3] = (float)distance;
+}
+
+/* The shared planes of the wanted items, one after the other. */
+static void open_planes(frame *f, solid_layers *s, const bool *wanted)
+{
+    const upload *u = f->up;
+    size_t count = 1;
+    for (size_t i = 0; i < u->item_count; i++)
+        count += wanted[i] ? u->items[i].plane_count : 0;
+    count = count < CSG_PLANES_MAX ? count : CSG_PLANES_MAX;
+    int rows = (int)((count + PLANES_A_ROW - 1) / PLANES_A_ROW);
+    float (*values)[4] = mem_calloc((size_t)rows * PLANES_A_ROW, sizeof *values);
+    if (!values) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    size_t made = 0;
+    for (size_t i = 0; i < u->item_count; i++) {
+        if (!wanted[i])
+            continue;
+        mat4 to_eye = mat4_multiply(&f->camera.view, &u->items[i].world);
+        for (size_t k = 0; k < u->items[i].plane_count && made < count; k++)
+            eye_plane(&to_eye, &u->planes[u->items[i].first_plane + k], values[made++]);
+    }
+    s->planes = gpu_target_acquire(f->g, PLANES_A_ROW, rows, GPU_RGBA32F);
+    gpu_target_write(f->g, s->planes, (int[]){0, 0, PLANES_A_ROW, rows}, values);
+    mem_free(values);
+}
+
+/* Where solids can be, and whether the eye may be in one of their operands. */
+static bool find_box(const frame *f, const bool *wanted, int box[4])
+{
+    const upload *u = f->up;
+    bool any = false, inside = false;
+    for (size_t i = 0; i < u->item_count; i++) {
+        if (!wanted[i])
+            continue;
+        int own[4];
+        double nearest = INFINITY, farthest = -INFINITY;
+        camera_depth_range(&f->camera, u->items[i].reach, &nearest, &farthest);
+        inside = inside || nearest <= f->camera.near;
+        camera_pixels(&f->camera, u->part_boxes[u->items[i].part_index], f->width, f->height, 2, own);
+        if (own[2] <= 0 || own[3] <= 0)
+            continue;
+        if (!any)
+            memcpy(box, own, sizeof own);
+        box_widen(box, own);
+        any = true;
+    }
+    if (!any)
+        memset(box, 0, 4 * sizeof *box);
+    return inside;
+}
+
+static void set_list_box(frame *f, const int box[4])
+{
+    gpu_set_vec4(f->g, "u_list_box", (float[]){(float)box[0], (float)box[1], (float)box[2], (float)box[3]});
+}
+
+static void bind_buffers(frame *f, const solid_layers *s)
+{
+    /* 0 to 2 are the layers' lists. */
+    gpu_buffer_bind(f->g, s->heads, 3);
+    gpu_buffer_bind(f->g, s->nodes, 4);
+    gpu_buffer_bind(f->g, s->counter, 5);
+    gpu_buffer_bind(f->g, f->up->program_buffer, 6);
+    gpu_buffer_bind(f->g, s->chain, 7);
+}
+
+/* Draws the operands of the wanted items with the program in use. */
+static void draw_operands(frame *f, const solid_layers *s, const bool *wanted)
+{
+    const upload *u = f->up;
+    raster_set_projection(f);
+    const double *m = f->camera.projection.m;
+    gpu_set_vec2(f->g, "u_size", (float)f->width, (float)f->height);
+    gpu_set_float(f->g, "u_perspective", f->camera.orthographic ? 0 : 1);
+    gpu_set_vec2(f->g, "u_unproject", (float)(1 / m[0]), (float)(1 / m[5]));
+    gpu_set_vec4(f->g, "u_window_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
+    gpu_set_texture(f->g, "t_planes", s->planes, false);
+    uint32_t planes = 0;
+    for (size_t i = 0; i < u->item_count && !gpu_failed(f->g); i++) {
+        if (!wanted[i])
+            continue;
+        const draw_item *item = &u->items[i];
+        raster_set_transform(f, &item->world);
+        gpu_set_uint(f->g, "u_first_operand", item->first_operand);
+        gpu_set_uint(f->g, "u_first_plane", planes);
+        gpu_draw_mesh(f->g, item->mesh);
+        planes += item->plane_count;
+    }
+}
+
+/* Gathers a box's fragments; returns how many times the room is needed. */
+static unsigned gather(frame *f, solid_layers *s, const bool *wanted, const int box[4], unsigned limit)
+{
+    text prelude = {0};
+    gpu_program *p = program_of(f, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude);
+    gpu_buffer_fill(f->g, s->heads, 0, (size_t)box[2] * (size_t)box[3] * sizeof(uint32_t));
+    gpu_buffer_fill(f->g, s->counter, 0, 64);
+    bind_buffers(f, s);
+    if (!p || gpu_failed(f->g))
+        return 1;
+    /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
+    gpu_pass pass = {.depth = f->page_depth};
+    memcpy(pass.scissor, box, sizeof pass.scissor);
+    gpu_pass_begin(f->g, &pass);
+    gpu_use(f->g, p, (gpu_state){0});
+    set_list_box(f, box);
+    gpu_set_uint(f->g, "u_node_limit", limit);
+    draw_operands(f, s, wanted);
+    gpu_buffer_barrier(f->g);
+    uint32_t made = 0;
+    gpu_buffer_read(f->g, s->counter, sizeof made, &made);
+    return made / limit + 1;
+}
+
+static size_t power_of_two(size_t n)
+{
+    size_t p = 1;
+    while (p < n)
+        p *= 2;
+    return p;
+}
+
+/* Runs the trees over a box; its nearest surfaces go into the current picture. */
+static void resolve(frame *f, solid_layers *s, const int box[4], bool inside)
+{
+    const csg_program *c = &f->up->program;
+    text prelude = {0};
+    text_append(&prelude, "#define KEPT %d\n#define OPERAND_WORDS %zu\n#define TERMS %zu\n%s%s", KEPT, power_of_two(c->operand_count / 32 + 1),
+                c->term_count ? power_of_two(c->term_count) : 0, s->first_only ? "#define FIRST_ONLY\n" : "",
+                inside ? "#define EYE_MAY_BE_INSIDE\n" : "");
+    gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "csg/resolve.frag", &prelude);
+    if (!p || gpu_failed(f->g))
+        return;
+    gpu_pass pass = {.colours = {s->surfaces}, .colour_count = 1};
+    memcpy(pass.scissor, box, sizeof pass.scissor);
+    gpu_pass_begin(f->g, &pass);
+    gpu_use(f->g, p, (gpu_state){0});
+    set_list_box(f, box);
+    gpu_set_uint(f->g, "u_operand_count", (unsigned)c->operand_count);
+    bind_buffers(f, s);
+    gpu_draw_screen(f->g);
+    gpu_buffer_barrier(f->g);
+}
+
+/* The surfaces behind those of one picture into another. */
+static void step(frame *f, solid_layers *s, gpu_texture *from, gpu_texture *to, const int box[4])
+{
+    text prelude = {0};
+    gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "csg/next.frag", &prelude);
+    if (!p || gpu_failed(f->g))
+        return;
+    gpu_pass pass = {.colours = {to}, .colour_count = 1};
+    memcpy(pass.scissor, box, sizeof pass.scissor);
+    gpu_pass_begin(f->g, &pass);
+    gpu_use(f->g, p, (gpu_state){0});
+    gpu_set_texture(f->g, "t_surfaces", from, false);
+    bind_buffers(f, s);
+    gpu_draw_screen(f->g);
+}
+
+static gpu_texture *blank_picture(frame *f)
+{
+    gpu_texture *t = gpu_target_acquire(f->g, f->width, f->height, GPU_RGBA32UI);
+    if (t)
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {t}, .colour_count = 1, .clear = true});
+    return t;
+}
+
+/* Layers that the pixels of a band have, at most: counted while the trees ran. */
+static int layers_of_band(frame *f, solid_layers *s)
+{
+    uint32_t words[2] = {0};
+    gpu_buffer_read(f->g, s->counter, sizeof words, words);
+    return (int)words[1];
+}
+
+/* Keeps all layers of a band, since its lists are about to go. */
+static bool keep_layers(frame *f, solid_layers *s, const int box[4], int count)
+{
+    if (count > s->count) {
+        gpu_texture **grown = mem_realloc(s->kept, (size_t)count * sizeof *grown);
+        if (!grown) {
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+            return false;
+        }
+        s->kept = grown;
+        for (; s->count < count; s->count++)
+            s->kept[s->count] = s->count == 0 ? s->surfaces : blank_picture(f);
+    }
+    for (int i = 1; i < count; i++)
+        step(f, s, s->kept[i - 1], s->kept[i], box);
+    return true;
+}
+
+/* Bands of rows, as many as the fullest band turned out to need. */
+static void evaluate(frame *f, solid_layers *s, const bool *wanted, bool inside, unsigned limit)
+{
+    int rows = s->box[3];
+    for (int row = 0; row < s->box[3] && !gpu_failed(f->g);) {
+        int left = s->box[3] - row, band[4] = {s->box[0], s->box[1] + row, s->box[2], rows < left ? rows : left};
+        unsigned times = gather(f, s, wanted, band, limit);
+        if (times > 1 && band[3] > 1) {
+            rows = band[3] / (int)(times < (unsigned)band[3] ? times : (unsigned)band[3]);
+            continue;
+        }
+        if (times > 1)
+            gpu_fail(f->g, LMN_LIMIT, "a row of the picture has more surfaces of operands than fit into the driver's storage block");
+        resolve(f, s, band, inside);
+        bool whole = band[3] == s->box[3];
+        if (!s->first_only && !gpu_failed(f->g)) {
+            int count = layers_of_band(f, s);
+            if (whole)
+                s->count = count;
+            else if (!keep_layers(f, s, band, count))
+                return;
+        }
+        row += band[3];
+    }
+}
+
+void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
+{
+    if (s->ready || gpu_failed(f->g))
+        return;
+    const double *m = f->camera.projection.m;
+    s->ready = true;
+    s->first_only = first_only;
+    memcpy(s->window_depth, (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]}, sizeof s->window_depth);
+    bool inside = find_box(f, wanted, s->box);
+    if (s->box[2] <= 0)
+        return;
+    if (!gpu_facts_of(f->g)->lists) {
+        gpu_fail(f->g, LMN_UNSUPPORTED, "solids need OpenGL 4.3");
+        return;
+    }
+    stopwatch w = watch_start(f);
+    size_t block = (size_t)gpu_facts_of(f->g)->max_storage_mib << 20, pixels = (size_t)s->box[2] * (size_t)s->box[3];
+    enum { ROOM = 128 << 20 };
+    size_t room = block < ROOM ? block : ROOM;
+    unsigned limit = (unsigned)(room / NODE_BYTES);
+    open_planes(f, s, wanted);
+    s->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
+    s->nodes = gpu_buffer_acquire(f->g, room);
+    s->counter = gpu_buffer_acquire(f->g, 64);
+    if (!first_only)
+        s->chain = gpu_buffer_acquire(f->g, limit * sizeof(uint32_t));
+    s->nearest = s->surfaces = blank_picture(f);
+    s->count = first_only ? 1 : 0;
+    if (!gpu_failed(f->g))
+        evaluate(f, s, wanted, inside, limit);
+    watch_stop(f, w, "solids", "evaluate");
+}
+
+void solids_select(frame *f, solid_layers *s, int index)
+{
+    if (s->kept || index == 0) {
+        if (!s->kept && s->surfaces != s->nearest)
+            gpu_target_release(f->g, s->surfaces);
+        s->surfaces = s->kept ? s->kept[index] : s->nearest;
+        s->index = index;
+        return;
+    }
+    gpu_texture *behind = blank_picture(f);
+    step(f, s, s->surfaces, behind, s->box);
+    if (s->surfaces != s->nearest)
+        gpu_target_release(f->g, s->surfaces);
+    s->surfaces = behind;
+    s->index = index;
+}
+
+void solids_release(frame *f, solid_layers *s)
+{
+    if (s->kept) {
+        for (int i = 0; i < s->count; i++)
+            gpu_target_release(f->g, s->kept[i]);
+    } else {
+        if (s->surfaces != s->nearest)
+            gpu_target_release(f->g, s->surfaces);
+        gpu_target_release(f->g, s->nearest);
+    }
+    mem_free(s->kept);
+    gpu_target_release(f->g, s->planes);
+    gpu_buffer_release(f->g, s->heads);
+    gpu_buffer_release(f->g, s->nodes);
+    gpu_buffer_release(f->g, s->chain);
+    gpu_buffer_release(f->g, s->counter);
+    memset(s, 0, sizeof *s);
+}

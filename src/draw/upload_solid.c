@@ -1,0 +1,296 @@
+/* Solids on the GPU: the triangles of all operands as one mesh, each with its operand's number and its plane, and the trees as a
+ * program. What the set operations leave of them is found when they are drawn. */
+#include "draw/upload_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/solid_form.h"
+
+/* Keys: operand from 1 on, plane from 1 on or 0, and a bit that drawing sets for back faces. */
+enum { KEY_OPERAND_SHIFT = 16, KEY_PLANE_SHIFT = 1 };
+
+/* Light grey, sRGB 0.8, as formats without colours have it. */
+static const float plain_grey = 0.6038f;
+
+/* One solid while it is put together. */
+typedef struct baker {
+    const lmn_scene *scene;
+    double           crease_angle;
+    render_vertices **cache; /* per mesh and primitive, made when first needed */
+    vec3            *positions, *normals;
+    uint32_t        *keys, *indices, *owners;
+    size_t           vertex_count, vertex_capacity, normal_capacity, index_count, index_capacity, owner_capacity;
+} baker;
+
+static void baker_release(baker *b)
+{
+    for (size_t m = 0; b->cache && m < b->scene->mesh_count; m++) {
+        for (size_t i = 0; b->cache[m] && i < b->scene->meshes[m].primitive_count; i++)
+            render_vertices_release(&b->cache[m][i]);
+        mem_free(b->cache[m]);
+    }
+    mem_free(b->cache);
+    mem_free(b->positions);
+    mem_free(b->normals);
+    mem_free(b->keys);
+    mem_free(b->indices);
+    mem_free(b->owners);
+}
+
+/* The vertices of a mesh's primitives, split at creases. NULL after an error. */
+static const render_vertices *vertices_of(baker *b, int32_t mesh_index, lmn_error *error)
+{
+    const mesh *m = &b->scene->meshes[mesh_index];
+    if (b->cache[mesh_index])
+        return b->cache[mesh_index];
+    render_vertices *made = b->cache[mesh_index] = mem_calloc(m->primitive_count, sizeof *made);
+    if (!made) {
+        error_memory(error);
+        return NULL;
+    }
+    for (size_t i = 0; i < m->primitive_count; i++) {
+        made[i] = (render_vertices){.vertex_count = m->primitives[i].vertex_count, .index_count = m->primitives[i].index_count};
+        if (!m->primitives[i].normals && mesh_make_normals(&made[i], &m->primitives[i], b->crease_angle, error) != LMN_OK)
+            return NULL;
+    }
+    return made;
+}
+
+/* Six times the volume inside, positive when triangles run anticlockwise seen from outside. */
+static double signed_volume(const mesh *m)
+{
+    double sum = 0;
+    for (size_t k = 0; k < m->primitive_count; k++) {
+        const primitive *p = &m->primitives[k];
+        vec3 o = p->positions[0];
+        for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+            double c[3][3];
+            for (uint32_t j = 0; j < 3; j++) {
+                vec3 v = p->positions[p->indices[i + j]];
+                c[j][0] = (double)v.x - (double)o.x;
+                c[j][1] = (double)v.y - (double)o.y;
+                c[j][2] = (double)v.z - (double)o.z;
+            }
+            sum += c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) + c[0][1] * (c[1][2] * c[2][0] - c[1][0] * c[2][2]) +
+                   c[0][2] * (c[1][0] * c[2][1] - c[1][1] * c[2][0]);
+        }
+    }
+    return sum;
+}
+
+/* Transforms normals: the inverse transpose up to a positive scale, turned when the mesh is. */
+typedef struct turning {
+    double cofactor[9];
+    bool   flips; /* triangles change their way round */
+} turning;
+
+static turning turning_of(const mat4 *matrix, bool inside_out)
+{
+    const double *m = matrix->m;
+    turning t = {{m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+                  m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
+                  m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]}, false};
+    double determinant = m[0] * t.cofactor[0] + m[1] * t.cofactor[1] + m[2] * t.cofactor[2];
+    t.flips = (determinant < 0) != inside_out;
+    if (t.flips)
+        for (int i = 0; i < 9; i++)
+            t.cofactor[i] = -t.cofactor[i];
+    return t;
+}
+
+static vec3 turned_normal(const turning *t, vec3 n)
+{
+    const double *c = t->cofactor;
+    double x = c[0] * (double)n.x + c[3] * (double)n.y + c[6] * (double)n.z, y = c[1] * (double)n.x + c[4] * (double)n.y + c[7] * (double)n.z,
+           z = c[2] * (double)n.x + c[5] * (double)n.y + c[8] * (double)n.z, length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0))
+        return (vec3){0, 0, 1};
+    return (vec3){(float)(x / length), (float)(y / length), (float)(z / length)};
+}
+
+static bool make_room(baker *b, size_t vertices, size_t indices)
+{
+    size_t keys = b->vertex_capacity;
+    return mem_grow((void **)&b->positions, &b->vertex_capacity, b->vertex_count + vertices, sizeof *b->positions) &&
+           mem_grow((void **)&b->keys, &keys, b->vertex_count + vertices, sizeof *b->keys) &&
+           mem_grow((void **)&b->normals, &b->normal_capacity, b->vertex_count + vertices, sizeof *b->normals) &&
+           mem_grow((void **)&b->indices, &b->index_capacity, b->index_count + indices, sizeof *b->indices) &&
+           mem_grow((void **)&b->owners, &b->owner_capacity, (b->index_count + indices) / 3, sizeof *b->owners);
+}
+
+static void bake_primitive(baker *b, const primitive *p, const render_vertices *v, const mat4 *matrix, const turning *t, uint32_t number)
+{
+    const vec3 *normals = v->normals ? v->normals : p->normals;
+    const uint32_t *indices = v->indices ? v->indices : p->indices;
+    uint32_t first = (uint32_t)b->vertex_count;
+    for (uint32_t i = 0; i < v->vertex_count; i++) {
+        size_t at = b->vertex_count++;
+        b->positions[at] = mat4_transform_point(matrix, p->positions[v->source ? v->source[i] : i]);
+        b->normals[at] = turned_normal(t, normals[i]);
+        b->keys[at] = number << KEY_OPERAND_SHIFT;
+    }
+    for (uint32_t i = 0; i < v->index_count; i += 3) {
+        b->owners[b->index_count / 3] = number;
+        for (uint32_t k = 0; k < 3; k++)
+            b->indices[b->index_count++] = first + indices[i + (t->flips ? 2 - k : k)];
+    }
+}
+
+static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number, lmn_error *error)
+{
+    const mesh *m = &b->scene->meshes[o->mesh];
+    const render_vertices *v = vertices_of(b, o->mesh, error);
+    if (!v)
+        return LMN_MEMORY;
+    turning t = turning_of(&o->matrix, signed_volume(m) < 0);
+    for (size_t i = 0; i < m->primitive_count; i++) {
+        if (!make_room(b, v[i].vertex_count, v[i].index_count))
+            return error_memory(error);
+        bake_primitive(b, &m->primitives[i], &v[i], &o->matrix, &t, number);
+    }
+    return LMN_OK;
+}
+
+/* A triangle in a plane that others share gets a last corner of its own, which carries the plane's number. */
+static lmn_status mark_planes(baker *b, const uint16_t *numbers, lmn_error *error)
+{
+    size_t marked = 0;
+    for (size_t i = 0; i < b->index_count / 3; i++)
+        marked += numbers[i] != 0;
+    if (!make_room(b, marked, 0))
+        return error_memory(error);
+    for (size_t i = 0; i < b->index_count / 3; i++) {
+        if (!numbers[i])
+            continue;
+        uint32_t *last = &b->indices[3 * i + 2];
+        size_t own = b->vertex_count++;
+        b->positions[own] = b->positions[*last];
+        b->normals[own] = b->normals[*last];
+        b->keys[own] = b->keys[*last] | (uint32_t)numbers[i] << KEY_PLANE_SHIFT;
+        *last = (uint32_t)own;
+    }
+    return LMN_OK;
+}
+
+static lmn_status add_planes(upload *u, baker *b, uint32_t *plane_count, lmn_error *error)
+{
+    csg_soup soup = {b->positions, b->indices, b->owners, b->index_count / 3};
+    uint16_t *numbers = NULL;
+    csg_plane *planes = NULL;
+    size_t count = 0;
+    *plane_count = 0;
+    if (!csg_find_planes(&soup, &numbers, &planes, &count))
+        return error_memory(error);
+    size_t room = CSG_PLANES_MAX - u->plane_count;
+    for (size_t i = 0; count > room && i < soup.triangle_count; i++)
+        numbers[i] = numbers[i] > room ? 0 : numbers[i];
+    count = count < room ? count : room;
+    lmn_status status = mem_grow((void **)&u->planes, &u->plane_capacity, u->plane_count + count, sizeof *u->planes) ? LMN_OK : error_memory(error);
+    if (status == LMN_OK) {
+        if (count)
+            memcpy(u->planes + u->plane_count, planes, count * sizeof *planes);
+        u->plane_count += count;
+        *plane_count = (uint32_t)count;
+        status = mark_planes(b, numbers, error);
+    }
+    mem_free(numbers);
+    mem_free(planes);
+    return status;
+}
+
+/* Colours and part of the operands, and the tree. */
+static lmn_status add_program(upload *u, const solid_form *form, const int32_t *used, size_t count, size_t part_index, lmn_error *error)
+{
+    size_t first = u->program.operand_count;
+    if (first + count > CSG_OPERANDS_MAX)
+        return error_set(error, LMN_LIMIT, "the solids of the scene have more than %d operands in all", CSG_OPERANDS_MAX);
+    if (!csg_program_add(&u->program, form) || !mem_grow((void **)&u->operands, &u->operand_capacity, first + count, sizeof *u->operands))
+        return error_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        const solid_operand *o = &form->operands[used[i]];
+        vec4 c = o->has_colour ? o->colour : (vec4){plain_grey, plain_grey, plain_grey, 1};
+        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(u->program.operands[first + i][1] & 1), 0, 0},
+               sizeof u->operands[0]);
+    }
+    return LMN_OK;
+}
+
+static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, const solid_form *form, baker *b, lmn_error *error)
+{
+    const node *n = &scene->nodes[scene->parts[part_index].node];
+    int32_t *used = mem_alloc((form->operand_count ? form->operand_count : 1) * sizeof *used);
+    size_t count = used ? solid_form_used(form, used) : 0;
+    draw_item item = {.is_solid = true, .part_index = part_index, .part_id = (uint32_t)part_index + 1, .surface_id = 1, .material = NONE,
+                      .operand_count = (uint32_t)count, .first_plane = (uint32_t)u->plane_count};
+    lmn_status status = used ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < count && status == LMN_OK; i++)
+        status = bake_operand(b, &form->operands[used[i]], (uint32_t)i + 1, error);
+    if (status == LMN_OK)
+        status = add_planes(u, b, &item.plane_count, error);
+    if (status == LMN_OK && b->index_count) {
+        gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count, .index_count = (uint32_t)b->index_count, .indices = b->indices,
+                              .positions = (const float *)b->positions, .normals = (const float *)b->normals, .keys = b->keys};
+        status = upload_add_mesh(u, g, &item.mesh, &data, error);
+    }
+    for (size_t k = 0; k < node_draw_count(n) && item.mesh && status == LMN_OK; k++) {
+        item.world = u->worlds[scene->parts[part_index].node];
+        if (n->instance_count)
+            item.world = mat4_multiply(&item.world, &n->instances[k]);
+        item.first_operand = (uint32_t)u->program.operand_count;
+        item.reach = box3_empty();
+        for (size_t i = 0; i < count; i++)
+            item.reach = box3_union(item.reach, box3_transform(form->operands[used[i]].box, &item.world));
+        status = add_program(u, form, used, count, part_index, error);
+        u->triangles += b->index_count / 3;
+        if (status == LMN_OK && !upload_add_item(u, &item))
+            status = error_memory(error);
+    }
+    mem_free(used);
+    return status;
+}
+
+lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
+{
+    const solid *s = &scene->solids[scene->nodes[scene->parts[part_index].node].solid];
+    baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count, sizeof *b.cache)};
+    solid_form form;
+    lmn_status status = solid_form_create(&form, scene, s, true, error);
+    if (status == LMN_OK && !b.cache)
+        status = error_memory(error);
+    if (status == LMN_OK)
+        status = add_items(u, g, scene, part_index, &form, &b, error);
+    solid_form_release(&form);
+    baker_release(&b);
+    return status;
+}
+
+lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error)
+{
+    enum { OPERANDS_A_ROW = 512 };
+    size_t count = u->program.operand_count, terms = u->program.term_count;
+    if (!count)
+        return LMN_OK;
+    int rows = (int)((count + OPERANDS_A_ROW - 1) / OPERANDS_A_ROW);
+    float *values = mem_calloc((size_t)rows * OPERANDS_A_ROW, sizeof *u->operands);
+    uint32_t *links = mem_alloc((count + terms) * sizeof *u->program.operands);
+    lmn_status status = values && links ? LMN_OK : error_memory(error);
+    if (status == LMN_OK) {
+        memcpy(values, u->operands, count * sizeof *u->operands);
+        u->operand_table = gpu_target_acquire(g, 2 * OPERANDS_A_ROW, rows, GPU_RGBA32F);
+        gpu_target_write(g, u->operand_table, (int[]){0, 0, 2 * OPERANDS_A_ROW, rows}, values);
+        memcpy(links, u->program.operands, count * sizeof *u->program.operands);
+        if (terms)
+            memcpy(links + 2 * count, u->program.terms, terms * sizeof *u->program.terms);
+        if (gpu_facts_of(g)->lists) {
+            size_t bytes = (count + terms) * sizeof *u->program.operands;
+            u->program_buffer = gpu_buffer_acquire(g, bytes);
+            gpu_buffer_write(g, u->program_buffer, links, bytes);
+        }
+        status = gpu_check(g, error);
+    }
+    mem_free(values);
+    mem_free(links);
+    return status;
+}
