@@ -16,6 +16,8 @@
     X(WARNING_NO_MATCH, "no-match")               /* a rule that selects nothing */                                   \
     X(WARNING_LAYER_MEMORY, "layer-memory")       /* layers were made the slower way */                           \
     X(WARNING_CUT_OPEN, "cut-open")               /* parts that are not closed have no cut face */                   \
+    X(WARNING_BACKGROUND, "background")           /* what a .csg file marks with % and does not count as the model */ \
+    X(WARNING_APPROXIMATE, "approximate")         /* drawn nearly as the file means it */                             \
     X(WARNING_UNUSED, "unused")                   /* a setting without effect */
 
 typedef enum warning_code {

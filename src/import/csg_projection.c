@@ -1,0 +1,134 @@
+/* Solids cut by the plane z = 0 and their shadows on it (projection()). A cut of a tree is the tree of the cuts; a shadow is that only
+ * for unions. */
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "import/csg.h"
+
+/* How many cuts stand for the shadow of a difference or intersection. */
+enum { CUTS = 96 };
+
+
+static lmn_status cut_operand(csg_reader *r, const csg_shape *s, const mat4 *place, region *out)
+{
+    polyhedron p = {0};
+    lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, place, r->error);
+    if (status == LMN_OK)
+        status = polyhedron_slice(out, &p, r->error);
+    polyhedron_release(&p);
+    return status;
+}
+
+static region_operation operation_of(solid_kind kind)
+{
+    return kind == SOLID_UNION ? REGION_UNION : kind == SOLID_INTERSECTION ? REGION_INTERSECTION : REGION_DIFFERENCE;
+}
+
+/* Applies one function to all children and puts the regions together. */
+typedef lmn_status (*project_fn)(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out);
+
+static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, const mat4 *place, project_fn fn, region *out)
+{
+    region *items = NULL;
+    size_t count = 0, capacity = 0;
+    lmn_status status = LMN_OK;
+    for (int32_t c = r->shapes[shape].first_child; c != NONE && status == LMN_OK; c = r->shapes[c].next) {
+        if (!mem_grow((void **)&items, &capacity, count + 1, sizeof *items)) {
+            status = error_memory(r->error);
+            break;
+        }
+        items[count] = (region){0};
+        status = fn(r, node, c, place, &items[count++]);
+    }
+    if (status == LMN_OK)
+        status = region_combine(out, items, count, operation_of(r->shapes[shape].kind), r->error);
+    for (size_t i = 0; i < count; i++)
+        region_release(&items[i]);
+    mem_free(items);
+    return status;
+}
+
+static lmn_status cut(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
+{
+    const csg_shape *s = &r->shapes[shape];
+    mat4 place = mat4_multiply(above, &s->matrix);
+    return s->kind == SOLID_OPERAND ? cut_operand(r, s, &place, out) : combine_children(r, node, shape, &place, cut, out);
+}
+
+/* How far the shape reaches along z at most. */
+static void reach(const csg_reader *r, int32_t shape, const mat4 *above, double *low, double *high)
+{
+    const csg_shape *s = &r->shapes[shape];
+    mat4 place = mat4_multiply(above, &s->matrix);
+    if (s->kind == SOLID_OPERAND) {
+        const polyhedron *p = &r->meshes[s->mesh].polyhedron;
+        for (size_t i = 0; i < p->point_count; i++) {
+            double z = place.m[2] * p->points[i].x + place.m[6] * p->points[i].y + place.m[10] * p->points[i].z + place.m[14];
+            *low = fmin(*low, z);
+            *high = fmax(*high, z);
+        }
+        return;
+    }
+    for (int32_t c = s->first_child; c != NONE; c = s->kind == SOLID_DIFFERENCE ? NONE : r->shapes[c].next) {
+        double l = INFINITY, h = -INFINITY;
+        reach(r, c, &place, &l, &h);
+        bool first = c == s->first_child, inside = s->kind == SOLID_INTERSECTION && !first;
+        *low = inside ? fmax(*low, l) : fmin(*low, l);
+        *high = inside ? fmin(*high, h) : fmax(*high, h);
+    }
+}
+
+/* Cuts at many heights, united. */
+static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
+{
+    region cuts[CUTS] = {{0}};
+    double low = INFINITY, high = -INFINITY;
+    lmn_status status = LMN_OK;
+    reach(r, shape, above, &low, &high);
+    csg_warn(r, node, WARNING_APPROXIMATE, "projection() of the %s() in line %u is put together from %d cuts",
+             csg_word(&r->tree, r->shapes[shape].node), (unsigned)r->tree.nodes[r->shapes[shape].node].line, CUTS);
+    for (int i = 0; i < CUTS && low < high && status == LMN_OK; i++) {
+        mat4 down = mat4_identity();
+        down.m[14] = -(low + (high - low) * (i + 0.5) / CUTS);
+        mat4 place = mat4_multiply(&down, above);
+        status = import_progress(r->job, 0.5, "evaluating", r->error);
+        if (status == LMN_OK)
+            status = cut(r, node, shape, &place, &cuts[i]);
+    }
+    if (status == LMN_OK)
+        status = region_combine(out, cuts, CUTS, REGION_UNION, r->error);
+    for (int i = 0; i < CUTS; i++)
+        region_release(&cuts[i]);
+    return status;
+}
+
+static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
+{
+    const csg_shape *s = &r->shapes[shape];
+    mat4 place = mat4_multiply(above, &s->matrix);
+    if (s->kind == SOLID_UNION)
+        return combine_children(r, node, shape, &place, shadow, out);
+    if (s->kind != SOLID_OPERAND)
+        return shadow_by_cuts(r, node, shape, above, out);
+    polyhedron p = {0};
+    lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &place, r->error);
+    if (status == LMN_OK)
+        status = polyhedron_shadow(out, &p, r->error);
+    polyhedron_release(&p);
+    return status;
+}
+
+/* Its children are solids, whatever the dimension of what is around. */
+lmn_status csg_projection(csg_reader *r, int32_t node, region *out)
+{
+    const mat4 identity = mat4_identity();
+    size_t shapes = r->shape_count;
+    int32_t shape;
+    lmn_status status = csg_union(r, node, &shape);
+    if (status == LMN_OK && shape >= 0)
+        status = (csg_bool(&r->tree, node, "cut", 0, false) ? cut : shadow)(r, node, shape, &identity, out);
+    r->shape_count = shapes;
+    return status;
+}
