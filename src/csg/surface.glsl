@@ -13,6 +13,7 @@ vec3 v_normal;
 bool surface_front;
 float surface_depth;
 vec4 surface_albedo;
+uint surface_operand; /* bits of the surface id */
 
 /* False where this part has no surface. */
 bool fetch_surface(uint part)
@@ -26,6 +27,7 @@ bool fetch_surface(uint part)
     if (uint(facts.x) != part)
         return false;
     surface_albedo = u_highlight.a > 0.0 ? u_highlight : texelFetch(t_operands, place, 0);
+    surface_operand = SURFACE_OPERAND | surface.z >> 16;
     surface_depth = uintBitsToFloat(surface.y);
     bool taken_away = facts.y > 0.5;
     surface_front = ((surface.z & 1u) == 0u) != taken_away;

@@ -224,8 +224,8 @@ static void declare_id_bits(text *prelude)
 {
     text_append(prelude, "#define SURFACE_INDEX_BITS %d\n#define SURFACE_INDEX_MASK %uu\n#define SURFACE_FIGURE_MASK %uu\n", SURFACE_INDEX_BITS,
                 (1u << SURFACE_INDEX_BITS) - 1, (unsigned)FIGURES_TOGETHER_MAX);
-    text_append(prelude, "#define SURFACE_COMPLEMENT %uu\n#define SURFACE_TURNED %uu\n#define SURFACE_CUT %uu\n#define SURFACE_BACK %uu\n",
-                SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK);
+    text_append(prelude, "#define SURFACE_COMPLEMENT %uu\n#define SURFACE_TURNED %uu\n#define SURFACE_CUT %uu\n#define SURFACE_BACK %uu\n"
+                         "#define SURFACE_OPERAND %uu\n", SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK, SURFACE_OPERAND);
 }
 
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)

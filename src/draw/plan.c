@@ -100,6 +100,15 @@ static unsigned channels_of(const rule *r, bool several_parts)
     return channels;
 }
 
+/* Operands of a solid have borders as parts have. */
+static bool has_solid(const plan *p, const figure *f)
+{
+    for (size_t i = 0; i < p->scene->part_count; i++)
+        if (f->designated[i] && p->scene->nodes[p->scene->parts[i].node].solid != NONE)
+            return true;
+    return false;
+}
+
 /* Contrast-aware lines look at the picture they are drawn on. */
 static bool lines_read_shade(const rule *r)
 {
@@ -140,7 +149,7 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
-    f->channels = channels_of(r, f->part_count > 1 || p->has_cut) | (p->has_cut ? CHANNEL_ID : 0);
+    f->channels = channels_of(r, f->part_count > 1 || p->has_cut || has_solid(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
@@ -164,7 +173,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
-    f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut) | CHANNEL_SHADE;
+    f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut || has_solid(p, f)) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
     if (f->deferred)

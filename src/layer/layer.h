@@ -27,6 +27,7 @@ enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = 
 #define SURFACE_TURNED     0x40000000u /* seen from inside: the normal points away */
 #define SURFACE_CUT        0x20000000u /* a cut face */
 #define SURFACE_BACK       0x10000000u /* back-facing by winding */
+#define SURFACE_OPERAND    0x00080000u /* of a solid: what is below this bit is the operand's number */
 
 typedef struct peel_values {
     int32_t     count, producer, memory;

@@ -65,9 +65,12 @@ void main()
     if (!fetch_surface(u_part_id))
         discard;
     gl_FragDepth = surface_depth;
+    uint surface_id = (u_surface_id & ~SURFACE_INDEX_MASK) | surface_operand;
+#elif defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE) || defined(LAYERED)
+    uint surface_id = u_surface_id;
 #endif
 #ifdef LAYERED
-    uvec2 id = uvec2(u_part_id, u_surface_id | (IS_FRONT ? 0u : SURFACE_BACK));
+    uvec2 id = uvec2(u_part_id, surface_id | (IS_FRONT ? 0u : SURFACE_BACK));
 #endif
 #ifdef PEELED
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -124,7 +127,7 @@ void main()
 #ifdef LAYERED
     out_id = id;
 #else
-    out_id = uvec2(u_part_id, u_surface_id);
+    out_id = uvec2(u_part_id, surface_id);
 #endif
 #ifdef DEFERRED
     if (turned)
@@ -136,7 +139,7 @@ void main()
 #endif
 #ifdef AT_SHADE
 #ifdef CUT_FACE
-    out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, u_surface_id), albedo.rgb);
+    out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, surface_id), albedo.rgb);
 #else
     out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0));
 #endif

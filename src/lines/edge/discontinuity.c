@@ -6,7 +6,7 @@
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, slope, crease, faint;
+    float        step, slope, crease, faint, meet;
     bool         parts;
 } discontinuity;
 
@@ -21,6 +21,9 @@ static const param params[] = {
                     .as_cosine = true, .doc = "Angle between neighbouring normals from which on an inner line is fully drawn."),
     PARAM_FLOAT_ROW(discontinuity, faint, .def = 38, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90, .unit = UNIT_DEGREES,
                     .as_cosine = true, .doc = "Angle below which there is no inner line; between this and crease it fades in."),
+    PARAM_FLOAT_ROW(discontinuity, meet, .def = 10, .min = 0, .max = 180, .soft_min = 3, .soft_max = 60, .unit = UNIT_DEGREES,
+                    .as_cosine = true, .doc = "The same as crease where two operands of a solid meet: an angle between surfaces that "
+                                              "are two by construction is no accident of facets."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
 

@@ -17,16 +17,21 @@ float unexplained(float before, float across, float behind)
 }
 
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`, which is `across` deeper. */
-vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uint id, float crease_weight, float far_weight)
+vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uvec2 id, float crease_weight, float far_weight)
 {
     vec3 other = neighbour(t_normal_depth, side).xyz;
     float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
-    float inner = clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) * crease_weight;
-    float between = 0.0;
-#if PARTS && defined(HAS_ID)
-    uint other_id = piece_of(textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg);
-    between = other_id != id ? (across > 0.0 ? 1.0 : far_weight) : 0.0;
+    float between = 0.0, faint = u_line_faint, crease = u_line_crease;
+#ifdef HAS_ID
+    uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
+#if PARTS
+    between = piece_of(other_id) != piece_of(id) ? (across > 0.0 ? 1.0 : far_weight) : 0.0;
 #endif
+    bool meet = ((id.g ^ other_id.g) & SURFACE_INDEX_MASK) != 0u && (id.g & other_id.g & SURFACE_OPERAND) != 0u;
+    faint = meet ? mix(1.0, u_line_meet, 0.5) : faint;
+    crease = meet ? u_line_meet : crease;
+#endif
+    float inner = clamp((faint - cosine) / max(faint - crease, 1e-4), 0.0, 1.0) * crease_weight;
     return vec2(inner, between);
 }
 
@@ -69,9 +74,9 @@ void detect_edges()
         float z = normal_depth.w;
         float tolerance = u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
         tolerance = max(tolerance, DEPTH_NOISE);
-        uint id = 0u;
-#if PARTS && defined(HAS_ID)
-        id = piece_of(textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg);
+        uvec2 id = uvec2(0u);
+#ifdef HAS_ID
+        id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
 #endif
         float second = clamp(u_line_width - 1.0, 0.0, 1.0);
         vec2 to_right = inner_and_id(vec2(1.0, 0.0), right - depth, normal, ray, id, 1.0, second);
