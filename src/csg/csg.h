@@ -6,18 +6,22 @@
 #include "scene/solid_form.h"
 
 /* Operands and terms of several solids as one list of links, two numbers each. Operands come first: the link to the term above, and
- * whether the operand is taken away in the end (bit 0), with the solid's number above it. Then the terms: the link, and how many of
+ * the number of its solid. Then the terms: the link, and how many of
  * its operands must hold more than when nothing is there (1 for a union). A link is (term + 1) · 2 + 1 if what is below is negated
  * for the term; 0 ends. Operands are numbered from 1 over all solids. */
 typedef struct csg_program {
     uint32_t (*operands)[2];
-    size_t   operand_count, operand_capacity;
+    bool     *taken_away; /* per operand */
+    size_t   operand_count, operand_capacity, taken_capacity;
     uint32_t (*terms)[2];
     size_t   term_count, term_capacity;
     size_t   solid_count;
 } csg_program;
 
-enum { CSG_OPERANDS_MAX = 65535, CSG_PLANES_MAX = 32767 };
+/* Fragments have a key, a number each: the operand from 1 on, whether it is kept or taken away in the end (an even or odd number of negations
+ * above it), a plane from 1 on or 0, and whether they face away. Keys order what lies at one depth: what is taken away comes first. */
+#define CSG_KEY_KEPT 0x80000000u
+enum { CSG_KEY_OPERAND_SHIFT = 16, CSG_KEY_PLANE_SHIFT = 1, CSG_OPERANDS_MAX = 32767, CSG_PLANES_MAX = 32767 };
 
 /* Adds a solid; its operands get consecutive numbers from operand_count + 1 on, in the order of solid_form_used. False when memory is gone. */
 bool csg_program_add(csg_program *p, const solid_form *form);

@@ -18,8 +18,12 @@ static bool append(uint32_t (**list)[2], size_t *count, size_t *capacity, uint32
 static bool add(csg_program *p, const solid_form *f, int32_t index, uint32_t link, bool taken_away)
 {
     const term *t = &f->terms[index];
-    if (t->kind == TERM_OPERAND)
-        return append(&p->operands, &p->operand_count, &p->operand_capacity, link, (uint32_t)p->solid_count << 1 | taken_away);
+    if (t->kind == TERM_OPERAND) {
+        if (!mem_grow((void **)&p->taken_away, &p->taken_capacity, p->operand_count + 1, sizeof *p->taken_away))
+            return false;
+        p->taken_away[p->operand_count] = taken_away;
+        return append(&p->operands, &p->operand_count, &p->operand_capacity, link, (uint32_t)p->solid_count);
+    }
     uint32_t own = (uint32_t)p->term_count, negated = 0;
     for (int32_t c = t->first; c != NONE; c = f->terms[c].next)
         negated += f->terms[c].negated;
@@ -43,6 +47,7 @@ bool csg_program_add(csg_program *p, const solid_form *form)
 void csg_program_release(csg_program *p)
 {
     mem_free(p->operands);
+    mem_free(p->taken_away);
     mem_free(p->terms);
     memset(p, 0, sizeof *p);
 }

@@ -1,8 +1,8 @@
 /* Which fragments are surfaces of the solids: the pixel's list is walked from front to back, in rounds of the nearest few, and with each
  * fragment an operand is entered or left and the terms above it are counted. Where a whole tree's value changes, there is the surface.
  * Fragments at the same depth in one plane are one event: the state before and after them decides, so that flush unions have no
- * wall inside and flush cuts leave no skin; of such fragments the first operand that changes the solid in that direction
- * gives the surface. Roth 1982, per pixel; seed 003, 5.1; rows K02, K03, C3, C5, C6. */
+ * wall inside and flush cuts leave no skin. Within it, operands that are taken away come first, then all in the order of the tree,
+ * and the one at which the whole changes gives the surface. Roth 1982, per pixel; seed 003, 5.1; rows K02, K03, C3, C5, C6. */
 layout(std430, binding = 3) readonly buffer heads_block { uint heads[]; };
 layout(std430, binding = 4) readonly buffer nodes_block { uvec4 nodes[]; };
 layout(std430, binding = 6) readonly buffer program_block { uvec2 links[]; };
@@ -22,12 +22,12 @@ uint inside[OPERAND_WORDS];
 int held[TERMS]; /* operands of each term that hold, more than when nothing is there */
 #endif
 
-/* Goes through the operand's surface. Returns whether the whole tree changes; `value` is then the new one, `entered` the operand's. */
-bool go_through(uint operand, out bool value, out bool entered)
+/* Goes through the operand's surface. Returns whether the whole tree changes. */
+bool go_through(uint operand)
 {
     uint bit = 1u << (operand & 31u), word = inside[operand >> 5] ^ bit;
     inside[operand >> 5] = word;
-    value = entered = (word & bit) != 0u;
+    bool value = (word & bit) != 0u;
     uint link = links[operand].x;
 #if TERMS > 0
     while (link != 0u) {
@@ -48,15 +48,14 @@ bool go_through(uint operand, out bool value, out bool entered)
 /* Fragments of one plane at one depth, or a single one. */
 uint group_depth, group_key; /* key: plane and solid */
 uint group_changes;
-bool group_value;
-uint group_owner[2]; /* the first node that makes less, and that makes more of the solid */
+uint group_owner; /* the node at which the solid last changed */
 
 uint first_surface, last_surface, surface_count;
 
 void end_group()
 {
     bool changed = (group_changes & 1u) != 0u;
-    uint owner = group_value ? group_owner[1] : group_owner[0];
+    uint owner = group_owner;
     group_changes = 0u;
     if (!changed)
         return;
@@ -72,21 +71,16 @@ void end_group()
 
 void take(uint depth, uint key, uint node)
 {
-    uint operand = (key >> 16) - 1u, facts = links[operand].y, plane = key & 0xFFFEu;
-    uint own = (facts >> 1) << 16 | plane;
+    uint operand = (key >> 16 & 0x7FFFu) - 1u, plane = key & 0xFFFEu;
+    uint own = links[operand].y << 16 | plane;
     if (plane == 0u || depth != group_depth || own != group_key) {
         end_group();
         group_depth = depth;
         group_key = own;
-        group_owner[0] = group_owner[1] = 0u;
     }
-    bool value, entered;
-    bool changes = go_through(operand, value, entered);
-    group_value = changes ? value : group_value;
+    bool changes = go_through(operand);
     group_changes += changes ? 1u : 0u;
-    int towards = entered != ((facts & 1u) != 0u) ? 1 : 0;
-    if (group_owner[towards] == 0u)
-        group_owner[towards] = node;
+    group_owner = changes ? node : group_owner;
 }
 
 /* The nearest KEPT fragments behind (depth, key, node), in order. */
@@ -126,8 +120,7 @@ void start_inside(uint head)
     uint i = head;
     while (i != 0u) {
         uvec4 node = nodes[i - 1u];
-        bool value, entered;
-        go_through((node.z >> 16) - 1u, value, entered);
+        go_through((node.z >> 16 & 0x7FFFu) - 1u);
         i = node.x;
     }
 }
@@ -146,8 +139,7 @@ void main()
     group_depth = FAR;
     group_key = 0u;
     group_changes = 0u;
-    group_value = false;
-    group_owner[0] = group_owner[1] = 0u;
+    group_owner = 0u;
     first_surface = last_surface = surface_count = 0u;
 #ifdef EYE_MAY_BE_INSIDE
     start_inside(head);

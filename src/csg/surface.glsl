@@ -1,6 +1,6 @@
 /* Where geometry of a solid comes from: a picture of the surface that the evaluation found, instead of triangles. */
 uniform usampler2D t_surfaces; /* (any), depth, key, normal; all 0 where there is none */
-uniform sampler2D  t_operands; /* two texels each: colour; part, taken away */
+uniform sampler2D  t_operands; /* two texels each: colour; part */
 uniform vec4 u_solid_depth;    /* what u_window_depth is elsewhere */
 uniform vec2 u_solid_size;     /* of the page */
 #ifdef ENLARGED
@@ -21,15 +21,15 @@ bool fetch_surface(uint part)
     uvec4 surface = texelFetch(t_surfaces, ivec2(gl_FragCoord.xy), 0);
     if (surface.z == 0u)
         return false;
-    int operand = int(surface.z >> 16) - 1;
+    int operand = int(surface.z >> 16 & 0x7FFFu) - 1;
     ivec2 place = ivec2(2 * (operand & 511), operand >> 9);
     vec4 facts = texelFetch(t_operands, place + ivec2(1, 0), 0);
     if (uint(facts.x) != part)
         return false;
     surface_albedo = u_highlight.a > 0.0 ? u_highlight : texelFetch(t_operands, place, 0);
-    surface_operand = SURFACE_OPERAND | surface.z >> 16;
+    surface_operand = SURFACE_OPERAND | (surface.z >> 16 & 0x7FFFu);
     surface_depth = uintBitsToFloat(surface.y);
-    bool taken_away = facts.y > 0.5;
+    bool taken_away = (surface.z & 0x80000000u) == 0u;
     surface_front = ((surface.z & 1u) == 0u) != taken_away;
     vec2 flat_normal = vec2(surface.w & 0xFFFFu, surface.w >> 16) / 32767.0 - 1.0;
     v_normal = vec3(flat_normal, 1.0 - abs(flat_normal.x) - abs(flat_normal.y));

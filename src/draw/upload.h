@@ -48,7 +48,7 @@ typedef struct upload {
     csg_program   program;     /* of all solids */
     csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
     size_t        plane_count, plane_capacity;
-    float       (*operands)[8]; /* per operand: linear colour, part, taken away, 0, 0 */
+    float       (*operands)[8]; /* per operand: linear colour, part, 0, 0, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
     gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */

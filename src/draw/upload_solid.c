@@ -8,9 +8,6 @@
 #include "base/memory.h"
 #include "scene/solid_form.h"
 
-/* Keys: operand from 1 on, plane from 1 on or 0, and a bit that drawing sets for back faces. */
-enum { KEY_OPERAND_SHIFT = 16, KEY_PLANE_SHIFT = 1 };
-
 /* Light grey, sRGB 0.8, as formats without colours have it. */
 static const float plain_grey = 0.6038f;
 
@@ -120,7 +117,7 @@ static bool make_room(baker *b, size_t vertices, size_t indices)
            mem_grow((void **)&b->owners, &b->owner_capacity, (b->index_count + indices) / 3, sizeof *b->owners);
 }
 
-static void bake_primitive(baker *b, const primitive *p, const render_vertices *v, const mat4 *matrix, const turning *t, uint32_t number)
+static void bake_primitive(baker *b, const primitive *p, const render_vertices *v, const mat4 *matrix, const turning *t, uint32_t number, bool taken_away)
 {
     const vec3 *normals = v->normals ? v->normals : p->normals;
     const uint32_t *indices = v->indices ? v->indices : p->indices;
@@ -129,7 +126,7 @@ static void bake_primitive(baker *b, const primitive *p, const render_vertices *
         size_t at = b->vertex_count++;
         b->positions[at] = mat4_transform_point(matrix, p->positions[v->source ? v->source[i] : i]);
         b->normals[at] = turned_normal(t, normals[i]);
-        b->keys[at] = number << KEY_OPERAND_SHIFT;
+        b->keys[at] = number << CSG_KEY_OPERAND_SHIFT | (taken_away ? 0 : CSG_KEY_KEPT);
     }
     for (uint32_t i = 0; i < v->index_count; i += 3) {
         b->owners[b->index_count / 3] = number;
@@ -138,7 +135,7 @@ static void bake_primitive(baker *b, const primitive *p, const render_vertices *
     }
 }
 
-static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number, lmn_error *error)
+static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number, bool taken_away, lmn_error *error)
 {
     const mesh *m = &b->scene->meshes[o->mesh];
     const render_vertices *v = vertices_of(b, o->mesh, error);
@@ -148,7 +145,7 @@ static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number
     for (size_t i = 0; i < m->primitive_count; i++) {
         if (!make_room(b, v[i].vertex_count, v[i].index_count))
             return error_memory(error);
-        bake_primitive(b, &m->primitives[i], &v[i], &o->matrix, &t, number);
+        bake_primitive(b, &m->primitives[i], &v[i], &o->matrix, &t, number, taken_away);
     }
     return LMN_OK;
 }
@@ -168,7 +165,7 @@ static lmn_status mark_planes(baker *b, const uint16_t *numbers, lmn_error *erro
         size_t own = b->vertex_count++;
         b->positions[own] = b->positions[*last];
         b->normals[own] = b->normals[*last];
-        b->keys[own] = b->keys[*last] | (uint32_t)numbers[i] << KEY_PLANE_SHIFT;
+        b->keys[own] = b->keys[*last] | (uint32_t)numbers[i] << CSG_KEY_PLANE_SHIFT;
         *last = (uint32_t)own;
     }
     return LMN_OK;
@@ -211,8 +208,7 @@ static lmn_status add_program(upload *u, const solid_form *form, const int32_t *
     for (size_t i = 0; i < count; i++) {
         const solid_operand *o = &form->operands[used[i]];
         vec4 c = o->has_colour ? o->colour : (vec4){plain_grey, plain_grey, plain_grey, 1};
-        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(u->program.operands[first + i][1] & 1), 0, 0},
-               sizeof u->operands[0]);
+        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, 0, 0, 0}, sizeof u->operands[0]);
     }
     return LMN_OK;
 }
@@ -224,9 +220,10 @@ static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t pa
     size_t count = used ? solid_form_used(form, used) : 0;
     draw_item item = {.is_solid = true, .part_index = part_index, .part_id = (uint32_t)part_index + 1, .surface_id = 1, .material = NONE,
                       .operand_count = (uint32_t)count, .first_plane = (uint32_t)u->plane_count};
-    lmn_status status = used ? LMN_OK : error_memory(error);
+    csg_program program = {.operands = NULL};
+    lmn_status status = used && csg_program_add(&program, form) ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < count && status == LMN_OK; i++)
-        status = bake_operand(b, &form->operands[used[i]], (uint32_t)i + 1, error);
+        status = bake_operand(b, &form->operands[used[i]], (uint32_t)i + 1, program.taken_away[i], error);
     if (status == LMN_OK)
         status = add_planes(u, b, &item.plane_count, error);
     if (status == LMN_OK && b->index_count) {
@@ -247,6 +244,7 @@ static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t pa
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);
     }
+    csg_program_release(&program);
     mem_free(used);
     return status;
 }
