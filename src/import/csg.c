@@ -56,7 +56,7 @@ static lmn_status fill(emission *e, int32_t target, int32_t shape)
     n->matrix = s->matrix;
     n->has_colour = s->has_colour;
     n->colour = s->colour;
-    n->line = r->tree.nodes[s->node].line;
+    n->line = r->evaluated ? 0 : r->tree.nodes[s->node].line;
     n->name = s->node == 0 ? NULL : mem_copy_text(csg_word(&r->tree, s->node));
     if (s->node != 0 && !n->name)
         return error_memory(r->error);
@@ -96,10 +96,10 @@ static void release_reader(csg_reader *r)
 }
 
 /* A file may be whole and draw nothing: what is in it may all be background or echo() alone. */
-static lmn_status read_csg(const import_job *job, lmn_error *error)
+lmn_status csg_read(const import_job *job, bool evaluated, lmn_error *error)
 {
     lmn_error own = {0};
-    csg_reader r = {.job = job, .error = &own};
+    csg_reader r = {.job = job, .evaluated = evaluated, .error = &own};
     int32_t shape = NONE;
     job->scene->may_be_empty = true;
     lmn_status status = csg_parse(&r.tree, job, &own);
@@ -113,6 +113,11 @@ static lmn_status read_csg(const import_job *job, lmn_error *error)
     if (status != LMN_OK && error)
         *error = own;
     return status;
+}
+
+static lmn_status read_csg(const import_job *job, lmn_error *error)
+{
+    return csg_read(job, false, error);
 }
 
 const import_format import_csg = {"OpenSCAD CSG", ".csg", 'z', NULL, read_csg};

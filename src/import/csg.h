@@ -31,6 +31,7 @@ typedef struct csg_mesh {
 
 typedef struct csg_reader {
     const import_job *job;
+    bool              evaluated; /* from a .scad file: lines are not those of the file that the user knows */
     csg_tree          tree;
     csg_mesh         *meshes;
     size_t            mesh_count, mesh_capacity;
@@ -51,6 +52,11 @@ typedef struct csg_meaning {
     lmn_status (*shape)(csg_reader *r, int32_t node, int32_t *shape);
     bool        groups; /* only puts together what is below it */
 } csg_meaning;
+
+/* --- csg.c ---------------------------------------------------------------------------------------------------------------- */
+
+/* Reads the job's bytes as .csg. */
+lmn_status csg_read(const import_job *job, bool evaluated, lmn_error *error);
 
 /* --- csg_nodes.c: words, children, shapes, the cache of leaves --------------------------------------------------------- */
 

@@ -54,7 +54,8 @@ void csg_warn(csg_reader *r, int32_t node, warning_code code, const char *format
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    warnings_add(&r->job->scene->warnings, code, "%s, line %u: %s", r->job->path, (unsigned)r->tree.nodes[node].line, message);
+    warnings_add(&r->job->scene->warnings, code, "%s, line %u%s: %s", r->job->path, (unsigned)r->tree.nodes[node].line,
+                 r->evaluated ? " as evaluated" : "", message);
 }
 
 lmn_status csg_tolerate(csg_reader *r, int32_t node, lmn_status status)
@@ -136,8 +137,8 @@ static lmn_status shape_of_child(csg_reader *r, int32_t parent, int32_t child, b
     int wanted = plates ? 2 : 3, found = r->tree.nodes[child].dimension;
     *shape = NONE;
     if (found != 0 && found != wanted) {
-        csg_warn(r, child, WARNING_IGNORED, "%s() is %dD among %dD objects of %s() and left out", csg_word(&r->tree, child), found,
-                 wanted, parent == 0 ? "the file" : csg_word(&r->tree, parent));
+        csg_warn(r, child, WARNING_IGNORED, "%s() is %dD among %dD objects of %s%s and left out", csg_word(&r->tree, child), found,
+                 wanted, parent == 0 ? "the file" : csg_word(&r->tree, parent), parent == 0 ? "" : "()");
         return LMN_OK;
     }
     return plates ? csg_plate_of(r, child, shape) : csg_shape_of(r, child, shape);

@@ -174,7 +174,7 @@ void csg_resize_factors(const csg_reader *r, int32_t node, const double *size, i
         const csg_value *v = &t->values[vector ? element : flags];
         if (vector && (uint32_t)i >= t->values[flags].count)
             break;
-        automatic[i] = v->kind == CSG_BOOL && v->as.truth;
+        automatic[i] = (v->kind == CSG_BOOL && v->as.truth) || (v->kind == CSG_NUMBER && v->as.number != 0);
         element = vector ? v->after : element;
     }
     for (int i = 1; i < dimensions; i++)

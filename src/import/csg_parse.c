@@ -149,19 +149,20 @@ static bool keep_number_escape(parser *p)
         char c = p->at + i < p->end ? p->at[i] : ' ';
         int digit = c >= '0' && c <= '9' ? c - '0' : (c | 0x20) >= 'a' && (c | 0x20) <= 'f' ? (c | 0x20) - 'a' + 10 : -1;
         if (digit < 0)
-            return keep_bytes(p->tree, p->at, 1);
+            return keep_bytes(p->tree, p->at - 1, 2);
         code = code * 16 + (uint32_t)digit;
     }
     p->at += digits;
     return keep_code_point(p->tree, code);
 }
 
+/* OpenSCAD 2021 writes text() without escapes, so that a backslash before anything else is itself. */
 static bool keep_escape(parser *p)
 {
     switch (*p->at) {
-    case '\n':
-        next_line(p);
-        return keep_bytes(p->tree, "\n", 1);
+    case '"':
+    case '\\':
+        return keep_bytes(p->tree, p->at, 1);
     case 'n':
         return keep_bytes(p->tree, "\n", 1);
     case 't':
@@ -173,8 +174,20 @@ static bool keep_escape(parser *p)
     case 'U':
         return keep_number_escape(p);
     default:
+        p->at--;
         return keep_bytes(p->tree, p->at, 1);
     }
+}
+
+/* For the same reason a quote ends a string only where one can end: before ',', ')', ']' or the end of the file. */
+static bool is_closing_quote(const parser *p)
+{
+    if (*p->at != '"')
+        return false;
+    const char *next = p->at + 1;
+    while (next < p->end && (*next == ' ' || *next == '\t' || *next == '\r' || *next == '\n'))
+        next++;
+    return next >= p->end || *next == ',' || *next == ')' || *next == ']';
 }
 
 static lmn_status parse_string(parser *p, csg_value *v)
@@ -183,7 +196,7 @@ static lmn_status parse_string(parser *p, csg_value *v)
     int line = p->line;
     v->kind = CSG_STRING;
     v->as.string = p->tree->text_size;
-    for (; p->at < p->end && *p->at != '"'; p->at++) {
+    for (; p->at < p->end && !is_closing_quote(p); p->at++) {
         if (*p->at == '\n')
             next_line(p);
         bool escaped = *p->at == '\\' && p->at + 1 < p->end;
