@@ -226,7 +226,7 @@ static bool near_outline(const csg_map *m, int x, int y)
 
 csg_score csg_compare(const csg_map *m, csg_rays *r, const shot *s, size_t layers, bool owners)
 {
-    csg_score score = {.x = -1, .y = -1, .layer = -1};
+    csg_score score = {0};
     for (int i = 0; i < m->width * m->height; i++) {
         int       x = i % m->width, y = i / m->width;
         judgement j = judge_pixel(m, r, s, i, layers, owners);
@@ -240,14 +240,11 @@ csg_score csg_compare(const csg_map *m, csg_rays *r, const shot *s, size_t layer
             continue;
         score.sharp++;
         score.right_sharp += right;
-        score.wrong[j.what]++;
+        if (score.wrong[j.what]++ == 0)
+            memcpy(score.first[j.what], (int[2]){x, y}, sizeof *score.first);
         if (right) {
             score.depth_error = fmax(score.depth_error, j.depth_error);
             score.normal_error = fmax(score.normal_error, j.normal_error);
-        } else if (score.x < 0) {
-            score.x = x;
-            score.y = y;
-            score.layer = j.layer;
         }
     }
     return score;
@@ -256,7 +253,8 @@ csg_score csg_compare(const csg_map *m, csg_rays *r, const shot *s, size_t layer
 void csg_explain(const csg_map *m, csg_rays *r, const shot *s, int x, int y)
 {
     int i = y * m->width + x;
-    check_note("pixel %d, %d: %s, %zu surfaces by rays", x, y, m->sharp[i] ? "sharp" : "not sharp", csg_count(m, i));
+    check_note("pixel %d, %d: %s, %zu surfaces by rays; clip planes at %.6g and %.6g", x, y, m->sharp[i] ? "sharp" : "not sharp", csg_count(m, i),
+               s->near_depth, s->far_depth);
     for (size_t k = 0; k < csg_count(m, i); k++) {
         const csg_hit *h = &csg_at(m, i)[k];
         const uint8_t *c = csg_rays_colour(r, h->leaf);

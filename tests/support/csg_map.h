@@ -46,7 +46,7 @@ typedef struct csg_score {
     size_t wrong[CSG_VERDICTS]; /* sharp pixels, by the first thing that is wrong */
     size_t outline_wrong;       /* pixels that are drawn and should not be, or the other way, of those farther than a pixel from it */
     double depth_error, normal_error; /* largest of the sharp pixels that are right: share, degrees */
-    int    x, y, layer;         /* the first wrong sharp pixel, −1 when none */
+    int    first[CSG_VERDICTS][2]; /* the first sharp pixel of each: x, y */
 } csg_score;
 
 /* `layers`: how many the drawing has at most (0: all). Without layer maps, its only maps are those of layer 0. `owners`: are its

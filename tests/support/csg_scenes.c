@@ -210,6 +210,26 @@ void csg_colour(csg *c)
     }
 }
 
+static int put_cylinder(csg *c, int parent, double radius, double x, double y, double z, double height, int slices)
+{
+    int node = csg_cylinder(c, parent, radius, radius, height, slices);
+    csg_move(c, node, x, y, z);
+    return node;
+}
+
+void csg_spanner(csg *c)
+{
+    int root = csg_add(c, -1, CSG_DIFFERENCE), body = csg_add(c, root, CSG_UNION);
+    csg_box(c, body, dvec_of(-1.2, -0.18, -0.1), dvec_of(1.2, 0.18, 0.1));
+    put_cylinder(c, body, 0.55, -1.3, 0, -0.16, 0.32, 48);
+    put_cylinder(c, body, 0.45, 1.35, 0, -0.16, 0.32, 48);
+    csg_place(c, csg_box(c, root, dvec_of(-0.9, -0.24, -1), dvec_of(0.1, 0.24, 1)), dvec_of(1, 1, 1), dvec_of(0, 0, 1), 15, dvec_of(-1.3, 0, 0));
+    put_cylinder(c, root, 0.28, 1.35, 0, -1, 2, 6);
+    for (int side = -1; side <= 1; side += 2)
+        csg_box(c, root, dvec_of(-0.6, -0.1, side > 0 ? 0.05 : -1), dvec_of(0.75, 0.1, side > 0 ? 1 : -0.05));
+    csg_place(c, csg_cylinder(c, root, 0.05, 0.05, 2.6, 16), dvec_of(1, 1, 1), dvec_of(0, 1, 0), 90, dvec_of(-1.3, 0.14, 0));
+}
+
 /* --- trees from seeds ------------------------------------------------------------------------------------------------ */
 
 typedef struct maker {

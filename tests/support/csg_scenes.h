@@ -27,6 +27,9 @@ void csg_move(csg *c, int node, double x, double y, double z);
 /* A colour of its own for each leaf, in the leaves. */
 void csg_colour(csg *c);
 
+/* A double-ended spanner: a jaw, a ring with a hexagonal hole, a recessed shaft with a bore along it. Two units long. */
+void csg_spanner(csg *c);
+
 typedef enum csg_scene {
     CSG_CONVEX,     /* up to 8 convex leaves */
     CSG_CONCAVE,    /* up to 8 leaves, most of them not convex */
