@@ -45,6 +45,55 @@ static void print_names(const json_t *root, const char *key)
     printf("\n");
 }
 
+/* A tree in a table is a sketch of it; --json has more. */
+enum { TREE_LEVELS = 6, TREE_SIBLINGS = 12 };
+
+static bool is_same_operand(const json_t *a, const json_t *b)
+{
+    return strcmp(text_at(a, "kind", ""), "operand") == 0 && strcmp(text_at(b, "kind", ""), "operand") == 0 &&
+           strcmp(text_at(a, "name", ""), text_at(b, "name", "")) == 0;
+}
+
+/* The tree as lines, indented by level; siblings that say the same are counted. */
+static void print_tree(const json_t *node, int level, size_t count)
+{
+    const json_t *children = json_object_get(node, "children");
+    const char *kind = text_at(node, "kind", ""), *name = text_at(node, "name", "");
+    double line = number_at(node, "line", 0);
+    printf("%29s%*s%s", "", 2 * level, "", kind);
+    if (*name && strcmp(name, kind) != 0)
+        printf(" %s", name);
+    if (count > 1)
+        printf(" x %zu", count);
+    if (line > 0)
+        printf("  (line %.0f)", line);
+    printf("\n");
+    if (level >= TREE_LEVELS && json_array_size(children) > 0) {
+        printf("%29s%*s…\n", "", 2 * level + 2, "");
+        return;
+    }
+    size_t i = 0, shown = 0, total = json_array_size(children);
+    for (; i < total && shown < TREE_SIBLINGS; shown++) {
+        const json_t *child = json_array_get(children, i);
+        size_t same = 1;
+        while (i + same < total && is_same_operand(child, json_array_get(children, i + same)))
+            same++;
+        print_tree(child, level + 1, same);
+        i += same;
+    }
+    if (i < total || number_at(node, "omitted", 0) > 0)
+        printf("%29s%*s… %.0f more\n", "", 2 * level + 2, "", (double)(total - i) + number_at(node, "omitted", 0));
+}
+
+static void print_solid(const json_t *solid)
+{
+    const json_t *operations = json_object_get(solid, "operations");
+    printf("%29ssolid: %.0f operands, %.0f unions, %.0f intersections, %.0f differences, %.0f levels\n", "",
+           number_at(solid, "operands", 0), number_at(operations, "union", 0), number_at(operations, "intersection", 0),
+           number_at(operations, "difference", 0), number_at(solid, "depth", 0));
+    print_tree(json_object_get(solid, "tree"), 1, 1);
+}
+
 static void print_part(const json_t *part)
 {
     const json_t *materials = json_object_get(part, "materials"), *item;
@@ -58,6 +107,8 @@ static void print_part(const json_t *part)
     json_t *value;
     json_object_foreach (json_object_get(part, "attributes"), key, value)
         printf("%29s%s = %s\n", "", key, json_is_string(value) ? json_string_value(value) : "");
+    if (json_object_get(part, "solid"))
+        print_solid(json_object_get(part, "solid"));
 }
 
 static void print_table(const json_t *root)

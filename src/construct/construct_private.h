@@ -49,4 +49,38 @@ lmn_status check_point_count(const char *shape, double count, lmn_error *error);
 lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact,
                                 lmn_error *error);
 
+/* --- regions ------------------------------------------------------------------------------------------------------- */
+
+/* OpenSCAD's operations on regions work on whole multiples of this. What is not one is cut off towards zero, as there. */
+#define GRID (1.0 / 65536)
+double grid_place(double value);
+
+/* A region that grows contour by contour. Zero-initialise; the first failure to get memory sticks in `failed`. The last contour
+ * grows; one of fewer than three points is taken back when it is ended. */
+typedef struct region_builder {
+    contour *contours;
+    size_t   count, capacity, point_capacity;
+    bool     failed;
+} region_builder;
+
+void builder_contour(region_builder *b);
+void builder_place(region_builder *b, double x, double y);
+void builder_end_contour(region_builder *b);
+void region_builder_release(region_builder *b);
+lmn_status region_builder_finish(region_builder *b, region *out, lmn_error *error);
+
+/* Twice the signed area. */
+double contour_area2(const point2 *points, size_t count);
+size_t region_point_count(const region *r);
+/* Point by point and contour by contour. */
+lmn_status region_copy(region *out, const region *r, lmn_error *error);
+lmn_status check_region(const char *shape, const region *r, lmn_error *error);
+
+/* Which places are inside, by how often the contours of each operand run round them. ODD and POSITIVE have one operand. */
+typedef enum cover_rule { COVER_ODD, COVER_POSITIVE, COVER_UNION, COVER_INTERSECTION, COVER_DIFFERENCE } cover_rule;
+/* Contours of any kind on the grid to a region without crossings and without corners on straight lines. */
+lmn_status region_cover(region *out, const region *operands, size_t count, cover_rule rule, lmn_error *error);
+/* The union of simple anticlockwise polygons, one a contour; for very many of them. */
+lmn_status region_unite_polygons(region *out, const region *polygons, lmn_error *error);
+
 #endif

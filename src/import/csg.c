@@ -56,7 +56,7 @@ static lmn_status fill(emission *e, int32_t target, int32_t shape)
     n->matrix = s->matrix;
     n->has_colour = s->has_colour;
     n->colour = s->colour;
-    n->line = r->evaluated ? 0 : r->tree.nodes[s->node].line;
+    n->line = r->evaluated || s->node == 0 ? 0 : r->tree.nodes[s->node].line;
     n->name = s->node == 0 ? NULL : mem_copy_text(csg_word(&r->tree, s->node));
     if (s->node != 0 && !n->name)
         return error_memory(r->error);

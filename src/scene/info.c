@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "scene/scene.h"
+#include "scene/solid_info.h"
 
 static json_t *real(double value)
 {
@@ -72,6 +73,10 @@ static json_t *parts_json(const lmn_scene *s)
                                   (json_int_t)(p->triangles * instances), "instances", (json_int_t)instances, "bounds",
                                   bounds_json(p->bounds), "materials", part_materials(s, n->mesh != NONE ? &s->meshes[n->mesh] : NULL),
                                   "attributes", attributes_json(n));
+        if (entry && n->solid != NONE) {
+            const solid *tree = &s->solids[n->solid];
+            json_object_set_new(entry, "solid", solid_info_json(s, tree, bounds_json(solid_bounds(s, tree))));
+        }
         json_array_append_new(list, entry);
     }
     return list;

@@ -1,77 +1,5 @@
-/* Shapes from numbers. The counts, volumes and coordinates are those of OpenSCAD 2021.01 where no formula gives them. */
-#include "import_support.h"
-
-#include <math.h>
-
-#include "base/limits.h"
-#include "construct/construct.h"
-#include "construct/construct_private.h"
-
-static const facets plain = {0, 12, 2}; /* OpenSCAD's defaults */
-
-static int compare_test_edges(const void *a, const void *b)
-{
-    const uint64_t *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* No point twice, no triangle without three corners, each directed edge once and once the other way. */
-static void assert_watertight(const polyhedron *p)
-{
-    size_t count = p->triangle_count * 3;
-    uint64_t *edges = mem_alloc(2 * count * sizeof *edges + 1), *back = edges + count;
-    assert_non_null(edges);
-    for (size_t i = 0; i < count; i++) {
-        uint64_t from = p->triangles[i], to = p->triangles[i % 3 == 2 ? i - 2 : i + 1];
-        assert_true(from < p->point_count && from != to);
-        edges[i] = from << 32 | to;
-        back[i] = to << 32 | from;
-    }
-    qsort(edges, count, sizeof *edges, compare_test_edges);
-    qsort(back, count, sizeof *back, compare_test_edges);
-    for (size_t i = 0; i < count; i++) {
-        assert_true(i == 0 || edges[i] != edges[i - 1]);
-        assert_true(edges[i] == back[i]);
-    }
-    mem_free(edges);
-    assert_true(p->triangle_count == 0 || polyhedron_volume(p) > 0);
-}
-
-static void assert_close(double value, double wanted, double tolerance)
-{
-    if (!(fabs(value - wanted) <= tolerance))
-        print_error("%.12g, wanted %.12g\n", value, wanted);
-    assert_true(fabs(value - wanted) <= tolerance);
-}
-
-static void assert_bounds(const polyhedron *p, point3 low, point3 high, double tolerance)
-{
-    point3 a, b;
-    assert_true(polyhedron_bounds(p, &a, &b));
-    assert_close(a.x, low.x, tolerance);
-    assert_close(a.y, low.y, tolerance);
-    assert_close(a.z, low.z, tolerance);
-    assert_close(b.x, high.x, tolerance);
-    assert_close(b.y, high.y, tolerance);
-    assert_close(b.z, high.z, tolerance);
-}
-
-/* Watertight, with this many points and triangles and this volume; released. */
-static void assert_shape(polyhedron *p, size_t points, size_t triangles, double volume)
-{
-    assert_watertight(p);
-    assert_int_equal(p->point_count, points);
-    assert_int_equal(p->triangle_count, triangles);
-    assert_close(polyhedron_volume(p), volume, 1e-5 * (fabs(volume) + 1));
-    polyhedron_release(p);
-}
-
-static void assert_empty(polyhedron *p)
-{
-    assert_int_equal(p->triangle_count, 0);
-    assert_int_equal(p->point_count, 0);
-    assert_null(p->points);
-}
+/* Solids from numbers. The counts, volumes and coordinates are those of OpenSCAD 2021.01 where no formula gives them. */
+#include "construct_shapes.h"
 
 /* --- facets ---------------------------------------------------------------------------------------------------------- */
 
@@ -219,6 +147,110 @@ static void polyhedra_are_welded(void **state)
     assert_int_equal(construct_polyhedron(&p, bad, 7, corners, (uint32_t[]){5, 4, 3, 4}, 4, &flawed, NULL), LMN_FORMAT);
 }
 
+/* --- fields of heights, hulls and sums ------------------------------------------------------------------------------ */
+
+static void heights_stand_on_a_base(void **state)
+{
+    (void)state;
+    const double heights[] = {1, 2, 3, 4, 4, 5, 6, 2, 0, 1, 0, -2}, high[] = {7, 8, 9, 10};
+    polyhedron p;
+    assert_int_equal(construct_heights(&p, heights, 4, 3, false, NULL), LMN_OK);
+    assert_bounds(&p, (point3){0, 0, -3}, (point3){3, 2, 6}, 0);
+    assert_shape(&p, 29, 54, 35.75); /* one more than OpenSCAD's: the middle of the base */
+    assert_int_equal(construct_heights(&p, heights, 4, 3, true, NULL), LMN_OK);
+    assert_bounds(&p, (point3){-1.5, -1, -3}, (point3){1.5, 1, 6}, 0);
+    polyhedron_release(&p);
+    assert_int_equal(construct_heights(&p, high, 2, 2, false, NULL), LMN_OK);
+    assert_bounds(&p, (point3){0, 0, 0}, (point3){1, 1, 10}, 0);
+    assert_shape(&p, 10, 16, 8.5);
+    assert_int_equal(construct_heights(&p, heights, 12, 1, false, NULL), LMN_OK);
+    assert_empty(&p);
+    assert_int_equal(construct_heights(&p, (double[]){1, 2, NAN, 4}, 2, 2, false, NULL), LMN_FORMAT);
+    assert_int_equal(construct_heights(&p, heights, 100000, 100000, false, NULL), LMN_LIMIT);
+}
+
+static polyhedron moved_cube(double x, double y, double z)
+{
+    polyhedron cube, moved;
+    mat4 m = mat4_identity();
+    m.m[12] = x;
+    m.m[13] = y;
+    m.m[14] = z;
+    assert_int_equal(construct_cube(&cube, (double[]){1, 2, 3}, false, NULL), LMN_OK);
+    assert_int_equal(polyhedron_transform(&moved, &cube, &m, NULL), LMN_OK);
+    polyhedron_release(&cube);
+    return moved;
+}
+
+static void hulls_are_openscads(void **state)
+{
+    (void)state;
+    polyhedron p, both[2] = {{0}, moved_cube(7, 1, 2)};
+    assert_int_equal(construct_sphere(&both[0], 5, (facets){9, 12, 2}, NULL), LMN_OK);
+    assert_int_equal(polyhedron_hull(&p, both, 2, NULL), LMN_OK);
+    assert_true(p.convex && polyhedron_check_convex(&p));
+    assert_shape(&p, 43, 82, 552.31800);
+    polyhedron_release(&both[0]);
+    both[0] = moved_cube(0, 1, 2);
+    assert_int_equal(polyhedron_hull(&p, both, 2, NULL), LMN_OK);
+    assert_shape(&p, 8, 12, 48); /* flat sides of many points */
+    /* All in a plane, on a line, at one place; nothing at all. */
+    for (size_t i = 0; i < both[0].point_count; i++)
+        both[0].points[i].z = 1;
+    assert_int_equal(polyhedron_hull(&p, both, 1, NULL), LMN_OK);
+    assert_empty(&p);
+    for (size_t i = 0; i < both[0].point_count; i++)
+        both[0].points[i].y = 1;
+    assert_int_equal(polyhedron_hull(&p, both, 1, NULL), LMN_OK);
+    assert_empty(&p);
+    both[0].points[3].x = NAN;
+    assert_int_equal(polyhedron_hull(&p, both, 1, NULL), LMN_FORMAT);
+    assert_int_equal(polyhedron_hull(&p, NULL, 0, NULL), LMN_OK);
+    assert_empty(&p);
+    polyhedron_release(&both[0]);
+    polyhedron_release(&both[1]);
+}
+
+static void sums_of_convex_ones_are_openscads(void **state)
+{
+    (void)state;
+    polyhedron p, cube = moved_cube(0, 0, 0), sphere, none = {0};
+    assert_int_equal(construct_sphere(&sphere, 1, (facets){12, 12, 2}, NULL), LMN_OK);
+    assert_int_equal(polyhedron_minkowski(&p, &cube, &sphere, NULL), LMN_OK);
+    assert_shape(&p, 96, 188, 48.38178);
+    assert_int_equal(polyhedron_minkowski(&p, &cube, &none, NULL), LMN_OK);
+    assert_empty(&p);
+    sphere.convex = false;
+    assert_int_equal(polyhedron_minkowski(&p, &cube, &sphere, NULL), LMN_OK);
+    assert_shape(&p, 96, 188, 48.38178);
+    sphere.points[0].z = 0;
+    assert_int_equal(polyhedron_minkowski(&p, &cube, &sphere, NULL), LMN_UNSUPPORTED);
+    polyhedron_release(&sphere);
+    polyhedron_release(&cube);
+}
+
+static void memory_may_end_in_hulls(void **state)
+{
+    (void)state;
+    polyhedron cubes[2] = {moved_cube(0, 0, 0), moved_cube(5, 5, 5)};
+    long n = 0;
+    lmn_status status = LMN_MEMORY;
+    while (status == LMN_MEMORY) {
+        polyhedron p, field = {0};
+        mem_fail_at(++n);
+        status = polyhedron_hull(&p, cubes, 2, NULL);
+        if (status == LMN_OK)
+            status = construct_heights(&field, (double[]){1, 2, 3, 4}, 2, 2, false, NULL);
+        mem_fail_at(0);
+        polyhedron_release(&p);
+        polyhedron_release(&field);
+    }
+    assert_int_equal(status, LMN_OK);
+    assert_true(n > 8);
+    polyhedron_release(&cubes[0]);
+    polyhedron_release(&cubes[1]);
+}
+
 /* --- transforms and the scene ------------------------------------------------------------------------------------ */
 
 static void transforms_keep_the_outside_outside(void **state)
@@ -297,6 +329,10 @@ int main(void)
         cmocka_unit_test(cylinders),
         cmocka_unit_test(polyhedra_with_concave_faces),
         cmocka_unit_test(polyhedra_are_welded),
+        cmocka_unit_test(heights_stand_on_a_base),
+        cmocka_unit_test(hulls_are_openscads),
+        cmocka_unit_test(sums_of_convex_ones_are_openscads),
+        cmocka_unit_test(memory_may_end_in_hulls),
         cmocka_unit_test(transforms_keep_the_outside_outside),
         cmocka_unit_test(polyhedra_go_into_scenes),
         cmocka_unit_test(memory_may_end_in_solids),
