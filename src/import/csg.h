@@ -150,7 +150,7 @@ typedef struct csg_drawing {
     double      origin[2], scale;
     facets      facets;
 } csg_drawing;
-/* The closed paths of a DXF drawing; *open: how many lines close to none. Errors: LMN_FORMAT with the line, LMN_LIMIT, LMN_MEMORY. */
-lmn_status csg_dxf(const char *bytes, size_t size, const csg_drawing *how, region *out, size_t *open, lmn_error *error);
+/* The paths of a DXF drawing. Errors: LMN_FORMAT with the line, LMN_LIMIT, LMN_MEMORY. */
+lmn_status csg_dxf(const char *bytes, size_t size, const csg_drawing *how, region *out, lmn_error *error);
 
 #endif

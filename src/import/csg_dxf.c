@@ -1,5 +1,5 @@
-/* DXF drawings as OpenSCAD reads them: lines, arcs, circles, ellipses and polylines of one layer (or all), blocks put in place, and what
- * joins into closed paths. */
+/* DXF drawings as OpenSCAD reads them: lines, arcs, circles, ellipses and polylines of one layer (or all), blocks put in place, joined
+ * into paths. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -396,51 +396,42 @@ static bool list_lines(incidence *in, const joints *j, size_t line_count)
     return true;
 }
 
-/* Walks from a point along unused lines as far as there are some. Returns how many points were written; the path is closed when the
- * last of them would be the first again, which then is not written. */
-static size_t walk(incidence *in, const joints *j, uint32_t start, uint32_t *corners, bool *closed)
+/* Walks from a point along unused lines as far as there are some or until it is back. Returns how many points were written; the last
+ * one of an open path is among them, since OpenSCAD closes such paths by a line. */
+static size_t walk(incidence *in, const joints *j, uint32_t start, uint32_t *corners)
 {
     size_t count = 0;
     uint32_t at = start;
-    *closed = false;
     for (;;) {
         uint32_t line = UINT32_MAX;
         for (size_t i = in->first[at]; i < in->first[at + 1] && line == UINT32_MAX; i++)
             if (!in->used[in->lines[i]])
                 line = in->lines[i];
-        if (line == UINT32_MAX)
+        if (line == UINT32_MAX) {
+            if (count > 0)
+                corners[count++] = at;
             return count;
+        }
         in->used[line] = true;
         corners[count++] = at;
         at = j->ends[line][0] == at ? j->ends[line][1] : j->ends[line][0];
-        if (at == start) {
-            *closed = true;
+        if (at == start)
             return count;
-        }
     }
 }
 
 /* Open paths first, from the points where a line ends alone; what is left then are loops. */
-static lmn_status trace(const joints *j, incidence *in, size_t line_count, region *out, size_t *open, lmn_error *error)
+static lmn_status trace(const joints *j, incidence *in, size_t line_count, region *out, lmn_error *error)
 {
-    uint32_t *corners = mem_alloc((line_count + 1) * sizeof *corners), *sizes = mem_alloc((line_count + 1) * sizeof *sizes);
-    size_t corner_count = 0, path_count = 0;
+    /* An open path has one point more than lines, and there are as many such paths as lines at most. */
+    uint32_t *corners = mem_alloc((2 * line_count + 1) * sizeof *corners), *sizes = mem_alloc((line_count + 1) * sizeof *sizes);
+    size_t corner_count = 0, path_count = 0, count;
     for (int pass = 0; pass < 2 && corners && sizes; pass++)
-        for (uint32_t p = 0; p < j->count; p++) {
-            if (pass == 0 && in->first[p + 1] - in->first[p] != 1)
-                continue;
-            bool closed = true;
-            for (;;) {
-                size_t count = walk(in, j, p, corners + corner_count, &closed);
-                if (count == 0)
-                    break;
-                *open += closed ? 0 : count;
-                if (!closed)
-                    continue;
+        for (uint32_t p = 0; p < j->count; p++)
+            while ((pass == 1 || in->first[p + 1] - in->first[p] == 1) && (count = walk(in, j, p, corners + corner_count)) > 0) {
                 corner_count += count;
                 sizes[path_count++] = (uint32_t)count;
             }
-        }
     lmn_status status = corners && sizes ? construct_polygon(out, j->points, j->count, corners, sizes, path_count, error)
                                          : error_memory(error);
     mem_free(corners);
@@ -448,7 +439,7 @@ static lmn_status trace(const joints *j, incidence *in, size_t line_count, regio
     return status;
 }
 
-static lmn_status make_paths(drawing *d, region *out, size_t *open)
+static lmn_status make_paths(drawing *d, region *out)
 {
     joints j = {0};
     incidence in = {0};
@@ -456,7 +447,7 @@ static lmn_status make_paths(drawing *d, region *out, size_t *open)
     if (!join(&j, &d->lines, d->how) || !list_lines(&in, &j, d->lines.count))
         status = error_memory(d->error);
     else
-        status = trace(&j, &in, d->lines.count, out, open, d->error);
+        status = trace(&j, &in, d->lines.count, out, d->error);
     mem_free(j.points);
     mem_free(j.next);
     mem_free(j.slots);
@@ -467,13 +458,12 @@ static lmn_status make_paths(drawing *d, region *out, size_t *open)
     return status;
 }
 
-lmn_status csg_dxf(const char *bytes, size_t size, const csg_drawing *how, region *out, size_t *open, lmn_error *error)
+lmn_status csg_dxf(const char *bytes, size_t size, const csg_drawing *how, region *out, lmn_error *error)
 {
     drawing d = {.at = bytes, .end = bytes + size, .how = how, .error = error};
-    *open = 0;
     lmn_status status = read_groups(&d);
     if (status == LMN_OK && d.lines.count > 0)
-        status = make_paths(&d, out, open);
+        status = make_paths(&d, out);
     mem_free(d.entity.vertices);
     mem_free(d.lines.items);
     mem_free(d.block_lines.items);

@@ -131,7 +131,6 @@ lmn_status csg_import_region(csg_reader *r, int32_t node, region *out)
     static const char *const dxf[] = {".dxf"};
     const csg_tree *t = &r->tree;
     file_data file = {0};
-    size_t open = 0;
     if (!ends_in(name_of(r, node), dxf, 1))
         return without_file(r, node, error_set(r->error, LMN_UNSUPPORTED, "\"%.200s\": of drawings only DXF is read", name_of(r, node)));
     /* linear_extrude(file = …) has a scale of its own. */
@@ -141,10 +140,8 @@ lmn_status csg_import_region(csg_reader *r, int32_t node, region *out)
     csg_numbers(t, node, "origin", NONE, how.origin, 2, false);
     lmn_status status = load(r, node, &file);
     if (status == LMN_OK)
-        status = csg_dxf((const char *)file.data, file.size, &how, out, &open, r->error);
+        status = csg_dxf((const char *)file.data, file.size, &how, out, r->error);
     file_data_release(&file);
-    if (status == LMN_OK && open > 0)
-        csg_warn(r, node, WARNING_BAD_GEOMETRY, "\"%.200s\": %zu lines close to no path and are left out", name_of(r, node), open);
     return without_file(r, node, status);
 }
 
