@@ -285,7 +285,7 @@ static void flush(void)
     boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {0, 1}});
     along_x(&c, 2, (double[]){1, 2}, (int[]){1, 0}, "a cut flush with a face");
     boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {2, 3}});
-    along_x(&c, 2, (double[]){0, 2}, (int[]){0, 0}, "a cut that only touches");
+    along_x(&c, 2, (double[]){0, 2}, (int[]){0, 1}, "a cut that only touches");
     boxes(&c, CSG_DIFFERENCE, 3, (double[][2]){{0, 4}, {1, 2}, {2, 3}});
     along_x(&c, 4, (double[]){0, 1, 3, 4}, (int[]){0, 1, 2, 0}, "two cuts side by side");
     boxes(&c, CSG_INTERSECTION, 2, (double[][2]){{0, 1}, {1, 2}});
@@ -293,9 +293,9 @@ static void flush(void)
     boxes(&c, CSG_INTERSECTION, 2, (double[][2]){{0, 3}, {1, 3}});
     along_x(&c, 2, (double[]){1, 3}, (int[]){1, 0}, "boxes that end at one face have this in common");
     boxes(&c, CSG_UNION, 2, (double[][2]){{0, 1}, {0, 1}});
-    along_x(&c, 2, (double[]){0, 1}, (int[]){0, 0}, "a box twice, united");
+    along_x(&c, 2, (double[]){0, 1}, (int[]){0, 1}, "a box twice, united");
     boxes(&c, CSG_INTERSECTION, 2, (double[][2]){{0, 1}, {0, 1}});
-    along_x(&c, 2, (double[]){0, 1}, (int[]){0, 0}, "a box twice, in common");
+    along_x(&c, 2, (double[]){0, 1}, (int[]){1, 0}, "a box twice, in common");
     boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 1}, {0, 1}});
     along_x(&c, 0, NULL, NULL, "a box minus itself");
     boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {0.5, 1.5}});

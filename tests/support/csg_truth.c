@@ -371,7 +371,6 @@ static void toggle(csg_rays *r, int leaf_index)
 typedef struct crossing {
     trace_hit hit;
     int       leaf, event;
-    bool      entering; /* of the leaf, by parity */
 } crossing;
 
 static bool in_one_plane(const csg_rays *r, const trace_triangle *a, const trace_triangle *b)
@@ -432,19 +431,25 @@ static bool order_matters(csg_rays *r, const crossing *c, size_t count, int one,
     return !(one_idle || other_idle || all_idle);
 }
 
-/* The first leaf of the event whose crossing goes the way of the solid; else the first. */
-static const crossing *owner_of(const csg_rays *r, const crossing *c, size_t count, int event, bool entering)
+/* Goes through the crossings of an event: leaves that are taken away first, then in the order of the tree. Returns the one at which the
+ * solid last changed. Its own crossing goes the way of the solid, for no leaf occurs twice in a tree. */
+static const crossing *go_through(csg_rays *r, const crossing *c, size_t count, int event)
 {
-    const crossing *fitting = NULL, *first = NULL;
-    for (size_t k = (size_t)event; k < count; k++) {
-        if (c[k].event != event)
-            continue;
-        if (!first || c[k].leaf < first->leaf)
-            first = &c[k];
-        if ((c[k].entering != r->leaves[c[k].leaf].taken_away) == entering && (!fitting || c[k].leaf < fitting->leaf))
-            fitting = &c[k];
-    }
-    return fitting ? fitting : first;
+    const crossing *owner = NULL;
+    for (int kept = 0; kept < 2; kept++)
+        for (int last = -1;;) {
+            const crossing *next = NULL;
+            for (size_t k = (size_t)event; k < count; k++)
+                if (c[k].event == event && r->leaves[c[k].leaf].taken_away == !kept && c[k].leaf > last && (!next || c[k].leaf < next->leaf))
+                    next = &c[k];
+            if (!next)
+                break;
+            bool before = r->value[0];
+            toggle(r, next->leaf);
+            owner = r->value[0] != before ? next : owner;
+            last = next->leaf;
+        }
+    return owner;
 }
 
 static csg_hit hit_of(const trace_triangle *f, const crossing *c, dvec direction, bool entering)
@@ -492,16 +497,13 @@ size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t 
             continue;
         *close = *close || any_close(r, c, count, k, length);
         bool before = r->value[0], shared = false;
-        for (size_t j = k; j < count; j++)
-            if (c[j].event == (int)k) {
-                c[j].entering = !r->value[r->leaves[c[j].leaf].node];
-                toggle(r, c[j].leaf);
-                shared = shared || j > k;
-            }
+        for (size_t j = k + 1; j < count && !shared; j++)
+            shared = c[j].event == (int)k;
+        const crossing *owner = go_through(r, c, count, (int)k);
         if (r->value[0] == before)
             continue;
         if (kept < room) {
-            out[kept] = hit_of(f, owner_of(r, c, count, (int)k, !before), direction, !before);
+            out[kept] = hit_of(f, owner, direction, !before);
             out[kept].coplanar = shared;
         }
         kept++;
