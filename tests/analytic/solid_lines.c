@@ -208,17 +208,18 @@ static void check_lines(const char *title, csg_rays *r, const csg_map *m, const 
 static void against_rays(const char *title, const csg *c, const shot_view *view, int layers)
 {
     shot      s;
+    csg_map   m = {0};
     csg_rays *r = csg_rays_create(c, 30);
     for (int all = 0; all < 2; all++) {
-        csg_map m;
         if (!draw(&s, c, all ? LOOK("\"surface\":\"flat\"" LINES ALL_LAYERS ",\"compose\":\"wire\"") : "edges", NULL, view))
             continue;
-        csg_map_make(&m, r, &s);
+        if (!m.hits)
+            csg_map_quickly(&m, r, &s);
         for (int k = all; k < (all ? layers : 1) && (!all || k < s.layer_count); k++)
             check_lines(title, r, &m, &s, (size_t)k);
-        csg_map_release(&m);
         shot_release(&s);
     }
+    csg_map_release(&m);
     csg_rays_destroy(r);
 }
 
@@ -256,13 +257,23 @@ static void drilled(csg *c)
         csg_move(c, csg_cylinder(c, 0, 0.25, 0.25, 2, 48), -0.9 + 0.9 * (k % 3), -0.6 + 1.2 * (k / 3), -1);
 }
 
+/* Rims at angles that would be no crease within a leaf. */
+static void shallow(csg *c)
+{
+    csg_add(c, -1, CSG_DIFFERENCE);
+    csg_add(c, 0, CSG_UNION);
+    csg_box(c, 1, dvec_of(-1.4, -1, -0.5), dvec_of(1.4, 1, 0.3));
+    csg_move(c, csg_cylinder(c, 1, 0.55, 0, 0.2, 64), 0.75, 0.1, 0.3);
+    csg_move(c, csg_ball(c, 0, 2, 60, 96), -0.5, -0.1, 2.15);
+}
+
 static void lines(void)
 {
     static const struct {
         const char *name;
         void (*make)(csg *c);
         int layers;
-    } scenes[] = {{"a bore through a ball and a box", bored, 4}, {"leaves in one piece", joined, 2}, {"a drilled plate", drilled, 2}, {"a spanner", csg_spanner, 4}};
+    } scenes[] = {{"a bore through a ball and a box", bored, 4}, {"leaves in one piece", joined, 2}, {"a drilled plate", drilled, 2}, {"shallow rims", shallow, 2}, {"a spanner", csg_spanner, 4}};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++)
         for (int v = 0; v < 2; v++) {
             csg c = {0};
@@ -307,7 +318,7 @@ static void smooth_walls(void)
         csg_map m;
         if (!draw(&s, &c, "edges", NULL, &views[v]))
             continue;
-        csg_map_make(&m, r, &s);
+        csg_map_quickly(&m, r, &s);
         field f = {&m, &s, 0};
         for (int y = 3; y < s.height - 3; y++)
             for (int x = 3; x < s.width - 3; x++) {

@@ -58,7 +58,7 @@ static bool is_sharp(csg_rays *r, const shot *view, int x, int y, const csg_hit 
     return true;
 }
 
-void csg_map_make(csg_map *out, csg_rays *r, const shot *view)
+static void make_map(csg_map *out, csg_rays *r, const shot *view, bool judged)
 {
     int    count = view->width * view->height;
     size_t room = 4096, used = 0;
@@ -80,12 +80,22 @@ void csg_map_make(csg_map *out, csg_rays *r, const shot *view)
         memcpy(out->hits + used, own, found * sizeof *own);
         used += found;
         out->first[i + 1] = used;
-        out->sharp[i] = !close && is_sharp(r, view, x, y, own, found);
+        out->sharp[i] = judged && !close && is_sharp(r, view, x, y, own, found);
         out->sharp_count += out->sharp[i];
         out->most = found > out->most ? found : out->most;
         if (out->sharp[i] && found > out->most_sharp)
             out->most_sharp = found;
     }
+}
+
+void csg_map_make(csg_map *out, csg_rays *r, const shot *view)
+{
+    make_map(out, r, view, true);
+}
+
+void csg_map_quickly(csg_map *out, csg_rays *r, const shot *view)
+{
+    make_map(out, r, view, false);
 }
 
 void csg_map_release(csg_map *m)

@@ -18,6 +18,8 @@ typedef struct csg_map {
 } csg_map;
 
 void csg_map_make(csg_map *out, csg_rays *r, const shot *view);
+/* Only the centres: no pixel is called sharp. */
+void csg_map_quickly(csg_map *out, csg_rays *r, const shot *view);
 void csg_map_release(csg_map *m);
 
 static inline size_t csg_count(const csg_map *m, int pixel)
