@@ -12,16 +12,18 @@ module nut(extra = 0) {
     rotate(30) circle(d = (width + extra) / cos(30), $fn = 6);
 }
 
+// Round, with blunt ends.
 module jaw_outline() {
-    difference() {
+    rotate(tilt) intersection() {
         hull() {
             circle(r = 15);
-            translate([-7, 0]) circle(r = 14.5);
+            translate([-6, 0]) circle(r = 14);
         }
+        translate([-16, -20]) square(40);
     }
 }
 
-// The opening runs out at the front; its ends are rounded by two cylinders.
+// The opening runs out at the front.
 module jaw_opening() {
     rotate(tilt) {
         linear_extrude(height = 30, center = true) nut(0.3);

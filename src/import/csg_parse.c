@@ -22,7 +22,7 @@ typedef struct parser {
 /* Columns count bytes, as compilers do. */
 static lmn_status fail_at(parser *p, lmn_status status, int line, const char *at, const char *message)
 {
-    error_in_file(p->error, status, p->job->path, line, "column %d: %s", (int)(at - p->line_begin) + 1, message);
+    error_in_file(p->error, status, p->job->path, line, "%s", message);
     if (p->error)
         p->error->column = (int)(at - p->line_begin) + 1;
     return status;

@@ -1,6 +1,7 @@
 /* Solids cut by the plane z = 0 and their shadows on it (projection()). A cut of a tree is the tree of the cuts; a shadow is that only
  * for unions. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -8,8 +9,7 @@
 #include "import/csg.h"
 
 /* How many cuts stand for the shadow of a difference or intersection. */
-enum { CUTS = 96 };
-
+enum { CUTS = 128 };
 
 static lmn_status cut_operand(csg_reader *r, const csg_shape *s, const mat4 *place, region *out)
 {
@@ -80,18 +80,65 @@ static void reach(const csg_reader *r, int32_t shape, const mat4 *above, double 
     }
 }
 
-/* Cuts at many heights, united. */
+typedef struct heights {
+    double *items;
+    size_t  count, capacity;
+} heights;
+
+static lmn_status gather_heights(csg_reader *r, int32_t shape, const mat4 *above, heights *out)
+{
+    const csg_shape *s = &r->shapes[shape];
+    mat4 place = mat4_multiply(above, &s->matrix);
+    lmn_status status = LMN_OK;
+    for (int32_t c = s->first_child; c != NONE && status == LMN_OK; c = r->shapes[c].next)
+        status = gather_heights(r, c, &place, out);
+    if (s->kind != SOLID_OPERAND)
+        return status;
+    const polyhedron *p = &r->meshes[s->mesh].polyhedron;
+    if (!mem_grow((void **)&out->items, &out->capacity, out->count + p->point_count, sizeof *out->items))
+        return error_memory(r->error);
+    for (size_t i = 0; i < p->point_count; i++)
+        out->items[out->count++] =
+            place.m[2] * p->points[i].x + place.m[6] * p->points[i].y + place.m[10] * p->points[i].z + place.m[14];
+    return LMN_OK;
+}
+
+static int compare_heights(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+/* Each within reach once; of too many, every n-th. */
+static void thin_out(heights *h, double low, double high)
+{
+    double apart = (high - low) * 1e-6;
+    size_t kept = 0, most = CUTS / 2;
+    qsort(h->items, h->count, sizeof *h->items, compare_heights);
+    for (size_t i = 0; i < h->count; i++)
+        if (h->items[i] > low && h->items[i] < high && (kept == 0 || h->items[i] > h->items[kept - 1] + apart))
+            h->items[kept++] = h->items[i];
+    h->count = kept < most ? kept : most;
+    for (size_t i = 0; i < h->count; i++)
+        h->items[i] = h->items[i * kept / h->count];
+}
+
+/* Cuts at many heights, united: through the corners, where the outline of what is round is widest, and between. */
 static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
     region cuts[CUTS] = {{0}};
+    heights h = {0};
     double low = INFINITY, high = -INFINITY;
-    lmn_status status = LMN_OK;
     reach(r, shape, above, &low, &high);
     csg_warn(r, node, WARNING_APPROXIMATE, "projection() of the %s() in line %u is put together from %d cuts",
              csg_word(&r->tree, r->shapes[shape].node), (unsigned)r->tree.nodes[r->shapes[shape].node].line, CUTS);
-    for (int i = 0; i < CUTS && low < high && status == LMN_OK; i++) {
+    lmn_status status = low < high ? gather_heights(r, shape, above, &h) : LMN_OK;
+    if (status == LMN_OK && low < high)
+        thin_out(&h, low, high);
+    for (size_t i = 0; i < CUTS && low < high && status == LMN_OK; i++) {
+        double between = ((double)(i - h.count) + 0.5) / (double)(CUTS - h.count), margin = (high - low) * 1e-9;
         mat4 down = mat4_identity();
-        down.m[14] = -(low + (high - low) * (i + 0.5) / CUTS);
+        down.m[14] = -(i < h.count ? h.items[i] + margin : low + (high - low) * between);
         mat4 place = mat4_multiply(&down, above);
         status = import_progress(r->job, 0.5, "evaluating", r->error);
         if (status == LMN_OK)
@@ -101,6 +148,7 @@ static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, con
         status = region_combine(out, cuts, CUTS, REGION_UNION, r->error);
     for (int i = 0; i < CUTS; i++)
         region_release(&cuts[i]);
+    mem_free(h.items);
     return status;
 }
 
@@ -120,6 +168,30 @@ static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 
     return status;
 }
 
+/* Meshes that close only within their rounding leave hairlines in a shadow: contours that are thin against all of it go. */
+static void drop_hairlines(region *r)
+{
+    double low[2], high[2];
+    size_t kept = 0;
+    if (!region_bounds(r, low, high))
+        return;
+    double thin = 2e-6 * fmax(high[0] - low[0], high[1] - low[1]);
+    for (size_t i = 0; i < r->count; i++) {
+        const contour *c = &r->contours[i];
+        double twice = 0, around = 0;
+        for (size_t k = 0; k < c->count; k++) {
+            point2 a = c->points[k], b = c->points[(k + 1) % c->count], o = c->points[0];
+            twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+            around += hypot(b.x - a.x, b.y - a.y);
+        }
+        if (fabs(twice) > thin * around)
+            r->contours[kept++] = *c;
+        else
+            mem_free(r->contours[i].points);
+    }
+    r->count = kept;
+}
+
 /* Its children are solids, whatever the dimension of what is around. */
 lmn_status csg_projection(csg_reader *r, int32_t node, region *out)
 {
@@ -129,6 +201,8 @@ lmn_status csg_projection(csg_reader *r, int32_t node, region *out)
     lmn_status status = csg_union(r, node, &shape);
     if (status == LMN_OK && shape >= 0)
         status = (csg_bool(&r->tree, node, "cut", 0, false) ? cut : shadow)(r, node, shape, &identity, out);
+    if (status == LMN_OK)
+        drop_hairlines(out);
     r->shape_count = shapes;
     return status;
 }

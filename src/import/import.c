@@ -66,7 +66,7 @@ static lmn_status choose(const import_format **out, const char *path, const file
     if (*out)
         return LMN_OK;
     error_in_file(error, LMN_UNSUPPORTED, path, 0, "the format of this file is not known (ending \"%s\")", ending);
-    error_hint(error, "limner reads glTF, GLB, STL, PLY, OBJ and what docs/reference/formats.md lists");
+    error_hint(error, "limner reads glTF, GLB, STL, PLY, OBJ, OpenSCAD's CSG and what docs/reference/formats.md lists");
     return LMN_UNSUPPORTED;
 }
 

@@ -253,6 +253,11 @@ group_report() {
     row 1 "there is no look 'nosuch'" '' bench "$gear" --look nosuch
     row 0 '' '' info "$gear" --json; documented .stdout info.md
     row 0 '' '' info "$gear"; out '^triangles +9532$'
+    row 0 '' '' info "$examples/csg/widget.csg" --json; documented .stdout info.md
+    row 0 '' '' info "$examples/csg/widget.csg"; out 'solid: 5 operands, 2 unions, 1 intersections, 1 differences, 4 levels'
+    out '^ +operand cylinder x 3  \(line 12\)$'
+    printf 'group() {\n cube(size = 1;\n}' > in-wrong.csg
+    row 2 '^limner: in-wrong.csg:2:15: expected' '' info in-wrong.csg
 }
 
 group_inputs() {

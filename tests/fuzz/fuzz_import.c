@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "import/assimp_stream.h"
+#include "import/csg.h"
 #include "import/import.h"
 #include "scene/mesh.h"
 
@@ -19,6 +20,14 @@ static lmn_status read_format(const import_job *job, lmn_error *error)
     return import_ply.read(job, error);
 #elif defined(FUZZ_obj)
     return import_obj.read(job, error);
+#elif defined(FUZZ_csg)
+    return import_csg.read(job, error);
+#elif defined(FUZZ_dxf)
+    const csg_drawing how = {.layer = "", .scale = 1, .facets = {8, 12, 2}};
+    region figure = {0};
+    lmn_status status = csg_dxf((const char *)job->file->data, job->file->size, &how, &figure, error);
+    region_release(&figure);
+    return status == LMN_OK ? LMN_CANCELLED : status;
 #elif defined(FUZZ_stream)
     return assimp_stream_read(job, job->file->data, job->file->size, error);
 #else
