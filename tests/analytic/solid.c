@@ -287,6 +287,68 @@ static void by_hand(void)
     }
 }
 
+/* --- extremes -------------------------------------------------------------------------------------------------------- */
+
+/* A plate with 225 bores, seen almost along itself. */
+static void crowd(csg *c)
+{
+    csg_place(c, csg_add(c, -1, CSG_DIFFERENCE), dvec_of(1, 1, 1), dvec_of(1, 0, 0.2), -65, dvec_of(0, 0, 0));
+    csg_box(c, 0, dvec_of(-1.5, -1.5, -0.2), dvec_of(1.5, 1.5, 0.2));
+    for (int k = 0; k < 225; k++)
+        csg_move(c, csg_cylinder(c, 0, 0.06, 0.07, 1, 8), -1.33 + 0.19 * (k % 15), -1.33 + 0.19 * (k / 15), -0.5);
+}
+
+/* Shells in shells: every second one is taken away from what is around it. */
+static void shells(csg *c)
+{
+    int parent = -1;
+    for (int k = 0; k < 30; k++) {
+        parent = csg_add(c, parent, CSG_DIFFERENCE);
+        csg_place(c, csg_ball(c, parent, 1.5 - 0.045 * k, 12, 20), dvec_of(1, 1, 1), dvec_of(1, k, 2), 7 * k, dvec_of(0, 0, 0));
+    }
+    csg_box(c, parent, dvec_of(-0.05, -0.06, -0.07), dvec_of(0.08, 0.05, 0.06));
+}
+
+/* Walls of a five-thousandth of the whole, and a pin of a hundredth. */
+static void thin(csg *c)
+{
+    csg_place(c, csg_add(c, -1, CSG_DIFFERENCE), dvec_of(1, 1, 1), dvec_of(1, 2, 3), 35, dvec_of(0, 0, 0));
+    csg_add(c, 0, CSG_UNION);
+    csg_box(c, 1, dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+    csg_move(c, csg_cylinder(c, 1, 0.015, 0.01, 0.3, 8), 0.3, 0.2, 0.9);
+    csg_box(c, 0, dvec_of(-0.999, -0.999, -0.999), dvec_of(0.999, 0.999, 0.999));
+}
+
+/* Flush faces of what lies fifty times its size away from where numbers begin. */
+static void distant(csg *c)
+{
+    plates(c);
+    csg_place(c, 0, dvec_of(1, 1, 1), dvec_of(1, 2, 3), 50, dvec_of(100, -60, 80));
+}
+
+static void extremes(void)
+{
+    static const struct {
+        const char *name;
+        void (*make)(csg *c);
+    } scenes[] = {{"225 bores", crowd}, {"30 shells", shells}, {"thin walls", thin}};
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+        csg c = {0};
+        scenes[k].make(&c);
+        csg_colour(&c);
+        against_rays(scenes[k].name, &c, &views[k % 3], true);
+        csg_release(&c);
+    }
+    csg       c = {0};
+    shot_view view = views[0];
+    distant(&c);
+    csg_colour(&c);
+    view.target = dvec_of(100, -60, 80);
+    view.eye = dvec_add(view.eye, view.target);
+    against_rays("flush plates far away", &c, &view, true);
+    csg_release(&c);
+}
+
 /* --- single statements ------------------------------------------------------------------------------------------------ */
 
 /* The second layer of a hollow box is the inner side of its front wall, not the far wall. */
@@ -371,7 +433,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"convex", convex}, {"concave", concave}, {"deep", deep}, {"many", many}, {"coincident", coincident}, {"inside", from_inside},
-        {"by-hand", by_hand}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
+        {"by-hand", by_hand}, {"extremes", extremes}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
     };
     int status = check_main(argc, argv, "solid", cases, sizeof cases / sizeof *cases);
     shot_end();
