@@ -202,17 +202,17 @@ static int differing_rays(csg_rays *one, csg_rays *other, uint32_t seed, int cou
     int      wrong = 0;
     for (int k = 0; k < count; k++) {
         csg_hit a[CSG_HITS_MAX], b[CSG_HITS_MAX];
-        bool    close;
+        csg_way way;
         double  v[6];
         for (int i = 0; i < 6; i++)
             v[i] = scene_between(&state, -1, 1);
         dvec   origin = dvec_of(v[0], v[1], v[2]), direction = dvec_of(v[3], v[4], v[5]);
-        size_t found = csg_trace(one, origin, direction, a, CSG_HITS_MAX, &close), same = 0;
-        if (csg_trace(other, origin, direction, b, CSG_HITS_MAX, &close) == found)
+        size_t found = csg_trace(one, origin, direction, a, CSG_HITS_MAX, &way), same = 0;
+        if (csg_trace(other, origin, direction, b, CSG_HITS_MAX, &way) == found)
             while (same < found && fabs(a[same].t - b[same].t) * dvec_length(direction) < 1e-9 && a[same].front == b[same].front &&
                    dvec_dot(a[same].flat, b[same].flat) > 1 - 1e-9)
                 same++;
-        wrong += same < found || (close && !found);
+        wrong += same < found || (way.close && !found);
     }
     return wrong;
 }
@@ -255,10 +255,10 @@ static void along_x(csg *c, int count, const double *places, const int *owners, 
 {
     csg_rays *r = csg_rays_create(c, 30);
     csg_hit   hits[CSG_HITS_MAX];
-    bool      close;
-    int       found = (int)csg_trace(r, dvec_of(-10, 0.1, 0.2), dvec_of(2, 0, 0), hits, CSG_HITS_MAX, &close);
+    csg_way   way;
+    int       found = (int)csg_trace(r, dvec_of(-10, 0.1, 0.2), dvec_of(2, 0, 0), hits, CSG_HITS_MAX, &way);
     check_near("self", found, count, 0, "%s: surfaces", what);
-    check_that("self", !close, "  no other order is possible");
+    check_that("self", !way.close, "  no other order is possible");
     for (int k = 0; k < found && k < count; k++) {
         check_near("self", hits[k].t * 2 - 10, places[k], 1e-9, "  place of surface %d", k);
         check_near("self", hits[k].leaf, owners[k], 0, "  its owner");
@@ -325,13 +325,13 @@ static void nearly_flush(void)
     for (int k = 0; k < 3; k++) {
         csg     c = {0};
         csg_hit hits[CSG_HITS_MAX];
-        bool    close;
+        csg_way way;
         boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {-1, 0}});
         c.nodes[2].mesh.points[1].x += gaps[k]; /* one corner alone: the face leans */
         csg_rays *r = csg_rays_create(&c, 30);
-        size_t    count = csg_trace(r, dvec_of(-10, -0.7, -0.8), dvec_of(1, 0, 0), hits, CSG_HITS_MAX, &close);
+        size_t    count = csg_trace(r, dvec_of(-10, -0.7, -0.8), dvec_of(1, 0, 0), hits, CSG_HITS_MAX, &way);
         check_near("self", (double)count, 2, 0, "a cut that leans by %g: surfaces", gaps[k]);
-        check_that("self", close == (k == 1), "  its order is %s", close ? "open" : "sure");
+        check_that("self", way.close == (k == 1), "  its order is %s", way.close ? "open" : "sure");
         csg_rays_destroy(r);
         csg_release(&c);
     }

@@ -5,10 +5,10 @@
 #include "csg_truth.h"
 
 /* The surfaces between the clip planes on the ray through a position of the picture. */
-size_t csg_trace_pixel(csg_rays *r, const shot *view, double x, double y, csg_hit out[CSG_HITS_MAX], bool *close);
+size_t csg_trace_pixel(csg_rays *r, const shot *view, double x, double y, csg_hit out[CSG_HITS_MAX], csg_way *way);
 
-/* The surfaces of all pixel centres. A pixel is sharp when rays a hundredth of a pixel around its centre meet the same surfaces in
- * the same order and nothing is close: elsewhere a rasteriser may be right with another answer. */
+/* The surfaces of all pixel centres. A pixel is sharp when rays a hundredth of a pixel around its centre cross the same leaves and
+ * meet the same surfaces in the same order and nothing is close: elsewhere a rasteriser may be right with another answer. */
 typedef struct csg_map {
     int      width, height;
     size_t  *first; /* hits of pixel i: hits[first[i]] … hits[first[i + 1] − 1] */

@@ -484,21 +484,26 @@ static bool any_close(csg_rays *r, const crossing *c, size_t count, size_t k, do
     return false;
 }
 
-size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, bool *close)
+size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way)
 {
     crossing c[CROSSINGS_MAX];
     size_t   triangles, count = find_crossings(r, origin, direction, c), kept = 0;
     double   length = dvec_length(direction);
     const trace_triangle *f = tracer_triangles(r->tracer, &triangles);
-    *close = false;
+    *way = (csg_way){0};
     reset(r);
     for (size_t k = 0; k < count; k++) {
         if (c[k].event != (int)k)
             continue;
-        *close = *close || any_close(r, c, count, k, length);
-        bool before = r->value[0], shared = false;
-        for (size_t j = k + 1; j < count && !shared; j++)
-            shared = c[j].event == (int)k;
+        way->close = way->close || any_close(r, c, count, k, length);
+        bool     before = r->value[0], shared = false;
+        uint64_t together = 0; /* in no order */
+        for (size_t j = k; j < count; j++)
+            if (c[j].event == (int)k) {
+                together += ((uint64_t)c[j].leaf + 1) * 0x9E3779B97F4A7C15u;
+                shared = shared || j > k;
+            }
+        way->crossings = way->crossings * 0xD1342543DE82EF95u + (together ^ together >> 29);
         const crossing *owner = go_through(r, c, count, (int)k);
         if (r->value[0] == before)
             continue;
@@ -516,8 +521,9 @@ size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t 
 bool csg_inside(csg_rays *r, dvec point)
 {
     csg_hit hits[CSG_HITS_MAX];
-    bool    close, inside = false;
-    size_t  count = csg_trace(r, point, dvec_of(0.5377, 0.2113, 0.8163), hits, CSG_HITS_MAX, &close);
+    csg_way way;
+    bool    inside = false;
+    size_t  count = csg_trace(r, point, dvec_of(0.5377, 0.2113, 0.8163), hits, CSG_HITS_MAX, &way);
     for (size_t k = 0; k < count && hits[k].t < 0; k++)
         inside = hits[k].front;
     return inside;
@@ -541,12 +547,12 @@ double csg_volume(csg_rays *r, int axis, int cells)
     d[axis] = 1;
     for (int i = 0; i < cells * cells; i++) {
         csg_hit hits[CSG_HITS_MAX];
-        bool    close;
+        csg_way way;
         double  o[3];
         o[axis] = low[axis] - 1;
         o[a] = low[a] + size[a] * (i % cells + 0.5) / cells;
         o[b] = low[b] + size[b] * (i / cells + 0.5) / cells;
-        size_t count = csg_trace(r, dvec_of(o[0], o[1], o[2]), dvec_of(d[0], d[1], d[2]), hits, CSG_HITS_MAX, &close);
+        size_t count = csg_trace(r, dvec_of(o[0], o[1], o[2]), dvec_of(d[0], d[1], d[2]), hits, CSG_HITS_MAX, &way);
         for (size_t k = 0; k < count; k++)
             length += hits[k].front ? -hits[k].t : hits[k].t;
     }

@@ -63,11 +63,15 @@ typedef struct csg_hit {
 
 enum { CSG_HITS_MAX = 256 };
 
+typedef struct csg_way {
+    bool     close;     /* somewhere the order of two crossings that are not in one plane matters, and they are closer than 1e-5 of the extent */
+    uint64_t crossings; /* stands for all crossings in their order, whether the solid changes there or not */
+} csg_way;
+
 /* On a whole line, nearest first. Crossings of different leaves in one plane are one event: there is a surface when the tree's
  * value before all of them is not that after. Within it, leaves that are taken away come first, then all in the order of the tree, and
- * the one at which the tree's value last changes owns the surface. *close: somewhere the order of two crossings that are not in one plane matters, and
- * they are closer than 1e-5 of the extent. */
-size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, bool *close);
+ * the one at which the tree's value last changes owns the surface. */
+size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way);
 
 bool csg_inside(csg_rays *r, dvec point);
 /* The same from one leaf's surface alone. */
