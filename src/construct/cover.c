@@ -223,8 +223,33 @@ static GEOSGeometry *choose_faces(cover *c, const GEOSGeometry *faces)
 
 /* --- back to a region --------------------------------------------------------------------------------------------------- */
 
-/* Leaves out points on the straight line between their neighbours, and spikes; until none is left. */
-static size_t drop_straight(point2 *points, size_t count)
+/* The result's points, sorted: those that come twice are where contours touch. */
+typedef struct corners {
+    point2 *points;
+    size_t  count, capacity;
+    bool    failed;
+} corners;
+
+static int compare_places(const void *a, const void *b)
+{
+    const point2 *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return (p->y > q->y) - (p->y < q->y);
+}
+
+static bool is_shared(const corners *all, point2 p)
+{
+    const point2 *found = bsearch(&p, all->points, all->count, sizeof p, compare_places);
+    if (!found)
+        return false;
+    return (found > all->points && compare_places(found - 1, &p) == 0) ||
+           (found + 1 < all->points + all->count && compare_places(found + 1, &p) == 0);
+}
+
+/* Leaves out points on the straight line between their neighbours, and spikes; until none is left. Where another contour touches
+ * the line the point stays: without it the touching would be found again later, and not by all in the same way. */
+static size_t drop_straight(const corners *all, point2 *points, size_t count)
 {
     size_t before = count + 1;
     while (count >= 3 && count < before) {
@@ -232,7 +257,8 @@ static size_t drop_straight(point2 *points, size_t count)
         size_t kept = 0;
         for (size_t i = 0; i < before; i++) {
             point2 a = points[kept > 0 ? kept - 1 : before - 1], b = points[i], next = points[i + 1 < before ? i + 1 : 0];
-            if ((b.x - a.x) * (next.y - b.y) != (b.y - a.y) * (next.x - b.x))
+            bool straight = (b.x - a.x) * (next.y - b.y) == (b.y - a.y) * (next.x - b.x);
+            if (!straight || is_shared(all, b))
                 points[kept++] = b;
         }
         count = kept;
@@ -240,20 +266,28 @@ static size_t drop_straight(point2 *points, size_t count)
     return count;
 }
 
-static void add_ring(cover *c, region_builder *b, const GEOSGeometry *ring, bool hole)
+/* The ring's points, the last not the first again; NULL when it has none, or memory is gone. The caller frees them. */
+static point2 *ring_points(cover *c, const GEOSGeometry *ring, size_t *count)
 {
     const GEOSCoordSequence *sequence = GEOSGeom_getCoordSeq_r(c->geos, ring);
-    unsigned count = 0;
-    if (!sequence || GEOSCoordSeq_getSize_r(c->geos, sequence, &count) != 1 || count < 4)
-        return;
-    point2 *points = mem_calloc(count, sizeof *points);
-    if (!points) {
-        b->failed = true;
-        return;
-    }
-    for (unsigned i = 0; i < count; i++)
+    unsigned size = 0;
+    if (!sequence || GEOSCoordSeq_getSize_r(c->geos, sequence, &size) != 1 || size < 4)
+        return NULL;
+    point2 *points = mem_calloc(size, sizeof *points);
+    c->failed = c->failed || !points;
+    for (unsigned i = 0; points && i < size; i++)
         GEOSCoordSeq_getXY_r(c->geos, sequence, i, &points[i].x, &points[i].y);
-    size_t kept = drop_straight(points, count - 1);
+    *count = size - 1;
+    return points;
+}
+
+static void add_ring(cover *c, region_builder *b, const corners *all, const GEOSGeometry *ring, bool hole)
+{
+    size_t count;
+    point2 *points = ring_points(c, ring, &count);
+    if (!points)
+        return;
+    size_t kept = drop_straight(all, points, count);
     bool reversed = (contour_area2(points, kept) < 0) != hole;
     builder_contour(b);
     for (size_t i = 0; i < kept; i++)
@@ -262,17 +296,35 @@ static void add_ring(cover *c, region_builder *b, const GEOSGeometry *ring, bool
     mem_free(points);
 }
 
-static void add_polygons(cover *c, region_builder *b, const GEOSGeometry *g)
+static void collect_ring(cover *c, corners *all, const GEOSGeometry *ring)
+{
+    size_t count;
+    point2 *points = ring_points(c, ring, &count);
+    if (points && mem_grow((void **)&all->points, &all->capacity, all->count + count, sizeof *points)) {
+        memcpy(all->points + all->count, points, count * sizeof *points);
+        all->count += count;
+    } else {
+        all->failed = all->failed || points;
+    }
+    mem_free(points);
+}
+
+/* Goes through all rings; with a builder they are added to it, without one their points are collected. */
+static void visit_rings(cover *c, region_builder *b, corners *all, const GEOSGeometry *g)
 {
     int count = GEOSGetNumGeometries_r(c->geos, g);
     for (int i = 0; i < count; i++) {
         const GEOSGeometry *polygon = GEOSGetGeometryN_r(c->geos, g, i);
         if (GEOSGeomTypeId_r(c->geos, polygon) != GEOS_POLYGON || GEOSisEmpty_r(c->geos, polygon) != 0)
             continue;
-        add_ring(c, b, GEOSGetExteriorRing_r(c->geos, polygon), false);
         int holes = GEOSGetNumInteriorRings_r(c->geos, polygon);
-        for (int k = 0; k < holes; k++)
-            add_ring(c, b, GEOSGetInteriorRingN_r(c->geos, polygon, k), true);
+        for (int k = -1; k < holes; k++) {
+            const GEOSGeometry *ring = k < 0 ? GEOSGetExteriorRing_r(c->geos, polygon) : GEOSGetInteriorRingN_r(c->geos, polygon, k);
+            if (b)
+                add_ring(c, b, all, ring, k >= 0);
+            else
+                collect_ring(c, all, ring);
+        }
     }
 }
 
@@ -283,7 +335,14 @@ static lmn_status unite(cover *c, region *out, const GEOSGeometry *parts)
     if (!whole)
         return LMN_INTERNAL;
     region_builder b = {0};
-    add_polygons(c, &b, whole);
+    corners all = {0};
+    visit_rings(c, NULL, &all, whole);
+    if (all.count > 0)
+        qsort(all.points, all.count, sizeof *all.points, compare_places);
+    if (!all.failed && all.count > 0)
+        visit_rings(c, &b, &all, whole);
+    b.failed = b.failed || all.failed || c->failed;
+    mem_free(all.points);
     GEOSGeom_destroy_r(c->geos, whole);
     lmn_status status = region_builder_finish(&b, out, NULL);
     c->failed = c->failed || status != LMN_OK;

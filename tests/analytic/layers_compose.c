@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "picture.h"
+#include "paint.h"
 #include "scenes.h"
 #include "stack.h"
 
@@ -28,28 +28,6 @@ static const uint8_t *pixel(const shot *s, int x, int y)
 }
 
 /* --- blending ---------------------------------------------------------------------------------------------------- */
-
-typedef struct paint {
-    double r, g, b, a; /* linear, straight */
-} paint;
-
-static paint paint_of(const uint8_t srgb[3], double alpha)
-{
-    return (paint){picture_linear(srgb[0]), picture_linear(srgb[1]), picture_linear(srgb[2]), alpha};
-}
-
-static void put_over(paint *under, paint p)
-{
-    under->r = p.r * p.a + under->r * (1 - p.a);
-    under->g = p.g * p.a + under->g * (1 - p.a);
-    under->b = p.b * p.a + under->b * (1 - p.a);
-}
-
-static int levels_off(const uint8_t *drawn, paint wanted)
-{
-    double off = fmax(fabs(drawn[0] - picture_srgb(wanted.r)), fmax(fabs(drawn[1] - picture_srgb(wanted.g)), fabs(drawn[2] - picture_srgb(wanted.b))));
-    return (int)ceil(off - 0.5);
-}
 
 static paint part_paint(const shape *s, uint16_t id, double opacity)
 {
@@ -206,20 +184,6 @@ static void two_figures(void)
 }
 
 /* --- lines over layers ------------------------------------------------------------------------------------------- */
-
-/* Ink of an edge map's pixel when all classes have one colour. */
-static double ink_of(const uint8_t *edge)
-{
-    return 1 - edge[0] / 255.0 * (edge[1] / 255.0) * (edge[3] / 255.0);
-}
-
-static double largest_ink(const shot *s, int i)
-{
-    double most = 0;
-    for (int k = 0; k < s->layer_count; k++)
-        most = fmax(most, ink_of(&s->layers[k].edge[4 * i]));
-    return most;
-}
 
 /* Is there ink of any layer within the square around the pixel? */
 static bool ink_around(const shot *s, int i, int radius)

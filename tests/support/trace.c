@@ -100,10 +100,8 @@ static void split(tracer *t, size_t index, uint32_t first, uint32_t count)
     split(t, child + 1, left, first + count - left);
 }
 
-tracer *tracer_create(const shape *s)
+static tracer *with_tree(tracer *t)
 {
-    tracer *t = check_alloc(1, sizeof *t);
-    collect(t, s);
     t->order = check_alloc(t->count, sizeof *t->order);
     for (uint32_t i = 0; i < t->count; i++)
         t->order[i] = i;
@@ -111,6 +109,21 @@ tracer *tracer_create(const shape *s)
     t->node_count = 1;
     split(t, 0, 0, (uint32_t)t->count);
     return t;
+}
+
+tracer *tracer_create(const shape *s)
+{
+    tracer *t = check_alloc(1, sizeof *t);
+    collect(t, s);
+    return with_tree(t);
+}
+
+tracer *tracer_of_triangles(trace_triangle *triangles, size_t count)
+{
+    tracer *t = check_alloc(1, sizeof *t);
+    t->triangles = triangles;
+    t->count = count;
+    return with_tree(t);
 }
 
 tracer *tracer_of_parts(const shape *s, const char *prefix, bool with)
@@ -170,13 +183,17 @@ static bool hit_triangle(const trace_triangle *f, dvec origin, dvec direction, d
 static bool hit_box(const box *b, const double origin[3], const double inverse[3], double low, double high)
 {
     for (int a = 0; a < 3; a++) {
+        if (isinf(inverse[a])) { /* along the slab: in it or not */
+            if (origin[a] < b->low[a] || origin[a] > b->high[a])
+                return false;
+            continue;
+        }
         double near = (b->low[a] - origin[a]) * inverse[a], far = (b->high[a] - origin[a]) * inverse[a];
         if (near > far) {
             double swap = near;
             near = far;
             far = swap;
         }
-        /* fmax and fmin pass over the NaN of 0 · infinity: a ray inside the slab's plane. */
         low = fmax(low, near - 1e-12 * fabs(near));
         high = fmin(high, far + 1e-12 * fabs(far));
     }

@@ -24,6 +24,8 @@ enum { TRACE_NONE = -1 };
 tracer *tracer_create(const shape *s);
 /* Only the parts whose names begin with the prefix, or only the others; they keep their numbers. */
 tracer *tracer_of_parts(const shape *s, const char *prefix, bool with);
+/* Takes the triangles over. */
+tracer *tracer_of_triangles(trace_triangle *triangles, size_t count);
 void    tracer_destroy(tracer *t);
 const trace_triangle *tracer_triangles(const tracer *t, size_t *count);
 
