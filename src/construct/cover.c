@@ -1,5 +1,5 @@
 /* Contours of any kind to clean regions, by GEOS: all edges are cut where they cross, on a fixed grid; the faces between them are
- * kept or not by how often the contours run round them; what is kept is united. GEOS takes memory past base/memory.h. */
+ * kept or not by how often the contours run round them; what is kept is traced. GEOS takes memory past base/memory.h. */
 #include <geos_c.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,6 @@
 typedef struct path {
     point2 *points;
     size_t  count, operand;
-    double  low_y, high_y, high_x;
 } path;
 
 typedef struct cover {
@@ -20,6 +19,7 @@ typedef struct cover {
     char                message[200];
     path               *paths;
     size_t              path_count, operand_count;
+    edge_strips         edges;
     int                *windings; /* of one place, by operand */
     cover_rule          rule;
     bool                failed;   /* memory is gone, ours */
@@ -46,6 +46,7 @@ static lmn_status cover_end(cover *c, lmn_status status, lmn_error *error)
         mem_free(c->paths[i].points);
     mem_free(c->paths);
     mem_free(c->windings);
+    edge_strips_release(&c->edges);
     if (c->geos)
         GEOS_finish_r(c->geos);
     if (status != LMN_OK && (c->failed || !c->geos || strstr(c->message, "bad_alloc")))
@@ -60,7 +61,7 @@ static lmn_status cover_end(cover *c, lmn_status status, lmn_error *error)
 /* The contour on the grid, without points repeated in a row. */
 static bool make_path(path *out, const contour *from, size_t operand)
 {
-    *out = (path){.operand = operand, .low_y = INFINITY, .high_y = -INFINITY, .high_x = -INFINITY};
+    *out = (path){.operand = operand};
     out->points = mem_calloc(from->count, sizeof *out->points);
     if (!out->points)
         return false;
@@ -69,9 +70,6 @@ static bool make_path(path *out, const contour *from, size_t operand)
         if (out->count > 0 && p.x == out->points[out->count - 1].x && p.y == out->points[out->count - 1].y)
             continue;
         out->points[out->count++] = p;
-        out->low_y = fmin(out->low_y, p.y);
-        out->high_y = fmax(out->high_y, p.y);
-        out->high_x = fmax(out->high_x, p.x);
     }
     while (out->count > 1 && out->points[0].x == out->points[out->count - 1].x && out->points[0].y == out->points[out->count - 1].y)
         out->count--;
@@ -146,28 +144,24 @@ static GEOSGeometry *make_geometry(cover *c, bool polygons)
 
 /* --- which faces are inside ------------------------------------------------------------------------------------------- */
 
-/* How often the path runs anticlockwise round the place: its edges that cross the ray to the right. */
-static int winding_of(const path *p, double x, double y)
+static bool index_edges(cover *c)
 {
-    int winding = 0;
-    if (y < p->low_y || y > p->high_y || x > p->high_x)
-        return 0;
-    for (size_t i = 0; i < p->count; i++) {
-        const point2 *a = &p->points[i], *b = &p->points[i + 1 == p->count ? 0 : i + 1];
-        if ((a->y > y) == (b->y > y))
-            continue;
-        double side = (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
-        if (b->y > a->y ? side > 0 : side < 0)
-            winding += b->y > a->y ? 1 : -1;
+    size_t count = 0, at = 0;
+    for (size_t i = 0; i < c->path_count; i++)
+        count += c->paths[i].count;
+    wound_edge *edges = mem_calloc(count, sizeof *edges);
+    for (size_t i = 0; edges && i < c->path_count; i++) {
+        const path *p = &c->paths[i];
+        for (size_t k = 0; k < p->count; k++)
+            edges[at++] = (wound_edge){p->points[k], p->points[k + 1 < p->count ? k + 1 : 0], p->operand};
     }
-    return winding;
+    return edges && edge_strips_make(&c->edges, edges, count);
 }
 
 static bool is_inside(cover *c, double x, double y)
 {
     memset(c->windings, 0, c->operand_count * sizeof *c->windings);
-    for (size_t i = 0; i < c->path_count; i++)
-        c->windings[c->paths[i].operand] += winding_of(&c->paths[i], x, y);
+    edge_strips_wind(&c->edges, x, y, c->windings);
     if (c->rule == COVER_ODD)
         return c->windings[0] % 2 != 0;
     bool first = c->windings[0] > 0, any = false, all = true;
@@ -197,111 +191,82 @@ static bool face_is_inside(cover *c, const GEOSGeometry *face)
     return found && is_inside(c, x, y);
 }
 
-static GEOSGeometry *choose_faces(cover *c, const GEOSGeometry *faces)
-{
-    int count = GEOSGetNumGeometries_r(c->geos, faces);
-    GEOSGeometry **kept = mem_calloc((size_t)(count > 0 ? count : 0), sizeof(GEOSGeometry *)), *all = NULL;
-    size_t kept_count = 0;
-    c->failed = c->failed || !kept;
-    bool cloned = kept && count >= 0;
-    for (int i = 0; cloned && i < count; i++) {
-        const GEOSGeometry *face = GEOSGetGeometryN_r(c->geos, faces, i);
-        if (!face_is_inside(c, face))
-            continue;
-        kept[kept_count] = GEOSGeom_clone_r(c->geos, face);
-        cloned = kept[kept_count] != NULL;
-        kept_count += cloned;
-    }
-    if (cloned)
-        all = make_collection(c, GEOS_GEOMETRYCOLLECTION, kept, kept_count);
-    else
-        for (size_t i = 0; i < kept_count; i++)
-            GEOSGeom_destroy_r(c->geos, kept[i]);
-    mem_free(kept);
-    return all;
-}
-
 /* --- back to a region --------------------------------------------------------------------------------------------------- */
 
-/* Leaves out points on the straight line between their neighbours, and spikes; until none is left. */
-static size_t drop_straight(point2 *points, size_t count)
-{
-    size_t before = count + 1;
-    while (count >= 3 && count < before) {
-        before = count;
-        size_t kept = 0;
-        for (size_t i = 0; i < before; i++) {
-            point2 a = points[kept > 0 ? kept - 1 : before - 1], b = points[i], next = points[i + 1 < before ? i + 1 : 0];
-            if ((b.x - a.x) * (next.y - b.y) != (b.y - a.y) * (next.x - b.x))
-                points[kept++] = b;
-        }
-        count = kept;
-    }
-    return count;
-}
+typedef struct border {
+    plane_edge *edges;
+    size_t      count, capacity;
+} border;
 
-static void add_ring(cover *c, region_builder *b, const GEOSGeometry *ring, bool hole)
+/* The ring's points, the last not the first again; NULL when it has none, or memory is gone. The caller frees them. */
+static point2 *ring_points(cover *c, const GEOSGeometry *ring, size_t *count)
 {
     const GEOSCoordSequence *sequence = GEOSGeom_getCoordSeq_r(c->geos, ring);
-    unsigned count = 0;
-    if (!sequence || GEOSCoordSeq_getSize_r(c->geos, sequence, &count) != 1 || count < 4)
-        return;
-    point2 *points = mem_calloc(count, sizeof *points);
-    if (!points) {
-        b->failed = true;
-        return;
-    }
-    for (unsigned i = 0; i < count; i++)
+    unsigned size = 0;
+    if (!sequence || GEOSCoordSeq_getSize_r(c->geos, sequence, &size) != 1 || size < 4)
+        return NULL;
+    point2 *points = mem_calloc(size, sizeof *points);
+    c->failed = c->failed || !points;
+    for (unsigned i = 0; points && i < size; i++)
         GEOSCoordSeq_getXY_r(c->geos, sequence, i, &points[i].x, &points[i].y);
-    size_t kept = drop_straight(points, count - 1);
-    bool reversed = (contour_area2(points, kept) < 0) != hole;
-    builder_contour(b);
-    for (size_t i = 0; i < kept; i++)
-        builder_place(b, points[reversed ? kept - 1 - i : i].x, points[reversed ? kept - 1 - i : i].y);
-    builder_end_contour(b);
+    *count = size - 1;
+    return points;
+}
+
+/* The ring's edges, turned so that the inside is on the left. */
+static void add_ring(cover *c, border *out, const GEOSGeometry *ring, bool hole)
+{
+    size_t count;
+    point2 *points = ring_points(c, ring, &count);
+    if (!points)
+        return;
+    bool reversed = (contour_area2(points, count) < 0) != hole;
+    if (!mem_grow((void **)&out->edges, &out->capacity, out->count + count, sizeof *out->edges)) {
+        c->failed = true;
+        count = 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        point2 a = points[i], b = points[i + 1 < count ? i + 1 : 0];
+        out->edges[out->count++] = reversed ? (plane_edge){b, a} : (plane_edge){a, b};
+    }
     mem_free(points);
 }
 
-static void add_polygons(cover *c, region_builder *b, const GEOSGeometry *g)
+static void add_polygon(cover *c, border *out, const GEOSGeometry *polygon)
 {
-    int count = GEOSGetNumGeometries_r(c->geos, g);
-    for (int i = 0; i < count; i++) {
-        const GEOSGeometry *polygon = GEOSGetGeometryN_r(c->geos, g, i);
-        if (GEOSGeomTypeId_r(c->geos, polygon) != GEOS_POLYGON || GEOSisEmpty_r(c->geos, polygon) != 0)
-            continue;
-        add_ring(c, b, GEOSGetExteriorRing_r(c->geos, polygon), false);
-        int holes = GEOSGetNumInteriorRings_r(c->geos, polygon);
-        for (int k = 0; k < holes; k++)
-            add_ring(c, b, GEOSGetInteriorRingN_r(c->geos, polygon, k), true);
-    }
+    if (GEOSGeomTypeId_r(c->geos, polygon) != GEOS_POLYGON || GEOSisEmpty_r(c->geos, polygon) != 0)
+        return;
+    add_ring(c, out, GEOSGetExteriorRing_r(c->geos, polygon), false);
+    int holes = GEOSGetNumInteriorRings_r(c->geos, polygon);
+    for (int i = 0; i < holes; i++)
+        add_ring(c, out, GEOSGetInteriorRingN_r(c->geos, polygon, i), true);
 }
 
-/* Unites what lies side by side, and hands it over. */
-static lmn_status unite(cover *c, region *out, const GEOSGeometry *parts)
+/* The contours around all faces, or around those that are inside. */
+static lmn_status trace_faces(cover *c, region *out, const GEOSGeometry *faces, bool all)
 {
-    GEOSGeometry *whole = parts ? GEOSUnaryUnionPrec_r(c->geos, parts, GRID) : NULL;
-    if (!whole)
-        return LMN_INTERNAL;
-    region_builder b = {0};
-    add_polygons(c, &b, whole);
-    GEOSGeom_destroy_r(c->geos, whole);
-    lmn_status status = region_builder_finish(&b, out, NULL);
-    c->failed = c->failed || status != LMN_OK;
-    return status;
+    border edges = {0};
+    int count = GEOSGetNumGeometries_r(c->geos, faces);
+    for (int i = 0; i < count && !c->failed; i++) {
+        const GEOSGeometry *face = GEOSGetGeometryN_r(c->geos, faces, i);
+        if (all || face_is_inside(c, face))
+            add_polygon(c, &edges, face);
+    }
+    if (!c->failed && edges.count > 0)
+        c->failed = !edges_trace(out, edges.edges, edges.count);
+    mem_free(edges.edges);
+    return c->failed ? LMN_MEMORY : LMN_OK;
 }
 
 static lmn_status cover_paths(cover *c, region *out)
 {
     lmn_status status = LMN_INTERNAL;
-    GEOSGeometry *lines = make_geometry(c, false), *faces = NULL, *kept = NULL;
+    GEOSGeometry *lines = make_geometry(c, false), *faces = NULL;
     GEOSGeometry *cut = lines ? GEOSUnaryUnionPrec_r(c->geos, lines, GRID) : NULL;
     if (cut)
         faces = GEOSPolygonize_r(c->geos, (const GEOSGeometry *const[]){cut}, 1);
     if (faces)
-        kept = choose_faces(c, faces);
-    if (kept)
-        status = unite(c, out, kept);
-    GEOSGeom_destroy_r(c->geos, kept);
+        status = trace_faces(c, out, faces, false);
     GEOSGeom_destroy_r(c->geos, faces);
     GEOSGeom_destroy_r(c->geos, cut);
     GEOSGeom_destroy_r(c->geos, lines);
@@ -315,7 +280,7 @@ lmn_status region_cover(region *out, const region *operands, size_t count, cover
     if (!cover_begin(&c))
         return error_memory(error);
     lmn_status status = LMN_OK;
-    c.failed = !make_paths(&c, operands, count);
+    c.failed = !make_paths(&c, operands, count) || !index_edges(&c);
     if (c.failed)
         status = LMN_MEMORY;
     else if (c.path_count > 0)
@@ -334,8 +299,9 @@ lmn_status region_unite_polygons(region *out, const region *polygons, lmn_error 
     if (c.failed) {
         status = LMN_MEMORY;
     } else if (c.path_count > 0) {
-        GEOSGeometry *parts = make_geometry(&c, true);
-        status = unite(&c, out, parts);
+        GEOSGeometry *parts = make_geometry(&c, true), *whole = parts ? GEOSUnaryUnionPrec_r(c.geos, parts, GRID) : NULL;
+        status = whole ? trace_faces(&c, out, whole, true) : LMN_INTERNAL;
+        GEOSGeom_destroy_r(c.geos, whole);
         GEOSGeom_destroy_r(c.geos, parts);
     }
     return cover_end(&c, status, error);

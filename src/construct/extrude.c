@@ -6,22 +6,53 @@
 
 /* --- caps --------------------------------------------------------------------------------------------------------- */
 
-/* The region's triangles, between the points of `up` and again those of `down` the other way round, which both begin with the
- * region's first point. What cannot be filled exactly crosses itself. */
-static lmn_status add_caps(solid_builder *b, const region *r, uint32_t up, uint32_t down, const char *shape, lmn_error *error)
+/* A region and the triangles that fill it, three corners each. */
+typedef struct cap {
+    region    cleaned; /* empty when the region is used as it is */
+    const region *outline;
+    uint32_t *corners;
+    size_t    corner_count;
+} cap;
+
+static void cap_release(cap *c)
 {
-    uint32_t *corners = NULL;
-    size_t count = 0;
+    mem_free(c->corners);
+    region_release(&c->cleaned);
+}
+
+static lmn_status fill(cap *c, const region *r, bool *exact, lmn_error *error)
+{
+    mem_free(c->corners);
+    c->corners = NULL;
+    c->outline = r;
+    return contours_triangulate(r->contours, r->count, &c->corners, &c->corner_count, exact, error);
+}
+
+/* Sides and caps must have the same points. Where an outline's edges touch or cross, by rounding after a turn for example, it is
+ * cleaned first. */
+static lmn_status make_cap(cap *c, const region *r, const char *shape, lmn_error *error)
+{
     bool exact = false;
-    lmn_status status = contours_triangulate(r->contours, r->count, &corners, &count, &exact, error);
+    *c = (cap){0};
+    lmn_status status = fill(c, r, &exact, error);
+    if (status == LMN_OK && !exact)
+        status = region_cover(&c->cleaned, r, 1, COVER_POSITIVE, error);
+    if (status == LMN_OK && !exact)
+        status = fill(c, &c->cleaned, &exact, error);
     if (status == LMN_OK && !exact)
         status = error_set(error, LMN_FORMAT, "%s: the outline crosses itself", shape);
-    for (size_t i = 0; status == LMN_OK && i < count; i += 3) {
-        builder_triangle(b, up + corners[i], up + corners[i + 1], up + corners[i + 2]);
-        builder_triangle(b, down + corners[i], down + corners[i + 2], down + corners[i + 1]);
-    }
-    mem_free(corners);
+    if (status != LMN_OK)
+        cap_release(c);
     return status;
+}
+
+/* The cap between the points from `up` on, and again between those from `down` on the other way round. */
+static void add_caps(solid_builder *b, const cap *c, uint32_t up, uint32_t down)
+{
+    for (size_t i = 0; i < c->corner_count; i += 3) {
+        builder_triangle(b, up + c->corners[i], up + c->corners[i + 1], up + c->corners[i + 2]);
+        builder_triangle(b, down + c->corners[i], down + c->corners[i + 2], down + c->corners[i + 1]);
+    }
 }
 
 /* --- linear: how many slices ------------------------------------------------------------------------------------------ */
@@ -137,32 +168,41 @@ static void add_sides(solid_builder *b, const region *r, uint32_t first, uint32_
     }
 }
 
+static lmn_status extrude(polyhedron *out, const cap *c, const linear_extrusion *how, lmn_error *error)
+{
+    const double scale[2] = {fmax(how->scale[0], 0), fmax(how->scale[1], 0)};
+    const region *r = c->outline;
+    double slices = slice_count(r, how, scale);
+    size_t points = region_point_count(r);
+    lmn_status status = check_point_count("linear_extrude", (double)points * (slices + 1), error);
+    if (status != LMN_OK)
+        return status;
+    bool line = (scale[0] == 0) != (scale[1] == 0);
+    int last = (int)slices;
+    solid_builder b = {0};
+    for (int i = 0; i <= last; i++)
+        add_slice(&b, r, how, scale, i == last ? 1 : (double)i / last);
+    for (int i = 0; !b.failed && i < last; i++)
+        add_sides(&b, r, (uint32_t)((size_t)i * points), (uint32_t)points, how->twist, line && i + 1 == last);
+    add_caps(&b, c, (uint32_t)((size_t)last * points), 0);
+    return builder_finish(&b, out, error);
+}
+
 lmn_status construct_linear_extrude(polyhedron *out, const region *r, const linear_extrusion *how, lmn_error *error)
 {
     *out = (polyhedron){0};
+    cap c;
     lmn_status status = check_numbers("linear_extrude", (double[]){how->height, how->twist, how->scale[0], how->scale[1]}, 4, error);
     if (status == LMN_OK)
         status = check_region("linear_extrude", r, error);
     if (status != LMN_OK || !(how->height > 0) || r->count == 0)
         return status;
-    const double scale[2] = {fmax(how->scale[0], 0), fmax(how->scale[1], 0)};
-    double slices = slice_count(r, how, scale);
-    size_t points = region_point_count(r);
-    status = check_point_count("linear_extrude", (double)points * (slices + 1), error);
+    status = make_cap(&c, r, "linear_extrude", error);
     if (status != LMN_OK)
         return status;
-    bool line = (scale[0] == 0) != (scale[1] == 0);
-    solid_builder b = {0};
-    for (int i = 0; i <= (int)slices; i++)
-        add_slice(&b, r, how, scale, i == (int)slices ? 1 : i / floor(slices));
-    for (int i = 0; !b.failed && i < (int)slices; i++)
-        add_sides(&b, r, (uint32_t)((size_t)i * points), (uint32_t)points, how->twist, i + 1 == (int)slices && line);
-    status = add_caps(&b, r, (uint32_t)((size_t)slices * points), 0, "linear_extrude", error);
-    if (status != LMN_OK) {
-        builder_release(&b);
-        return status;
-    }
-    return builder_finish(&b, out, error);
+    status = extrude(out, &c, how, error);
+    cap_release(&c);
+    return status;
 }
 
 /* --- round the axis --------------------------------------------------------------------------------------------------- */
@@ -193,9 +233,10 @@ static void add_turn(solid_builder *b, const region *r, uint32_t from, uint32_t 
 }
 
 /* A full turn begins at 180 degrees, a part of one at 0. */
-static lmn_status turn(polyhedron *out, const region *r, double angle, int pieces, double reach, lmn_error *error)
+static lmn_status turn(polyhedron *out, const cap *c, double angle, int pieces, double reach, lmn_error *error)
 {
     bool full = fabs(angle) >= 360;
+    const region *r = c->outline;
     size_t points = region_point_count(r);
     int rings = full ? pieces : pieces + 1;
     solid_builder b = {0};
@@ -204,31 +245,43 @@ static lmn_status turn(polyhedron *out, const region *r, double angle, int piece
     for (int i = 0; i < pieces; i++)
         add_turn(&b, r, (uint32_t)((size_t)i * points), (uint32_t)((size_t)((i + 1) % rings) * points));
     /* Seen along the turn, the region's plane shows its back. */
-    lmn_status status = full ? LMN_OK : add_caps(&b, r, 0, (uint32_t)((size_t)pieces * points), "rotate_extrude", error);
-    if (status != LMN_OK) {
-        builder_release(&b);
-        return status;
-    }
+    if (!full)
+        add_caps(&b, c, 0, (uint32_t)((size_t)pieces * points));
     return builder_finish(&b, out, error);
+}
+
+/* How far from the axis the region reaches; it must be on one side of it. */
+static lmn_status measure_reach(const region *r, double *reach, lmn_error *error)
+{
+    double low[2] = {0, 0}, high[2] = {0, 0};
+    region_bounds(r, low, high);
+    *reach = fmax(-low[0], high[0]);
+    if (!(low[0] < -1e-12 * *reach && high[0] > 1e-12 * *reach))
+        return LMN_OK;
+    error_set(error, LMN_FORMAT, "rotate_extrude: the outline lies on both sides of the axis, from x = %g to %g", low[0], high[0]);
+    error_hint(error, "move it to one side, or intersect it with one half of the plane");
+    return LMN_FORMAT;
 }
 
 lmn_status construct_rotate_extrude(polyhedron *out, const region *r, double angle_degrees, facets f, lmn_error *error)
 {
     *out = (polyhedron){0};
-    double low[2], high[2], angle = fabs(angle_degrees) > 360 ? 360 : angle_degrees;
+    double angle = fabs(angle_degrees) > 360 ? 360 : angle_degrees, reach = 0;
+    cap c;
     lmn_status status = check_numbers("rotate_extrude", &angle_degrees, 1, error);
     if (status == LMN_OK)
         status = check_region("rotate_extrude", r, error);
-    if (status != LMN_OK || angle == 0 || !region_bounds(r, low, high))
+    if (status == LMN_OK)
+        status = measure_reach(r, &reach, error);
+    if (status != LMN_OK || angle == 0 || r->count == 0)
         return status;
-    double reach = fmax(-low[0], high[0]);
-    if (low[0] < -1e-12 * reach && high[0] > 1e-12 * reach) {
-        error_set(error, LMN_FORMAT, "rotate_extrude: the outline lies on both sides of the axis, from x = %g to %g", low[0], high[0]);
-        error_hint(error, "move it to one side, or intersect it with one half of the plane");
-        return LMN_FORMAT;
-    }
-    int whole = facets_of_circle(reach, f);
-    double pieces = fmax(floor(whole * fabs(angle) / 360), 1);
+    double pieces = fmax(floor(facets_of_circle(reach, f) * fabs(angle) / 360), 1);
     status = check_point_count("rotate_extrude", (double)region_point_count(r) * (pieces + 1), error);
-    return status == LMN_OK ? turn(out, r, angle, (int)pieces, reach, error) : status;
+    if (status == LMN_OK)
+        status = make_cap(&c, r, "rotate_extrude", error);
+    if (status != LMN_OK)
+        return status;
+    status = turn(out, &c, angle, (int)pieces, reach, error);
+    cap_release(&c);
+    return status;
 }

@@ -313,10 +313,11 @@ static void bad_extrusions_are_refused(void **state)
     how = (linear_extrusion){1, 0, {1, 1}, .has_slices = true, .slices = -5};
     assert_int_equal(construct_linear_extrude(&p, &square, &how, NULL), LMN_OK);
     assert_shape(&p, 8, 12, 1);
-    square.contours[0].points[1] = (point2){1, 2}; /* now it crosses itself */
+    square.contours[0].points[1] = (point2){1, 2}; /* now it crosses itself, and its two halves run opposite ways */
     square.contours[0].points[2] = (point2){1, -2};
-    assert_int_equal(construct_linear_extrude(&p, &square, &(linear_extrusion){1, 0, {1, 1}}, NULL), LMN_FORMAT);
-    assert_empty(&p);
+    assert_int_equal(construct_linear_extrude(&p, &square, &(linear_extrusion){1, 0, {1, 1}}, NULL), LMN_OK);
+    assert_watertight(&p);
+    polyhedron_release(&p);
     region_release(&square);
 }
 
@@ -472,6 +473,67 @@ static void memory_may_end_in_regions(void **state)
     region_release(&notched);
 }
 
+/* --- many of them -------------------------------------------------------------------------------------------------------- */
+
+static double random_number(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (double)(*seed >> 8) / 16777216.0;
+}
+
+/* A path of few or many corners, on whole numbers (where much touches and lies on lines) or between them. */
+static region random_polygon(uint32_t *seed)
+{
+    double numbers[60];
+    uint32_t count = 3 + (uint32_t)(random_number(seed) * 20);
+    bool whole = random_number(seed) < 0.6;
+    for (uint32_t i = 0; i < count * 2; i++) {
+        numbers[i] = random_number(seed) * 10;
+        numbers[i] = whole ? floor(numbers[i]) : numbers[i];
+    }
+    return test_polygon(numbers, count);
+}
+
+static void assert_closed_solids(const region *r, uint32_t *seed)
+{
+    polyhedron p;
+    region turned;
+    bool failed;
+    double angle = random_number(seed) * 6.3, twist = floor(random_number(seed) * 3) * 40, c = cos(angle), s = sin(angle);
+    assert_int_equal(region_transform(&turned, r, (double[]){c, s, -s, c, 0.1, 0.7}, NULL), LMN_OK);
+    assert_int_equal(construct_linear_extrude(&p, &turned, &(linear_extrusion){2, twist, {1, 1}, .facets = plain}, NULL), LMN_OK);
+    assert_true(polyhedron_is_closed(&p, &failed));
+    if (twist == 0)
+        assert_close(polyhedron_volume(&p), 2 * region_area(r), 1e-3);
+    polyhedron_release(&p);
+    assert_int_equal(construct_rotate_extrude(&p, r, floor(random_number(seed) * 4) * 120, (facets){5, 12, 2}, NULL), LMN_OK);
+    assert_true(polyhedron_is_closed(&p, &failed));
+    polyhedron_release(&p);
+    region_release(&turned);
+}
+
+/* What is a union and an intersection together is both operands together. */
+static void random_outlines_make_closed_solids(void **state)
+{
+    (void)state;
+    uint32_t seed = 7;
+    for (int i = 0; i < 60; i++) {
+        region pair[2] = {random_polygon(&seed), random_polygon(&seed)}, united, common, grown;
+        assert_int_equal(region_combine(&united, pair, 2, REGION_UNION, NULL), LMN_OK);
+        assert_int_equal(region_combine(&common, pair, 2, REGION_INTERSECTION, NULL), LMN_OK);
+        assert_close(region_area(&united) + region_area(&common), region_area(&pair[0]) + region_area(&pair[1]), 5e-3);
+        assert_int_equal(region_offset(&grown, &united, i % 2 ? 0.5 : -0.25, i % 3 == 0, i % 3 == 1, plain, NULL), LMN_OK);
+        assert_true(i % 2 ? region_area(&grown) > region_area(&united) : region_area(&grown) <= region_area(&united));
+        assert_closed_solids(&united, &seed);
+        assert_closed_solids(&common, &seed);
+        region_release(&grown);
+        region_release(&united);
+        region_release(&common);
+        region_release(&pair[0]);
+        region_release(&pair[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -493,6 +555,7 @@ int main(void)
         cmocka_unit_test(slices_are_openscads),
         cmocka_unit_test(shadows_are_openscads),
         cmocka_unit_test(memory_may_end_in_regions),
+        cmocka_unit_test(random_outlines_make_closed_solids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

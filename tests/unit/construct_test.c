@@ -211,6 +211,26 @@ static void hulls_are_openscads(void **state)
     polyhedron_release(&both[1]);
 }
 
+/* Random points, on a lattice too, where most of them lie in the hull's planes. */
+static void hulls_of_random_points_are_closed(void **state)
+{
+    (void)state;
+    uint32_t seed = 3;
+    for (int i = 0; i < 200; i++) {
+        point3 points[200];
+        polyhedron p, cloud = {points, 5 + (size_t)i % 195, NULL, 0, false};
+        for (size_t k = 0; k < cloud.point_count * 3; k++) {
+            seed = seed * 1664525u + 1013904223u;
+            double number = (double)(seed >> 8) / 16777216.0;
+            (&points[0].x)[k] = i % 3 == 0 ? number : i % 3 == 1 ? floor(number * 4) : floor(number * 30) / 7;
+        }
+        assert_int_equal(polyhedron_hull(&p, &cloud, 1, NULL), LMN_OK);
+        assert_watertight(&p);
+        assert_true(p.triangle_count == 0 || polyhedron_check_convex(&p));
+        polyhedron_release(&p);
+    }
+}
+
 static void sums_of_convex_ones_are_openscads(void **state)
 {
     (void)state;
@@ -331,6 +351,7 @@ int main(void)
         cmocka_unit_test(polyhedra_are_welded),
         cmocka_unit_test(heights_stand_on_a_base),
         cmocka_unit_test(hulls_are_openscads),
+        cmocka_unit_test(hulls_of_random_points_are_closed),
         cmocka_unit_test(sums_of_convex_ones_are_openscads),
         cmocka_unit_test(memory_may_end_in_hulls),
         cmocka_unit_test(transforms_keep_the_outside_outside),
