@@ -9,7 +9,7 @@
 #include "import/csg.h"
 
 /* How many cuts stand for the shadow of a difference or intersection. */
-enum { CUTS = 128 };
+enum { CUTS = 64 };
 
 static lmn_status cut_operand(csg_reader *r, const csg_shape *s, const mat4 *place, region *out)
 {

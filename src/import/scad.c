@@ -3,6 +3,7 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -18,6 +19,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "import/csg.h"
 
 enum { POLL_MS = 20, SAID_MAX = 1 << 16, PATH_ROOM = 4096 };
@@ -182,8 +184,11 @@ static void pass_error(const evaluation *e, const char *line)
 {
     if (e->error->message[0])
         return;
-    const char *number = strstr(line, "line ");
-    error_in_file(e->error, LMN_FORMAT, e->job->path, number ? atoi(number + 5) : 0, "openscad: %.400s", line);
+    const char *at = strstr(line, "line ");
+    long long number = 0;
+    if (!at || !text_parse_int(at + 5, line + strlen(line), &number) || number < 0 || number > INT_MAX)
+        number = 0;
+    error_in_file(e->error, LMN_FORMAT, e->job->path, (int)number, "openscad: %.400s", line);
 }
 
 static lmn_status explain(evaluation *e)

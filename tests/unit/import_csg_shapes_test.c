@@ -331,7 +331,120 @@ static void check_reference(const char *name, const lmn_scene *s, const json_t *
     }
 }
 
-static void bounds_agree_with_openscad(void **state)
+/* --- volumes: vertical lines through the solid, and what of each lies inside --------------------------------------------- */
+
+enum { LINES = 160 };
+
+typedef struct crossing {
+    int32_t line, node;
+    double  z;
+} crossing;
+
+typedef struct crossings {
+    crossing *items;
+    size_t    count, capacity;
+} crossings;
+
+/* Off the middle, so that no line meets an edge. */
+static double line_place(double low, double high, int i)
+{
+    return low + (high - low) * (i + 0.5137 + 0.1 * sin(i * 12.9898)) / LINES;
+}
+
+static void lines_over(double low, double high, double a, double b, double c, int *first, int *last)
+{
+    double step = (high - low) / LINES;
+    *first = (int)fmax(0, floor((fmin(a, fmin(b, c)) - low) / step) - 1);
+    *last = (int)fmin(LINES - 1, floor((fmax(a, fmax(b, c)) - low) / step) + 1);
+}
+
+static void cross_triangle(crossings *c, const lmn_scene_info *info, int32_t node, const vec3 corner[3])
+{
+    const double *low = info->bounds_min, *high = info->bounds_max;
+    int first[2], last[2];
+    lines_over(low[0], high[0], (double)corner[0].x, (double)corner[1].x, (double)corner[2].x, &first[0], &last[0]);
+    lines_over(low[1], high[1], (double)corner[0].y, (double)corner[1].y, (double)corner[2].y, &first[1], &last[1]);
+    for (int i = first[0]; i <= last[0]; i++)
+        for (int k = first[1]; k <= last[1]; k++) {
+            double x = line_place(low[0], high[0], i), y = line_place(low[1], high[1], k), share[3], sum = 0, z = 0;
+            for (int e = 0; e < 3; e++) {
+                vec3 a = corner[(e + 1) % 3], b = corner[(e + 2) % 3];
+                share[e] = ((double)b.x - (double)a.x) * (y - (double)a.y) - ((double)b.y - (double)a.y) * (x - (double)a.x);
+                sum += share[e];
+                z += share[e] * (double)corner[e].z;
+            }
+            if (!(share[0] > 0 && share[1] > 0 && share[2] > 0) && !(share[0] < 0 && share[1] < 0 && share[2] < 0))
+                continue;
+            assert_true(mem_grow((void **)&c->items, &c->capacity, c->count + 1, sizeof *c->items));
+            c->items[c->count++] = (crossing){i * LINES + k, node, z / sum};
+        }
+}
+
+static int compare_crossings(const void *a, const void *b)
+{
+    const crossing *p = a, *q = b;
+    return p->line != q->line ? (p->line > q->line) - (p->line < q->line) : (p->z > q->z) - (p->z < q->z);
+}
+
+static bool is_inside(const solid *s, bool *in)
+{
+    for (size_t i = s->node_count; i-- > 0;) {
+        const solid_node *n = &s->nodes[i];
+        if (n->kind == SOLID_OPERAND)
+            continue;
+        in[i] = n->first_child != NONE && (n->kind == SOLID_UNION ? false : in[n->first_child]);
+        for (int32_t c = n->first_child; c != NONE; c = s->nodes[c].next_sibling)
+            in[i] = n->kind == SOLID_UNION          ? in[i] || in[c]
+                    : n->kind == SOLID_INTERSECTION ? in[i] && in[c]
+                                                    : in[i] && (c == n->first_child || !in[c]);
+    }
+    return in[0];
+}
+
+static double solid_volume(const lmn_scene *s)
+{
+    const solid *tree = &s->solids[0];
+    lmn_scene_info info = lmn_scene_info_of(s);
+    crossings all = {0};
+    solid_operand *o;
+    size_t count;
+    double length = 0;
+    bool *in = mem_calloc(tree->node_count, sizeof *in);
+    assert_true(in && solid_operands(s, tree, &o, &count));
+    for (size_t i = 0; i < count; i++) {
+        const primitive *p = &s->meshes[o[i].mesh].primitives[0];
+        for (uint32_t k = 0; k < p->index_count; k += 3) {
+            vec3 corner[3];
+            for (uint32_t c = 0; c < 3; c++)
+                corner[c] = mat4_transform_point(&o[i].matrix, p->positions[p->indices[k + c]]);
+            cross_triangle(&all, &info, o[i].node, corner);
+        }
+    }
+    qsort(all.items, all.count, sizeof *all.items, compare_crossings);
+    for (size_t i = 0; i < all.count; i++) {
+        if (i > 0 && all.items[i].line != all.items[i - 1].line)
+            memset(in, 0, tree->node_count);
+        else if (i > 0 && is_inside(tree, in))
+            length += all.items[i].z - all.items[i - 1].z;
+        in[all.items[i].node] = !in[all.items[i].node];
+    }
+    mem_free(all.items);
+    mem_free(in);
+    mem_free(o);
+    return length * (info.bounds_max[0] - info.bounds_min[0]) * (info.bounds_max[1] - info.bounds_min[1]) / (LINES * LINES);
+}
+
+/* Thin walls between few lines are counted coarsely. */
+static void check_volume(const char *name, const lmn_scene *s, const json_t *entry)
+{
+    double expected = json_number_value(json_object_get(entry, "volume")), found = solid_volume(s);
+    bool good = fabs(found - expected) < 0.02 * expected;
+    if (!good)
+        print_error("%s: volume %g, expected %g\n", name, found, expected);
+    assert_true(good);
+}
+
+static void results_agree_with_openscad(void **state)
 {
     (void)state;
     char path[2048];
@@ -351,6 +464,7 @@ static void bounds_agree_with_openscad(void **state)
         assert_int_equal(s->part_count, 1);
         if (!has_warning(s, WARNING_MISSING_FILE)) { /* another font has other bounds */
             check_reference(name, s, entry);
+            check_volume(name, s, entry);
             checked++;
         }
         lmn_scene_destroy(&s);
@@ -375,7 +489,7 @@ int main(void)
         cmocka_unit_test(missing_files_are_told),
         cmocka_unit_test(meshes_and_heights_are_read),
         cmocka_unit_test(all_real_files_load),
-        cmocka_unit_test(bounds_agree_with_openscad),
+        cmocka_unit_test(results_agree_with_openscad),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }

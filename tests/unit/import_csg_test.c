@@ -34,6 +34,13 @@ static void errors_tell_line_and_column(void **state)
     assert_non_null(strstr(error.message, "group in line 1 is never closed"));
 }
 
+static size_t repeat(char *text, size_t size, const char *word, int count)
+{
+    for (int i = 0; i < count; i++, size += strlen(word))
+        memcpy(text + size, word, strlen(word));
+    return size;
+}
+
 static void nesting_has_a_limit(void **state)
 {
     (void)state;
@@ -47,12 +54,10 @@ static void nesting_has_a_limit(void **state)
         {"[", "", "]", DEEP, LMN_LIMIT},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        size_t size = *cases[i].open == '[' ? (size_t)sprintf(text, "cube(") : 0;
-        for (int k = 0; k < cases[i].depth; k++)
-            size += (size_t)sprintf(text + size, "%s", cases[i].open);
-        size += (size_t)sprintf(text + size, "%s", cases[i].middle);
-        for (int k = 0; k < cases[i].depth; k++)
-            size += (size_t)sprintf(text + size, "%s", cases[i].close);
+        size_t size = repeat(text, 0, *cases[i].open == '[' ? "cube(" : "", 1);
+        size = repeat(text, size, cases[i].open, cases[i].depth);
+        size = repeat(text, size, cases[i].middle, 1);
+        size = repeat(text, size, cases[i].close, cases[i].depth);
         lmn_error error;
         lmn_status status = load_status(temp_file("deep.csg", text, size), &error);
         if (status != cases[i].expected)
