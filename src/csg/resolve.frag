@@ -16,18 +16,19 @@ uniform uint u_operand_count;
 layout(location = 0) out uvec4 out_surface; /* of the nearest: the next behind, depth, key, normal; all 0 where there is none */
 
 const uint FAR = 0xFFFFFFFFu; /* deeper than any depth */
+const uint BEYOND = 0x3F800000u; /* 1: the far plane, behind which nothing of the solids lies */
 
 uint inside[OPERAND_WORDS];
 #if TERMS > 0
 int held[TERMS]; /* operands of each term that hold, more than when nothing is there */
 #endif
 
-/* Goes through the operand's surface. Returns whether the whole tree changes. */
-bool go_through(uint operand)
+/* Goes through the operand's surface. Returns whether the whole tree changes, to `value`. */
+bool go_through(uint operand, out bool value)
 {
     uint bit = 1u << (operand & 31u), word = inside[operand >> 5] ^ bit;
     inside[operand >> 5] = word;
-    bool value = (word & bit) != 0u;
+    value = (word & bit) != 0u;
     uint link = links[operand].x;
 #if TERMS > 0
     while (link != 0u) {
@@ -49,16 +50,12 @@ bool go_through(uint operand)
 uint group_depth, group_key; /* key: plane and solid */
 uint group_changes;
 uint group_owner; /* the node at which the solid last changed */
+bool group_fits;  /* its face looks the way the solid changed */
 
 uint first_surface, last_surface, surface_count;
 
-void end_group()
+void add_surface(uint owner)
 {
-    bool changed = (group_changes & 1u) != 0u;
-    uint owner = group_owner;
-    group_changes = 0u;
-    if (!changed)
-        return;
 #ifndef FIRST_ONLY
     if (last_surface != 0u)
         chain[last_surface - 1u] = owner;
@@ -69,18 +66,41 @@ void end_group()
         first_surface = owner;
 }
 
+/* At outlines, rounding can put the back of an operand before its front: a solid that begins with a back and ends with a front right behind
+ * it is not there. */
+uint odd_owner, odd_depth;
+const uint ROUNDING = 64u; /* steps of a float */
+
+void end_group()
+{
+    bool changed = (group_changes & 1u) != 0u && group_depth != 0u;
+    bool sliver = changed && !group_fits && odd_owner != 0u && group_depth - odd_depth <= ROUNDING;
+    group_changes = 0u;
+    if (changed && odd_owner != 0u && !sliver)
+        add_surface(odd_owner);
+    odd_owner = changed && !group_fits && !sliver ? group_owner : changed ? 0u : odd_owner;
+    odd_depth = group_depth;
+    if (changed && group_fits)
+        add_surface(group_owner);
+}
+
 void take(uint depth, uint key, uint node)
 {
     uint operand = (key >> 16 & 0x7FFFu) - 1u, plane = key & 0xFFFEu;
+    /* What lies before the near plane comes at once: only what holds behind it counts. */
+    plane = depth == 0u ? 0xFFFFu : plane;
     uint own = links[operand].y << 16 | plane;
     if (plane == 0u || depth != group_depth || own != group_key) {
         end_group();
         group_depth = depth;
         group_key = own;
     }
-    bool changes = go_through(operand);
+    bool value;
+    bool changes = go_through(operand, value);
     group_changes += changes ? 1u : 0u;
     group_owner = changes ? node : group_owner;
+    bool begins = ((key & 1u) == 0u) == ((key & 0x80000000u) != 0u);
+    group_fits = changes ? begins == value : group_fits;
 }
 
 /* The nearest KEPT fragments behind (depth, key, node), in order. */
@@ -120,7 +140,8 @@ void start_inside(uint head)
     uint i = head;
     while (i != 0u) {
         uvec4 node = nodes[i - 1u];
-        go_through((node.z >> 16 & 0x7FFFu) - 1u);
+        bool value;
+        go_through((node.z >> 16 & 0x7FFFu) - 1u, value);
         i = node.x;
     }
 }
@@ -139,7 +160,8 @@ void main()
     group_depth = FAR;
     group_key = 0u;
     group_changes = 0u;
-    group_owner = 0u;
+    group_owner = odd_owner = odd_depth = 0u;
+    group_fits = true;
     first_surface = last_surface = surface_count = 0u;
 #ifdef EYE_MAY_BE_INSIDE
     start_inside(head);
@@ -148,8 +170,8 @@ void main()
     uint open = head;
     while (open != 0u) {
         sort_nearest(open, least_depth, least_key, least_node);
-        bool full = depths[KEPT - 1] != FAR;
-        while (depths[0] != FAR) {
+        bool full = depths[KEPT - 1] < BEYOND;
+        while (depths[0] < BEYOND) {
             least_depth = depths[0];
             least_key = keys[0];
             least_node = kept[0];
@@ -170,6 +192,8 @@ void main()
 #endif
     }
     end_group();
+    if (odd_owner != 0u)
+        add_surface(odd_owner);
     uvec4 surface = uvec4(0u);
     uint found = first_surface;
     while (found != 0u) {
@@ -182,6 +206,9 @@ void main()
         chain[last_surface - 1u] = 0u;
     if (surface_count > layer_count)
         atomicMax(layer_count, surface_count);
+#endif
+#ifdef DEPTH_TESTED
+    gl_FragDepth = first_surface != 0u ? uintBitsToFloat(surface.y) : 1.0;
 #endif
     out_surface = surface;
 }

@@ -252,8 +252,17 @@ void camera_depth_range(const view_camera *c, box3 box, double *nearest, double 
     }
 }
 
-static void set_projection(view_camera *c)
+void camera_set_range(view_camera *c, double nearest, double farthest)
 {
+    double range = farthest - nearest, size = fmax(fabs(nearest), fabs(farthest));
+    double margin = fmax(range * 1e-3, size * 1e-6);
+    c->near = nearest - margin;
+    c->far = farthest + margin;
+    if (!c->orthographic) {
+        if (!(c->far > 0) || !isfinite(c->far))
+            c->far = 1; /* everything is behind the viewer */
+        c->near = fmax(c->near, c->far * 1e-4);
+    }
     if (!(c->far > c->near))
         c->far = c->near + 1;
     double *m = c->projection.m;
@@ -272,28 +281,6 @@ static void set_projection(view_camera *c)
         m[11] = -1;
         m[14] = -2 * c->far * c->near / (c->far - c->near);
     }
-}
-
-void camera_set_range(view_camera *c, double nearest, double farthest)
-{
-    double range = farthest - nearest, size = fmax(fabs(nearest), fabs(farthest));
-    double margin = fmax(range * 1e-3, size * 1e-6);
-    c->near = nearest - margin;
-    c->far = farthest + margin;
-    if (!c->orthographic) {
-        if (!(c->far > 0) || !isfinite(c->far))
-            c->far = 1; /* everything is behind the viewer */
-        c->near = fmax(c->near, c->far * 1e-4);
-    }
-    set_projection(c);
-}
-
-void camera_reach_to(view_camera *c, double farthest)
-{
-    if (!(farthest > c->far) || !isfinite(farthest))
-        return;
-    c->far = farthest + fabs(farthest) * 1e-6;
-    set_projection(c);
 }
 
 void camera_pixels(const view_camera *c, box3 box, int width, int height, int margin, int out[4])

@@ -22,9 +22,6 @@ lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const lmn_s
 /* Sets near and far so that they hug depths from `nearest` to `farthest` (eye depth), and the projection. */
 void camera_set_range(view_camera *camera, double nearest, double farthest);
 
-/* Moves far back, leaving near: depth where things are seen stays as fine. */
-void camera_reach_to(view_camera *camera, double farthest);
-
 /* Widens a range of eye depths by the corners of a box (world axes). Start with INFINITY and −INFINITY. */
 void camera_depth_range(const view_camera *camera, box3 box, double *nearest, double *farthest);
 

@@ -119,7 +119,6 @@ static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_dra
     if (!(farthest >= nearest))
         nearest = farthest = 1;
     camera_set_range(c, nearest, farthest);
-    camera_reach_to(c, solids_farthest(&s->renderer->up, c, s->plan.selected));
     return LMN_OK;
 }
 

@@ -7,9 +7,6 @@
 
 enum { PASS_TIMES_MAX = 64 };
 
-/* The largest eye depth of what selected solids are made of, −INFINITY without any: the evaluation needs all of it. */
-double solids_farthest(const upload *u, const view_camera *camera, const bool *selected);
-
 /* Wall time of one pass, summed over figures of the same name. */
 typedef struct pass_time {
     char     name[48];

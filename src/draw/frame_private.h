@@ -31,7 +31,9 @@ typedef struct solid_layers {
     gpu_texture *surfaces;    /* of the current layer: (any), depth, key, normal */
     gpu_texture *nearest;     /* of layer 0 */
     gpu_texture **kept;       /* all of them, when they did not fit into one list; else NULL */
+    gpu_texture *depth;       /* of the surfaces that products of convex operands have; NULL: none */
     gpu_texture *planes;
+    uint32_t    *first_planes; /* per item: of its planes among them */
     gpu_buffer  *heads, *nodes, *chain, *counter;
 } solid_layers;
 
@@ -144,6 +146,14 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
 /* Makes layer `index` current; layers are asked for in order, from any number to the next or from 0. */
 void solids_select(frame *f, solid_layers *s, int index);
 void solids_release(frame *f, solid_layers *s);
+/* Uniforms of csg/operand.vert and csg/operand.glsl for one item. */
+void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item);
+
+/* --- solids_convex.c: products of convex operands --- */
+/* Is there anything of that kind, and is it all? */
+bool solids_have_convex(const frame *f, const bool *wanted, bool *all);
+/* The nearest surfaces into the current picture; returns their depth, which the caller gives back. */
+gpu_texture *solids_draw_convex(frame *f, solid_layers *s, const bool *wanted);
 
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */

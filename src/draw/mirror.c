@@ -68,6 +68,5 @@ bool mirror_prepare(const frame *f, const figure *mirror, frame *inner)
     double nearest = INFINITY, farthest = -INFINITY;
     camera_depth_range(&inner->camera, f->plan->box, &nearest, &farthest);
     camera_set_range(&inner->camera, fmax(nearest, f->camera.orthographic ? nearest : 0), farthest);
-    camera_reach_to(&inner->camera, solids_farthest(f->up, &inner->camera, f->plan->selected));
     return true;
 }

@@ -238,7 +238,7 @@ static void set_pass(frame *f, const raster_job *job, const figure_state *s)
 
 static gpu_state state_of(const raster_job *job)
 {
-    return (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_less = job->stack != NULL};
+    return (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_compare = job->stack ? GPU_LESS : GPU_LESS_EQUAL};
 }
 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)

@@ -10,15 +10,6 @@
 
 enum { KEPT = 8, NODE_BYTES = 16, PLANES_A_ROW = 256, BANDS_MAX = 4096 };
 
-double solids_farthest(const upload *u, const view_camera *camera, const bool *selected)
-{
-    double nearest = INFINITY, farthest = -INFINITY;
-    for (size_t i = 0; i < u->item_count; i++)
-        if (u->items[i].is_solid && selected[u->items[i].part_index])
-            camera_depth_range(camera, u->items[i].reach, &nearest, &farthest);
-    return farthest;
-}
-
 /* A plane in eye space: the inverse transpose of the way there, from the cofactors of its rotation part. */
 static void eye_plane(const mat4 *to_eye, const csg_plane *p, float out[4])
 {
@@ -52,7 +43,9 @@ static void open_planes(frame *f, solid_layers *s, const bool *wanted)
     count = count < CSG_PLANES_MAX ? count : CSG_PLANES_MAX;
     int rows = (int)((count + PLANES_A_ROW - 1) / PLANES_A_ROW);
     float (*values)[4] = mem_calloc((size_t)rows * PLANES_A_ROW, sizeof *values);
-    if (!values) {
+    s->first_planes = mem_calloc(u->item_count, sizeof *s->first_planes);
+    if (!values || !s->first_planes) {
+        mem_free(values);
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
         return;
     }
@@ -60,6 +53,7 @@ static void open_planes(frame *f, solid_layers *s, const bool *wanted)
     for (size_t i = 0; i < u->item_count; i++) {
         if (!wanted[i])
             continue;
+        s->first_planes[i] = (uint32_t)made;
         mat4 to_eye = mat4_multiply(&f->camera.view, &u->items[i].world);
         for (size_t k = 0; k < u->items[i].plane_count && made < count; k++)
             eye_plane(&to_eye, &u->planes[u->items[i].first_plane + k], values[made++]);
@@ -73,6 +67,7 @@ static void open_planes(frame *f, solid_layers *s, const bool *wanted)
 static bool find_box(const frame *f, const bool *wanted, int box[4])
 {
     const upload *u = f->up;
+    const gpu_facts *facts = gpu_facts_of(f->g);
     bool any = false, inside = false;
     for (size_t i = 0; i < u->item_count; i++) {
         if (!wanted[i])
@@ -80,7 +75,7 @@ static bool find_box(const frame *f, const bool *wanted, int box[4])
         int own[4];
         double nearest = INFINITY, farthest = -INFINITY;
         camera_depth_range(&f->camera, u->items[i].reach, &nearest, &farthest);
-        inside = inside || nearest <= f->camera.near;
+        inside = inside || nearest <= (facts->depth_clamp ? 0 : f->camera.near);
         camera_pixels(&f->camera, u->part_boxes[u->items[i].part_index], f->width, f->height, 2, own);
         if (own[2] <= 0 || own[3] <= 0)
             continue;
@@ -109,10 +104,8 @@ static void bind_buffers(frame *f, const solid_layers *s)
     gpu_buffer_bind(f->g, s->chain, 7);
 }
 
-/* Draws the operands of the wanted items with the program in use. */
-static void draw_operands(frame *f, const solid_layers *s, const bool *wanted)
+void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item)
 {
-    const upload *u = f->up;
     raster_set_projection(f);
     const double *m = f->camera.projection.m;
     gpu_set_vec2(f->g, "u_size", (float)f->width, (float)f->height);
@@ -120,17 +113,28 @@ static void draw_operands(frame *f, const solid_layers *s, const bool *wanted)
     gpu_set_vec2(f->g, "u_unproject", (float)(1 / m[0]), (float)(1 / m[5]));
     gpu_set_vec4(f->g, "u_window_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
     gpu_set_texture(f->g, "t_planes", s->planes, false);
-    uint32_t planes = 0;
-    for (size_t i = 0; i < u->item_count && !gpu_failed(f->g); i++) {
-        if (!wanted[i])
-            continue;
-        const draw_item *item = &u->items[i];
-        raster_set_transform(f, &item->world);
-        gpu_set_uint(f->g, "u_first_operand", item->first_operand);
-        gpu_set_uint(f->g, "u_first_plane", planes);
+    raster_set_transform(f, &item->world);
+    gpu_set_uint(f->g, "u_first_operand", item->first_operand);
+    gpu_set_uint(f->g, "u_first_plane", s->first_planes[item - f->up->items]);
+}
+
+/* What the lists are to hold of an item: all of it, or what no product of convex operands has. */
+static void draw_operands(frame *f, const draw_item *item, bool products_done)
+{
+    const upload_solid *s = &f->up->solids[item->solid];
+    if (!products_done || !s->products.count) {
         gpu_draw_mesh(f->g, item->mesh);
-        planes += item->plane_count;
+        return;
     }
+    uint32_t (*runs)[2] = mem_alloc(s->count * sizeof *runs);
+    size_t count = 0;
+    for (size_t i = 0; runs && i < s->count; i++)
+        if (!s->in_products[i])
+            memcpy(runs[count++], s->runs[i], sizeof *runs);
+    if (!runs)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    gpu_draw_mesh_runs(f->g, item->mesh, runs, count);
+    mem_free(runs);
 }
 
 /* Gathers a box's fragments; returns how many times the room is needed. */
@@ -147,10 +151,15 @@ static unsigned gather(frame *f, solid_layers *s, const bool *wanted, const int 
     gpu_pass pass = {.depth = f->page_depth};
     memcpy(pass.scissor, box, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    gpu_use(f->g, p, (gpu_state){0});
+    gpu_use(f->g, p, (gpu_state){.depth_clamp = true});
     set_list_box(f, box);
     gpu_set_uint(f->g, "u_node_limit", limit);
-    draw_operands(f, s, wanted);
+    for (size_t i = 0; i < f->up->item_count && !gpu_failed(f->g); i++) {
+        if (!wanted[i])
+            continue;
+        solids_set_operands(f, s, &f->up->items[i]);
+        draw_operands(f, &f->up->items[i], s->depth != NULL);
+    }
     gpu_buffer_barrier(f->g);
     uint32_t made = 0;
     gpu_buffer_read(f->g, s->counter, sizeof made, &made);
@@ -170,16 +179,16 @@ static void resolve(frame *f, solid_layers *s, const int box[4], bool inside)
 {
     const csg_program *c = &f->up->program;
     text prelude = {0};
-    text_append(&prelude, "#define KEPT %d\n#define OPERAND_WORDS %zu\n#define TERMS %zu\n%s%s", KEPT, power_of_two(c->operand_count / 32 + 1),
+    text_append(&prelude, "#define KEPT %d\n#define OPERAND_WORDS %zu\n#define TERMS %zu\n%s%s%s", KEPT, power_of_two(c->operand_count / 32 + 1),
                 c->term_count ? power_of_two(c->term_count) : 0, s->first_only ? "#define FIRST_ONLY\n" : "",
-                inside ? "#define EYE_MAY_BE_INSIDE\n" : "");
+                inside ? "#define EYE_MAY_BE_INSIDE\n" : "", s->depth ? "#define DEPTH_TESTED\n" : "");
     gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "csg/resolve.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
-    gpu_pass pass = {.colours = {s->surfaces}, .colour_count = 1};
+    gpu_pass pass = {.colours = {s->surfaces}, .colour_count = 1, .depth = s->depth};
     memcpy(pass.scissor, box, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    gpu_use(f->g, p, (gpu_state){0});
+    gpu_use(f->g, p, (gpu_state){.depth_test = s->depth != NULL, .depth_write = s->depth != NULL, .depth_compare = GPU_LESS});
     set_list_box(f, box);
     gpu_set_uint(f->g, "u_operand_count", (unsigned)c->operand_count);
     bind_buffers(f, s);
@@ -274,6 +283,17 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
     bool inside = find_box(f, wanted, s->box);
     if (s->box[2] <= 0)
         return;
+    open_planes(f, s, wanted);
+    s->nearest = s->surfaces = blank_picture(f);
+    s->count = first_only ? 1 : 0;
+    bool all_convex = false;
+    if (first_only && !inside && solids_have_convex(f, wanted, &all_convex) && !gpu_failed(f->g)) {
+        stopwatch w = watch_start(f);
+        s->depth = solids_draw_convex(f, s, wanted);
+        watch_stop(f, w, "solids", "products");
+        if (all_convex)
+            return;
+    }
     if (!gpu_facts_of(f->g)->lists) {
         gpu_fail(f->g, LMN_UNSUPPORTED, "solids need OpenGL 4.3");
         return;
@@ -283,17 +303,14 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
     enum { ROOM = 128 << 20 };
     size_t room = block < ROOM ? block : ROOM;
     unsigned limit = (unsigned)(room / NODE_BYTES);
-    open_planes(f, s, wanted);
     s->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
     s->nodes = gpu_buffer_acquire(f->g, room);
     s->counter = gpu_buffer_acquire(f->g, 64);
     if (!first_only)
         s->chain = gpu_buffer_acquire(f->g, limit * sizeof(uint32_t));
-    s->nearest = s->surfaces = blank_picture(f);
-    s->count = first_only ? 1 : 0;
     if (!gpu_failed(f->g))
         evaluate(f, s, wanted, inside, limit);
-    watch_stop(f, w, "solids", "evaluate");
+    watch_stop(f, w, "solids", "lists");
 }
 
 void solids_select(frame *f, solid_layers *s, int index)
@@ -324,6 +341,8 @@ void solids_release(frame *f, solid_layers *s)
         gpu_target_release(f->g, s->nearest);
     }
     mem_free(s->kept);
+    mem_free(s->first_planes);
+    gpu_target_release(f->g, s->depth);
     gpu_target_release(f->g, s->planes);
     gpu_buffer_release(f->g, s->heads);
     gpu_buffer_release(f->g, s->nodes);

@@ -149,6 +149,7 @@ void upload_release(upload *u, gpu *g)
     gpu_target_release(g, u->part_frames);
     gpu_target_release(g, u->operand_table);
     gpu_buffer_release(g, u->program_buffer);
+    upload_solids_release(u);
     csg_program_release(&u->program);
     mem_free(u->planes);
     mem_free(u->operands);

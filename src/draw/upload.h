@@ -6,6 +6,20 @@
 #include "gpu/gpu.h"
 #include "scene/cut.h"
 #include "scene/scene.h"
+#include "scene/solid_products.h"
+
+/* A solid ready to be drawn. Operands are numbered from 0 on in the order of the tree, those alone that pruning left. */
+typedef struct upload_solid {
+    solid_form   form;
+    size_t       count;
+    uint32_t   (*runs)[2];    /* per operand: its indices in the mesh, first and count */
+    box3        *boxes;       /* per operand: solid's axes */
+    bool        *taken_away;  /* per operand */
+    bool        *in_products; /* per operand: belongs to a branch of the tree that is given by products of convex operands */
+    product_list products;    /* of those branches; of operands as they are numbered here */
+    bool        *meets;       /* per operand: is taken away from where another one is taken away too */
+    bool         all_convex;  /* there is nothing but these products */
+} upload_solid;
 
 /* One draw call: a primitive of a part at one place. */
 typedef struct draw_item {
@@ -16,6 +30,7 @@ typedef struct draw_item {
     int32_t   material;
     bool      has_uvs, has_colours;
     bool      is_solid; /* operands of a solid: nothing of them is drawn as it is */
+    size_t    solid;    /* in the upload's solids */
     uint32_t  first_operand, operand_count; /* solids: numbers from first_operand + 1 on */
     uint32_t  first_plane, plane_count;
     box3      reach;  /* world axes; of all operands, what is taken away too */
@@ -45,6 +60,8 @@ typedef struct upload {
     size_t        mesh_count, mesh_capacity;
     gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
     size_t        texture_count;
+    upload_solid *solids;
+    size_t        solid_count, solid_capacity;
     csg_program   program;     /* of all solids */
     csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
     size_t        plane_count, plane_capacity;

@@ -45,6 +45,7 @@ draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_solid.c --- */
 lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error);
+void       upload_solids_release(upload *u);
 /* What shaders read about all solids; once they are all there. */
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
 

@@ -16,6 +16,7 @@ typedef struct baker {
     const lmn_scene *scene;
     double           crease_angle;
     render_vertices **cache; /* per mesh and primitive, made when first needed */
+    signed char     *convex; /* per mesh: 1 yes, −1 no, 0 not asked yet */
     vec3            *positions, *normals;
     uint32_t        *keys, *indices, *owners;
     size_t           vertex_count, vertex_capacity, normal_capacity, index_count, index_capacity, owner_capacity;
@@ -29,6 +30,7 @@ static void baker_release(baker *b)
         mem_free(b->cache[m]);
     }
     mem_free(b->cache);
+    mem_free(b->convex);
     mem_free(b->positions);
     mem_free(b->normals);
     mem_free(b->keys);
@@ -75,6 +77,14 @@ static double signed_volume(const mesh *m)
         }
     }
     return sum;
+}
+
+/* Asked once a mesh. Points and faces are few or the answer is no: beyond, looking costs more than it saves. */
+static bool is_convex(baker *b, int32_t mesh_index)
+{
+    if (b->convex[mesh_index] == 0)
+        b->convex[mesh_index] = mesh_is_convex(&b->scene->meshes[mesh_index]) ? 1 : -1;
+    return b->convex[mesh_index] > 0;
 }
 
 /* Transforms normals: the inverse transpose up to a positive scale, turned when the mesh is. */
@@ -213,53 +223,164 @@ static lmn_status add_program(upload *u, const solid_form *form, const int32_t *
     return LMN_OK;
 }
 
-static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, const solid_form *form, baker *b, lmn_error *error)
+/* Products of one branch, when all its operands are convex; false leaves the branch to other evaluation. `numbers`: from the form's operands to
+ * the solid's. */
+static bool take_branch(upload_solid *s, baker *b, int32_t term_index, const int32_t *numbers, lmn_error *error)
+{
+    product_list own;
+    bool convex = solid_products_create(&own, &s->form, term_index, true, error) == LMN_OK && !own.too_many;
+    for (size_t i = 0; i < own.count && convex; i++)
+        for (size_t k = 0; k < own.items[i].count && convex; k++)
+            convex = is_convex(b, s->form.operands[own.items[i].operands[k]].mesh);
+    convex = convex && mem_grow((void **)&s->products.items, &s->products.capacity, s->products.count + own.count, sizeof *own.items);
+    for (size_t i = 0; i < own.count && convex; i++) {
+        product p = own.items[i];
+        for (size_t k = 0; k < p.count; k++) {
+            p.operands[k] = numbers[p.operands[k]];
+            s->in_products[p.operands[k]] = true;
+        }
+        s->products.items[s->products.count++] = p;
+        own.items[i] = (product){.operands = NULL};
+    }
+    solid_products_release(&own);
+    return convex;
+}
+
+static bool boxes_touch(box3 a, box3 b)
+{
+    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
+}
+
+static void find_meetings(upload_solid *s)
+{
+    for (size_t i = 0; i < s->products.count; i++) {
+        const product *p = &s->products.items[i];
+        for (size_t a = p->kept; a < p->count; a++)
+            for (size_t b = a + 1; b < p->count; b++)
+                if (boxes_touch(s->boxes[p->operands[a]], s->boxes[p->operands[b]]))
+                    s->meets[p->operands[a]] = s->meets[p->operands[b]] = true;
+    }
+}
+
+/* Which branches of the tree's union are given by products of convex operands. */
+static lmn_status find_products(upload_solid *s, baker *b, const int32_t *used, lmn_error *error)
+{
+    int32_t *numbers = mem_alloc((s->form.operand_count + 1) * sizeof *numbers);
+    if (!numbers)
+        return error_memory(error);
+    for (size_t i = 0; i < s->count; i++)
+        numbers[used[i]] = (int32_t)i;
+    const term *root = &s->form.terms[s->form.root];
+    s->all_convex = true;
+    if (root->kind != TERM_OR) {
+        s->all_convex = take_branch(s, b, s->form.root, numbers, error);
+    } else {
+        for (int32_t c = root->first; c != NONE; c = s->form.terms[c].next)
+            s->all_convex = take_branch(s, b, c, numbers, error) && s->all_convex;
+    }
+    find_meetings(s);
+    mem_free(numbers);
+    return LMN_OK;
+}
+
+static void solid_release_upload(upload_solid *s)
+{
+    solid_form_release(&s->form);
+    solid_products_release(&s->products);
+    mem_free(s->runs);
+    mem_free(s->boxes);
+    mem_free(s->taken_away);
+    mem_free(s->in_products);
+    mem_free(s->meets);
+}
+
+void upload_solids_release(upload *u)
+{
+    for (size_t i = 0; i < u->solid_count; i++)
+        solid_release_upload(&u->solids[i]);
+    mem_free(u->solids);
+}
+
+/* The operands' triangles, and what is known of each. */
+static lmn_status bake(upload_solid *s, baker *b, const int32_t *used, lmn_error *error)
+{
+    csg_program program = {.operands = NULL};
+    size_t room = s->count ? s->count : 1;
+    s->runs = mem_calloc(room, sizeof *s->runs);
+    s->boxes = mem_calloc(room, sizeof *s->boxes);
+    s->taken_away = mem_calloc(room, sizeof *s->taken_away);
+    s->in_products = mem_calloc(room, sizeof *s->in_products);
+    s->meets = mem_calloc(room, sizeof *s->meets);
+    bool good = s->runs && s->boxes && s->taken_away && s->in_products && s->meets && csg_program_add(&program, &s->form);
+    lmn_status status = good ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < s->count && status == LMN_OK; i++) {
+        s->runs[i][0] = (uint32_t)b->index_count;
+        s->boxes[i] = s->form.operands[used[i]].box;
+        s->taken_away[i] = program.taken_away[i];
+        status = bake_operand(b, &s->form.operands[used[i]], (uint32_t)i + 1, program.taken_away[i], error);
+        s->runs[i][1] = (uint32_t)b->index_count - s->runs[i][0];
+    }
+    csg_program_release(&program);
+    return status;
+}
+
+static box3 reach_of(const upload_solid *s, const mat4 *world)
+{
+    box3 reach = box3_empty();
+    for (size_t i = 0; i < s->count; i++)
+        reach = box3_union(reach, box3_transform(s->boxes[i], world));
+    return reach;
+}
+
+static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, size_t solid_index, const int32_t *used, baker *b,
+                            lmn_error *error)
 {
     const node *n = &scene->nodes[scene->parts[part_index].node];
-    int32_t *used = mem_alloc((form->operand_count ? form->operand_count : 1) * sizeof *used);
-    size_t count = used ? solid_form_used(form, used) : 0;
+    upload_solid *s = &u->solids[solid_index];
     draw_item item = {.is_solid = true, .part_index = part_index, .part_id = (uint32_t)part_index + 1, .surface_id = 1, .material = NONE,
-                      .operand_count = (uint32_t)count, .first_plane = (uint32_t)u->plane_count};
-    csg_program program = {.operands = NULL};
-    lmn_status status = used && csg_program_add(&program, form) ? LMN_OK : error_memory(error);
-    for (size_t i = 0; i < count && status == LMN_OK; i++)
-        status = bake_operand(b, &form->operands[used[i]], (uint32_t)i + 1, program.taken_away[i], error);
+                      .solid = solid_index, .operand_count = (uint32_t)s->count, .first_plane = (uint32_t)u->plane_count};
+    lmn_status status = add_planes(u, b, &item.plane_count, error);
+    gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count, .index_count = (uint32_t)b->index_count, .indices = b->indices,
+                          .positions = (const float *)b->positions, .normals = (const float *)b->normals, .keys = b->keys};
     if (status == LMN_OK)
-        status = add_planes(u, b, &item.plane_count, error);
-    if (status == LMN_OK && b->index_count) {
-        gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count, .index_count = (uint32_t)b->index_count, .indices = b->indices,
-                              .positions = (const float *)b->positions, .normals = (const float *)b->normals, .keys = b->keys};
         status = upload_add_mesh(u, g, &item.mesh, &data, error);
-    }
-    for (size_t k = 0; k < node_draw_count(n) && item.mesh && status == LMN_OK; k++) {
+    for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
         item.world = u->worlds[scene->parts[part_index].node];
         if (n->instance_count)
             item.world = mat4_multiply(&item.world, &n->instances[k]);
         item.first_operand = (uint32_t)u->program.operand_count;
-        item.reach = box3_empty();
-        for (size_t i = 0; i < count; i++)
-            item.reach = box3_union(item.reach, box3_transform(form->operands[used[i]].box, &item.world));
-        status = add_program(u, form, used, count, part_index, error);
+        item.reach = reach_of(s, &item.world);
+        status = add_program(u, &s->form, used, s->count, part_index, error);
         u->triangles += b->index_count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);
     }
-    csg_program_release(&program);
-    mem_free(used);
     return status;
 }
 
 lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
 {
-    const solid *s = &scene->solids[scene->nodes[scene->parts[part_index].node].solid];
-    baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count, sizeof *b.cache)};
-    solid_form form;
-    lmn_status status = solid_form_create(&form, scene, s, true, error);
-    if (status == LMN_OK && !b.cache)
+    if (!mem_grow((void **)&u->solids, &u->solid_capacity, u->solid_count + 1, sizeof *u->solids))
+        return error_memory(error);
+    upload_solid *s = &u->solids[u->solid_count];
+    size_t index = u->solid_count++;
+    memset(s, 0, sizeof *s);
+    baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count, sizeof *b.cache),
+               .convex = mem_calloc(scene->mesh_count, sizeof *b.convex)};
+    lmn_status status = solid_form_create(&s->form, scene, &scene->solids[scene->nodes[scene->parts[part_index].node].solid], true, error);
+    int32_t *used = mem_alloc((s->form.operand_count + 1) * sizeof *used);
+    if (status == LMN_OK && (!b.cache || !b.convex || !used))
         status = error_memory(error);
-    if (status == LMN_OK)
-        status = add_items(u, g, scene, part_index, &form, &b, error);
-    solid_form_release(&form);
+    if (status == LMN_OK) {
+        s->count = solid_form_used(&s->form, used);
+        status = bake(s, &b, used, error);
+    }
+    if (status == LMN_OK && b.index_count) {
+        status = find_products(s, &b, used, error);
+        if (status == LMN_OK)
+            status = add_items(u, g, scene, part_index, index, used, &b, error);
+    }
+    mem_free(used);
     baker_release(&b);
     return status;
 }

@@ -118,6 +118,7 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
     if (!eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, g->context))
         return no_gl(&g, error, "the context cannot be used without a surface");
     read_facts(g, debug);
+    g->facts.depth_clamp = !g->facts.es || epoxy_has_gl_extension("GL_EXT_depth_clamp");
     if (g->facts.es && !epoxy_has_gl_extension("GL_EXT_color_buffer_float") && epoxy_gl_version() < 32)
         return no_gl(&g, error, "the driver cannot draw into float pictures (EXT_color_buffer_float)");
     if (debug && (!g->facts.es || epoxy_gl_version() >= 32 || epoxy_has_gl_extension("GL_KHR_debug"))) {
@@ -126,6 +127,7 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
         glDebugMessageCallback(on_message, g);
     }
     glGenVertexArrays(1, &g->empty_array);
+    glGenQueries(GPU_WATCHES, g->watches);
     glGenVertexArrays(1, &g->boxes_array);
     glGenBuffers(1, &g->boxes_buffer);
     glBindVertexArray(g->boxes_array);
@@ -165,6 +167,7 @@ static void release_objects(gpu *g)
         mem_free(g->buffers[i]);
     }
     glDeleteVertexArrays(1, &g->empty_array);
+    glDeleteQueries(GPU_WATCHES, g->watches);
     glDeleteVertexArrays(1, &g->boxes_array);
     glDeleteBuffers(1, &g->boxes_buffer);
 }

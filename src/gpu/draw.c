@@ -58,7 +58,8 @@ static void bind_framebuffer(gpu *g, const gpu_pass *pass)
         buffers[0] = GL_NONE;
     glDrawBuffers(pass->colour_count ? pass->colour_count : 1, buffers);
     if (pass->depth)
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, pass->depth->name, 0);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, pass->depth->format == GPU_DEPTH32F_STENCIL8 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                               GL_TEXTURE_2D, pass->depth->name, 0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         gpu_fail(g, LMN_GL, "the driver cannot draw into this set of pictures");
 }
@@ -86,7 +87,11 @@ static void clear_targets(const gpu_pass *pass)
     }
     if (pass->depth && !pass->keep_depth) {
         glDepthMask(GL_TRUE);
-        glClearBufferfv(GL_DEPTH, 0, (GLfloat[]){1.0f});
+        glStencilMask(0xFF);
+        if (pass->depth->format == GPU_DEPTH32F_STENCIL8)
+            glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0f, 0);
+        else
+            glClearBufferfv(GL_DEPTH, 0, (GLfloat[]){1.0f});
     }
 }
 
@@ -103,6 +108,21 @@ void gpu_pass_begin(gpu *g, const gpu_pass *pass)
     set_scissor(pass->scissor);
 }
 
+static const GLenum compares[] = {GL_LEQUAL, GL_LESS, GL_EQUAL, GL_NOTEQUAL, GL_GREATER, GL_ALWAYS};
+
+static void set_stencil(const gpu_stencil *s)
+{
+    static const GLenum actions[] = {GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR_WRAP};
+    if (!s->on) {
+        glDisable(GL_STENCIL_TEST);
+        return;
+    }
+    glEnable(GL_STENCIL_TEST);
+    glStencilMask(0xFF);
+    glStencilFunc(compares[s->compare], s->reference, 0xFF);
+    glStencilOp(actions[s->fails], actions[s->behind], actions[s->passes]);
+}
+
 void gpu_use(gpu *g, gpu_program *p, gpu_state state)
 {
     g->program = p;
@@ -114,7 +134,12 @@ void gpu_use(gpu *g, gpu_program *p, gpu_state state)
         glEnable(GL_DEPTH_TEST);
     else
         glDisable(GL_DEPTH_TEST);
-    glDepthFunc(!state.depth_test ? GL_ALWAYS : state.depth_less ? GL_LESS : GL_LEQUAL);
+    glDepthFunc(state.depth_test ? compares[state.depth_compare] : GL_ALWAYS);
+    set_stencil(&state.stencil);
+    if (g->facts.depth_clamp && state.depth_clamp)
+        glEnable(GL_DEPTH_CLAMP);
+    else if (g->facts.depth_clamp)
+        glDisable(GL_DEPTH_CLAMP);
     glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
     if (state.blend == GPU_BLEND_NONE) {
         glDisable(GL_BLEND);
@@ -256,6 +281,40 @@ static void draw_indices(gpu *g, uint32_t first, uint32_t count)
     g->indices_in_flight += count;
     if (g->indices_in_flight >= SOFTWARE_INDICES_IN_FLIGHT)
         gpu_finish(g);
+}
+
+void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count)
+{
+    if (g->failed || !g->program || !m || !count)
+        return;
+    glBindVertexArray(m->array);
+    for (size_t i = 0, next; i < count; i = next) {
+        uint32_t end = runs[i][0] + runs[i][1];
+        for (next = i + 1; next < count && runs[next][0] == end; next++)
+            end += runs[next][1];
+        draw_indices(g, runs[i][0], end - runs[i][0]);
+    }
+    g->draws++;
+}
+
+void gpu_watch_begin(gpu *g, int watch)
+{
+    if (!g->failed)
+        glBeginQuery(GL_ANY_SAMPLES_PASSED, g->watches[watch]);
+}
+
+void gpu_watch_end(gpu *g)
+{
+    if (!g->failed)
+        glEndQuery(GL_ANY_SAMPLES_PASSED);
+}
+
+bool gpu_watched(gpu *g, int watch)
+{
+    GLuint any = 0;
+    if (!g->failed)
+        glGetQueryObjectuiv(g->watches[watch], GL_QUERY_RESULT, &any);
+    return any != 0;
 }
 
 void gpu_draw_mesh(gpu *g, gpu_mesh *m)

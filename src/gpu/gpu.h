@@ -17,7 +17,7 @@ typedef struct gpu_mesh    gpu_mesh;
 typedef struct gpu_buffer  gpu_buffer;
 
 typedef enum gpu_format {
-    GPU_R8, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_FORMAT_COUNT
+    GPU_R8, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_DEPTH32F_STENCIL8, GPU_FORMAT_COUNT
 } gpu_format;
 /* The source is premultiplied. UNDER: the picture's alpha is what still shows through, 1 at first, which 16-bit floats hold better
  * than what does not. */
@@ -45,6 +45,7 @@ typedef struct gpu_facts {
     bool        es, debug, software; /* software: the driver runs on the CPU */
     int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
     bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
+    bool        depth_clamp;
     bool        lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
 } gpu_facts;
 const gpu_facts *gpu_facts_of(const gpu *g);
@@ -120,10 +121,26 @@ typedef struct gpu_pass {
 } gpu_pass;
 void gpu_pass_begin(gpu *g, const gpu_pass *pass);
 
+/* What a fragment must be, compared with what is there. */
+typedef enum gpu_compare {
+    GPU_LESS_EQUAL, GPU_LESS, GPU_EQUAL, GPU_NOT_EQUAL, GPU_GREATER, GPU_ALWAYS
+} gpu_compare;
+typedef enum gpu_stencil_action { GPU_STENCIL_KEEP, GPU_STENCIL_ZERO, GPU_STENCIL_REPLACE, GPU_STENCIL_COUNT } gpu_stencil_action;
+
+/* Of the reference with what is there: equal, not equal or always. */
+typedef struct gpu_stencil {
+    bool               on;
+    gpu_compare        compare;
+    int                reference;
+    gpu_stencil_action fails, behind, passes; /* the stencil test, the depth test, none */
+} gpu_stencil;
+
 typedef struct gpu_state {
-    bool      depth_test, depth_write; /* test is "less or equal" */
-    bool      depth_less;              /* … is "less": of equal depths the first drawn stays */
-    gpu_blend blend;
+    bool        depth_test, depth_write;
+    bool        depth_clamp; /* where gpu_facts.depth_clamp: nothing is cut off at the near and far planes, it gets their depth */
+    gpu_compare depth_compare;
+    gpu_blend   blend;
+    gpu_stencil stencil;
 } gpu_state;
 /* Selects program and state for what follows; textures of the last program are forgotten. */
 void gpu_use(gpu *g, gpu_program *p, gpu_state state);
@@ -146,6 +163,13 @@ bool gpu_has_uniform(gpu *g, const char *name);
 void gpu_draw_screen(gpu *g);
 /* Sets the program's uniform u_first_primitive, if it has one, to what gl_PrimitiveID must be raised by. */
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
+/* Some of its triangles: runs of indices, first and count. */
+void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count);
+/* Was any fragment between the two calls left by the tests? The answer of one of GPU_WATCHES watches is waited for when it is asked. */
+enum { GPU_WATCHES = 64 };
+void gpu_watch_begin(gpu *g, int watch);
+void gpu_watch_end(gpu *g);
+bool gpu_watched(gpu *g, int watch);
 /* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
 /* Draw calls since the context was made. */

@@ -65,7 +65,7 @@ struct gpu {
     int           framebuffer_count;
     uint64_t      clock, draws;
     uint32_t      indices_in_flight; /* drawn since the last finish */
-    GLuint        empty_array, boxes_array, boxes_buffer;
+    GLuint        empty_array, boxes_array, boxes_buffer, watches[GPU_WATCHES];
     gpu_program  *program; /* in use */
     int           next_unit;
 };

@@ -17,6 +17,9 @@ uint32_t *mesh_position_ids(const primitive *p);
  * on. Free with mem_free; NULL when memory is gone. */
 uint32_t *mesh_adjacency(const primitive *p);
 
+/* Is the mesh closed, in one piece, and every point on or behind every face? Large meshes (4 million pairs of points and faces) count as not convex. */
+bool mesh_is_convex(const mesh *m);
+
 /* Vertices ready to be drawn: those of the primitive, split where neighbouring faces meet at more than the crease angle.
  * `source` maps each vertex to the primitive's vertex. Owned by the caller, end with render_vertices_release. */
 typedef struct render_vertices {

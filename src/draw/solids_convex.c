@@ -1,0 +1,412 @@
+/* The nearest surface of products of convex operands, by depth and stencil tests alone: a depth buffer is moved backwards until no
+ * operand that is taken away holds it. Operands are taken away in the order of their distance, so that what is seen through several holes
+ * is mostly found in one round; rounds go on until nothing moves (sequenced convex subtraction, Stewart et al. 1998).
+ * Products that do not meet on the page are done at the same time, and so are operands that do not. No shader runs before the last pass,
+ * which asks whose surface lies at the depth that was found. Seed 003, section 2; rows K02, C3. */
+#include "draw/frame_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { FACES_FRONT, FACES_BACK, ROUNDS_MAX = 4096, COUNT_MAX = 255 };
+
+/* An operand of a product of an item, with the pixels that it can cover. */
+typedef struct literal {
+    const draw_item *item;
+    uint32_t         run[2];
+    int              pixels[4];
+    double           distance; /* of its middle */
+    bool             meets;
+    int              level;    /* literals of a lower level that meet it on the page come first */
+} literal;
+
+typedef struct convex_product {
+    literal *literals; /* kept ones first */
+    size_t   kept, count;
+    int      pixels[4]; /* of all literals */
+    int      batch;
+} convex_product;
+
+typedef struct convex_job {
+    frame           *f;
+    solid_layers    *solids;
+    gpu_texture     *depth;     /* with stencil */
+    literal         *literals;  /* of all products */
+    convex_product  *products;  /* those with something to find out */
+    size_t           product_count;
+    literal         *plain;     /* products of one operand each */
+    size_t           plain_count;
+    const literal  **chosen;    /* room for all of one draw */
+    uint32_t       (*runs)[2];
+} convex_job;
+
+static bool overlap(const int a[4], const int b[4])
+{
+    return a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
+}
+
+bool solids_have_convex(const frame *f, const bool *wanted, bool *all)
+{
+    bool any = false;
+    *all = true;
+    for (size_t i = 0; i < f->up->item_count; i++) {
+        if (!wanted[i])
+            continue;
+        const upload_solid *s = &f->up->solids[f->up->items[i].solid];
+        any = any || s->products.count > 0;
+        *all = *all && s->all_convex;
+    }
+    return any;
+}
+
+/* --- what there is to do -------------------------------------------------------------------------------------------- */
+
+static literal make_literal(const frame *f, const draw_item *item, const upload_solid *s, int32_t operand)
+{
+    box3 box = box3_transform(s->boxes[operand], &item->world);
+    literal l = {.item = item, .run = {s->runs[operand][0], s->runs[operand][1]}, .meets = s->meets[operand]};
+    camera_pixels(&f->camera, box, f->width, f->height, 1, l.pixels);
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->camera, box, &nearest, &farthest);
+    l.distance = nearest + farthest;
+    return l;
+}
+
+static int by_distance(const void *a, const void *b)
+{
+    const literal *x = a, *y = b;
+    if (x->distance != y->distance)
+        return x->distance < y->distance ? -1 : 1;
+    return (x->run[0] > y->run[0]) - (x->run[0] < y->run[0]);
+}
+
+/* Subtractions that meet on the page follow each other, from near to far; the others go together. */
+static void set_levels(convex_product *p)
+{
+    literal *taken = p->literals + p->kept;
+    size_t count = p->count - p->kept;
+    qsort(taken, count, sizeof *taken, by_distance);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (taken[k].level >= taken[i].level && overlap(taken[k].pixels, taken[i].pixels))
+                taken[i].level = taken[k].level + 1;
+}
+
+static void add_product(convex_job *job, const draw_item *item, const upload_solid *s, const product *p, literal **next)
+{
+    if (p->count == 1) {
+        job->plain[job->plain_count++] = make_literal(job->f, item, s, p->operands[0]);
+        return;
+    }
+    convex_product *out = &job->products[job->product_count++];
+    *out = (convex_product){.literals = *next, .kept = p->kept, .count = p->count};
+    for (size_t i = 0; i < p->count; i++) {
+        out->literals[i] = make_literal(job->f, item, s, p->operands[i]);
+        if (i == 0)
+            memcpy(out->pixels, out->literals[0].pixels, sizeof out->pixels);
+        box_widen(out->pixels, out->literals[i].pixels);
+    }
+    *next += p->count;
+    set_levels(out);
+}
+
+/* Products of one batch keep apart on the page and intersect the same number of operands. Returns how many batches there are. */
+static int make_batches(convex_job *job)
+{
+    int batches = 0;
+    for (size_t i = 0; i < job->product_count; i++) {
+        convex_product *p = &job->products[i];
+        for (bool meets = true; meets; p->batch += meets) {
+            meets = false;
+            for (size_t k = 0; k < i && !meets; k++)
+                meets = job->products[k].batch == p->batch &&
+                        (job->products[k].kept != p->kept || overlap(job->products[k].pixels, p->pixels));
+        }
+        batches = p->batch >= batches ? p->batch + 1 : batches;
+    }
+    return batches;
+}
+
+static bool job_open(convex_job *job, const bool *wanted)
+{
+    const upload *u = job->f->up;
+    size_t literals = 1, products = 1;
+    for (size_t i = 0; i < u->item_count; i++) {
+        const product_list *l = wanted[i] ? &u->solids[u->items[i].solid].products : NULL;
+        products += l ? l->count : 0;
+        for (size_t k = 0; l && k < l->count; k++)
+            literals += l->items[k].count;
+    }
+    job->literals = mem_calloc(literals, sizeof *job->literals);
+    job->products = mem_calloc(products, sizeof *job->products);
+    job->plain = mem_calloc(products, sizeof *job->plain);
+    job->chosen = mem_calloc(literals + products, sizeof *job->chosen);
+    job->runs = mem_calloc(literals + products, sizeof *job->runs);
+    if (!job->literals || !job->products || !job->plain || !job->chosen || !job->runs) {
+        gpu_fail(job->f->g, LMN_MEMORY, "out of memory");
+        return false;
+    }
+    literal *next = job->literals;
+    for (size_t i = 0; i < u->item_count; i++)
+        for (size_t k = 0; wanted[i] && k < u->solids[u->items[i].solid].products.count; k++)
+            add_product(job, &u->items[i], &u->solids[u->items[i].solid], &u->solids[u->items[i].solid].products.items[k], &next);
+    return true;
+}
+
+static void job_close(convex_job *job)
+{
+    gpu_target_release(job->f->g, job->depth);
+    mem_free(job->literals);
+    mem_free(job->products);
+    mem_free(job->plain);
+    mem_free(job->chosen);
+    mem_free(job->runs);
+}
+
+/* --- drawing -------------------------------------------------------------------------------------------------------- */
+
+/* Faces of the first `count` chosen literals, item by item. */
+static void draw_chosen(convex_job *job, size_t count, int faces, const char *fragment, gpu_state state)
+{
+    frame *f = job->f;
+    for (size_t first = 0, end; first < count && !gpu_failed(f->g); first = end) {
+        const draw_item *item = job->chosen[first]->item;
+        for (end = first; end < count && job->chosen[end]->item == item; end++)
+            memcpy(job->runs[end - first], job->chosen[end]->run, sizeof job->runs[0]);
+        text prelude = {0};
+        if (item->plane_count)
+            text_append(&prelude, "#define SHARED_PLANES\n");
+        gpu_program *p = program_of(f, GPU_FLOOR, "csg/operand.vert", fragment, &prelude);
+        state.depth_clamp = true;
+        gpu_use(f->g, p, state);
+        gpu_cull_faces(f->g, faces == FACES_FRONT ? GPU_CULL_BACK : GPU_CULL_FRONT);
+        solids_set_operands(f, job->solids, item);
+        gpu_draw_mesh_runs(f->g, item->mesh, job->runs, end - first);
+    }
+}
+
+/* The rectangles of a batch's products. */
+static void draw_rectangles(convex_job *job, int batch, float depth, gpu_state state)
+{
+    frame *f = job->f;
+    text prelude = {0};
+    gpu_program *p = program_of(f, GPU_FLOOR, "csg/flat.vert", "csg/depth.frag", &prelude);
+    int (*boxes)[4] = mem_alloc((job->product_count + 1) * sizeof *boxes);
+    size_t count = 0;
+    for (size_t i = 0; boxes && i < job->product_count; i++)
+        if (job->products[i].batch == batch)
+            memcpy(boxes[count++], job->products[i].pixels, sizeof *boxes);
+    if (!boxes)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    if (p && !gpu_failed(f->g)) {
+        gpu_use(f->g, p, state);
+        gpu_cull_faces(f->g, GPU_CULL_NONE);
+        gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+        gpu_set_float(f->g, "u_flat_depth", depth);
+        gpu_draw_boxes(f->g, boxes, count);
+    }
+    mem_free(boxes);
+}
+
+/* Chooses what operands of a batch's products have in common. Returns how many. */
+static size_t choose_kept(convex_job *job, int batch, size_t which)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < job->product_count; i++)
+        if (job->products[i].batch == batch && which < job->products[i].kept)
+            job->chosen[count++] = &job->products[i].literals[which];
+    return count;
+}
+
+static size_t choose_level(convex_job *job, int batch, int level, bool meeting_only)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < job->product_count; i++) {
+        const convex_product *p = &job->products[i];
+        for (size_t k = p->kept; p->batch == batch && k < p->count; k++)
+            if (p->literals[k].level == level && (p->literals[k].meets || !meeting_only))
+                job->chosen[count++] = &p->literals[k];
+    }
+    return count;
+}
+
+static const gpu_state write_depth = {.depth_test = true, .depth_write = true, .depth_compare = GPU_ALWAYS};
+
+/* The farthest front of what is intersected, where all of it is; 1 elsewhere. */
+static void intersect(convex_job *job, int batch, size_t kept)
+{
+    gpu_state state = {.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS_EQUAL};
+    draw_chosen(job, choose_kept(job, batch, 0), FACES_FRONT, "csg/depth.frag", state);
+    state.depth_compare = GPU_GREATER;
+    state.stencil = (gpu_stencil){true, GPU_ALWAYS, 0, GPU_STENCIL_KEEP, GPU_STENCIL_COUNT, GPU_STENCIL_COUNT};
+    for (size_t i = 1, counted = 0; i < kept; i++) {
+        draw_chosen(job, choose_kept(job, batch, i), FACES_FRONT, "csg/depth.frag", state);
+        counted++;
+        if (counted < COUNT_MAX && i + 1 < kept)
+            continue;
+        gpu_state miss = write_depth, forget = {.depth_test = true, .depth_compare = GPU_ALWAYS};
+        miss.stencil = (gpu_stencil){true, GPU_NOT_EQUAL, (int)counted, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP};
+        forget.stencil = (gpu_stencil){true, GPU_ALWAYS, 0, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO};
+        draw_rectangles(job, batch, 1, miss);
+        draw_rectangles(job, batch, 1, forget);
+        counted = 0;
+    }
+}
+
+/* Where the depth lies inside an operand, it moves to that operand's back. */
+static void take_away(convex_job *job, int batch, int level, bool again)
+{
+    gpu_state mark = {.depth_test = true, .depth_compare = GPU_LESS_EQUAL,
+                      .stencil = {true, GPU_ALWAYS, 1, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_REPLACE}};
+    gpu_state move = {.depth_test = true, .depth_write = true, .depth_compare = GPU_GREATER,
+                      .stencil = {true, GPU_EQUAL, 1, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO}};
+    size_t count = choose_level(job, batch, level, again);
+    draw_chosen(job, count, FACES_FRONT, "csg/depth.frag", mark);
+    if (again)
+        gpu_watch_begin(job->f->g, level % GPU_WATCHES);
+    draw_chosen(job, count, FACES_BACK, "csg/depth.frag", move);
+    if (again)
+        gpu_watch_end(job->f->g);
+}
+
+/* Once more, for those that meet others. Did anything move? */
+static bool take_away_again(convex_job *job, int batch, int levels)
+{
+    bool moved = false;
+    for (int first = 0; first < levels; first += GPU_WATCHES) {
+        int end = first + GPU_WATCHES < levels ? first + GPU_WATCHES : levels;
+        for (int level = first; level < end; level++)
+            take_away(job, batch, level, true);
+        for (int level = first; level < end; level++)
+            moved = gpu_watched(job->f->g, level % GPU_WATCHES) || moved;
+    }
+    return moved;
+}
+
+static void take_all_away(convex_job *job, int batch)
+{
+    int levels = 0;
+    bool meets = false;
+    for (size_t i = 0; i < job->product_count; i++)
+        for (size_t k = job->products[i].kept; job->products[i].batch == batch && k < job->products[i].count; k++) {
+            const literal *l = &job->products[i].literals[k];
+            levels = l->level >= levels ? l->level + 1 : levels;
+            meets = meets || l->meets;
+        }
+    for (int level = 0; level < levels; level++)
+        take_away(job, batch, level, false);
+    for (int round = 1; meets && round < ROUNDS_MAX && !gpu_failed(job->f->g); round++)
+        meets = take_away_again(job, batch, levels);
+}
+
+/* What moved out of the back of an intersected operand is nowhere. */
+static void clip(convex_job *job, int batch, size_t kept)
+{
+    gpu_state mark = {.depth_test = true, .depth_compare = GPU_LESS_EQUAL,
+                      .stencil = {true, GPU_ALWAYS, 1, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_REPLACE}};
+    gpu_state drop = write_depth;
+    drop.stencil = (gpu_stencil){true, GPU_EQUAL, 1, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO};
+    for (size_t i = 0; i < kept; i++)
+        draw_chosen(job, choose_kept(job, batch, i), FACES_BACK, "csg/depth.frag", mark);
+    draw_rectangles(job, batch, 1, drop);
+}
+
+/* The batch's depth into that of all. */
+static void merge(convex_job *job, int batch, gpu_texture *into)
+{
+    frame *f = job->f;
+    int (*boxes)[4] = mem_alloc((job->product_count + 1) * sizeof *boxes);
+    size_t count = 0;
+    text prelude = {0};
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/boxes.vert", "csg/merge.frag", &prelude);
+    for (size_t i = 0; boxes && i < job->product_count; i++)
+        if (job->products[i].batch == batch)
+            memcpy(boxes[count++], job->products[i].pixels, sizeof *boxes);
+    if (p && boxes) {
+        gpu_pass_begin(f->g, &(gpu_pass){.depth = into});
+        gpu_use(f->g, p, (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
+        gpu_set_texture(f->g, "t_depth", job->depth, false);
+        gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+        gpu_draw_boxes(f->g, boxes, count);
+    }
+    mem_free(boxes);
+}
+
+static void draw_batch(convex_job *job, int batch)
+{
+    size_t kept = 0;
+    gpu_pass_begin(job->f->g, &(gpu_pass){.depth = job->depth, .clear = batch == 0});
+    if (batch > 0)
+        draw_rectangles(job, batch, 1, write_depth);
+    for (size_t i = 0; i < job->product_count; i++)
+        if (job->products[i].batch == batch)
+            kept = job->products[i].kept;
+    intersect(job, batch, kept);
+    take_all_away(job, batch);
+    clip(job, batch, kept);
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const literal *x = *(const literal *const *)a, *y = *(const literal *const *)b;
+    if (x->item != y->item)
+        return x->item < y->item ? -1 : 1;
+    return (x->run[0] > y->run[0]) - (x->run[0] < y->run[0]);
+}
+
+/* Whose surfaces they are: those that are taken away first, then the others; of what coincides the last stays. An operand may stand in several
+ * products; once is enough. */
+static void identify(convex_job *job, gpu_texture *depth)
+{
+    frame *f = job->f;
+    gpu_pass_begin(f->g, &(gpu_pass){.colours = {job->solids->surfaces}, .colour_count = 1, .depth = depth});
+    for (int kept = 0; kept < 2; kept++) {
+        size_t count = 0, unique = 0;
+        for (size_t i = 0; i < job->product_count; i++) {
+            const convex_product *p = &job->products[i];
+            for (size_t k = kept ? 0 : p->kept; k < (kept ? p->kept : p->count); k++)
+                job->chosen[count++] = &p->literals[k];
+        }
+        for (size_t i = 0; kept && i < job->plain_count; i++)
+            job->chosen[count++] = &job->plain[i];
+        qsort(job->chosen, count, sizeof *job->chosen, by_place);
+        for (size_t i = 0; i < count; i++)
+            if (unique == 0 || by_place(&job->chosen[unique - 1], &job->chosen[i]) != 0)
+                job->chosen[unique++] = job->chosen[i];
+        draw_chosen(job, unique, kept ? FACES_FRONT : FACES_BACK, "csg/identify.frag", (gpu_state){.depth_test = true, .depth_compare = GPU_EQUAL});
+    }
+}
+
+gpu_texture *solids_draw_convex(frame *f, solid_layers *s, const bool *wanted)
+{
+    convex_job job = {.f = f, .solids = s};
+    gpu_texture *all = NULL;
+    if (job_open(&job, wanted)) {
+        int batches = make_batches(&job);
+        bool alone = batches == 1 && job.plain_count == 0;
+        job.depth = gpu_target_acquire(f->g, f->width, f->height, GPU_DEPTH32F_STENCIL8);
+        all = alone ? job.depth : gpu_target_acquire(f->g, f->width, f->height, GPU_DEPTH32F);
+        if (!alone) {
+            gpu_pass_begin(f->g, &(gpu_pass){.depth = all, .clear = true});
+            for (size_t i = 0; i < job.plain_count; i++)
+                job.chosen[i] = &job.plain[i];
+            draw_chosen(&job, job.plain_count, FACES_FRONT, "csg/depth.frag",
+                        (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
+        }
+        for (int batch = 0; batch < batches && !gpu_failed(f->g); batch++) {
+            draw_batch(&job, batch);
+            if (!alone)
+                merge(&job, batch, all);
+        }
+        if (!gpu_failed(f->g))
+            identify(&job, all);
+        gpu_cull_faces(f->g, GPU_CULL_NONE);
+        if (alone)
+            job.depth = NULL;
+    }
+    job_close(&job);
+    return all;
+}
