@@ -98,13 +98,13 @@ static void check_score(const char *title, const csg_map *m, csg_rays *r, const 
     check_at_least("self", (double)c.sharp / (double)c.pixels, 0.85, "  share of pixels whose answer is sure");
 }
 
-/* Draws in each way, all layers and the front alone. */
+/* Draws in each way, all layers and the front alone; OpenGL ES has no lists for layers. */
 static void against_rays(const char *name, const csg *c, const shot_view *view, bool outside)
 {
     csg_rays *r = csg_rays_create(c, 30);
     csg_map   map = {0};
     for (int e = 0; e < WAYS; e++)
-        for (int front = 0; front < 2; front++) {
+        for (int front = view->es; front < 2; front++) {
             char title[128];
             shot s;
             snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", ways[e].name, view->orthographic ? ", parallel" : "");
@@ -183,6 +183,21 @@ static void from_inside(void)
             k++;
         }
         csg_rays_destroy(r);
+        csg_release(&c);
+    }
+}
+
+/* What is convex is found without lists. */
+static void dialect(void)
+{
+    for (uint32_t seed = 1; seed <= 4; seed++) {
+        csg  c = {0};
+        char title[64];
+        shot_view view = views[seed % 3];
+        view.es = true;
+        csg_random(&c, CSG_CONVEX, seed);
+        snprintf(title, sizeof title, "ES, convex %u, %d leaves", seed, csg_leaf_count(&c));
+        against_rays(title, &c, &view, true);
         csg_release(&c);
     }
 }
@@ -445,7 +460,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"convex", convex}, {"concave", concave}, {"deep", deep}, {"many", many}, {"coincident", coincident}, {"inside", from_inside},
-        {"by-hand", by_hand}, {"extremes", extremes}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
+        {"dialect", dialect}, {"by-hand", by_hand}, {"extremes", extremes}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
     };
     int status = check_main(argc, argv, "solid", cases, sizeof cases / sizeof *cases);
     shot_end();
