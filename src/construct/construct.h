@@ -9,7 +9,8 @@
 typedef struct point2 { double x, y; } point2;
 typedef struct point3 { double x, y, z; } point3;
 
-/* A closed surface of triangles, anticlockwise seen from outside. Owned arrays; zero-initialised is empty. */
+/* A closed surface of triangles, anticlockwise seen from outside: each directed edge has one opposite edge, or as many as there are of
+ * it where parts touch. Owned arrays; zero-initialised is empty. */
 typedef struct polyhedron {
     point3   *points;
     size_t    point_count;
@@ -19,8 +20,8 @@ typedef struct polyhedron {
 } polyhedron;
 void polyhedron_release(polyhedron *p);
 
-/* A region of the plane: outer contours anticlockwise, holes clockwise, none crossing another. The last point is not the first
- * repeated. Owned; zero-initialised is empty. */
+/* A region of the plane: outer contours anticlockwise, holes clockwise, none crossing another; they may touch at points that both
+ * have. The last point is not the first repeated. Owned; zero-initialised is empty. */
 typedef struct contour {
     point2 *points;
     size_t  count;
@@ -44,7 +45,8 @@ lmn_status construct_cylinder(polyhedron *out, double height, double r1, double 
  * consistently wound; made all the same. */
 lmn_status construct_polyhedron(polyhedron *out, const point3 *points, size_t point_count, const uint32_t *corners,
                                 const uint32_t *face_sizes, size_t face_count, bool *flawed, lmn_error *error);
-/* A field of heights, `columns` by `rows`, row 0 at y = 0, on a base one unit below the lowest (OpenSCAD's surface()). */
+/* A field of heights, `columns` by `rows`, row 0 at y = 0, on a base one unit below the lowest, but never above 0 (OpenSCAD's
+ * surface()). */
 lmn_status construct_heights(polyhedron *out, const double *heights, size_t columns, size_t rows, bool centre, lmn_error *error);
 
 /* --- regions.c: plain regions and their set operations (GEOS) ------------------------------------------------------ */
@@ -90,7 +92,7 @@ lmn_status construct_rotate_extrude(polyhedron *out, const region *r, double ang
 lmn_status polyhedron_transform(polyhedron *out, const polyhedron *p, const mat4 *m, lmn_error *error);
 /* The convex hull of all points (qhull); empty when flat. */
 lmn_status polyhedron_hull(polyhedron *out, const polyhedron *operands, size_t count, lmn_error *error);
-/* The sum of two convex ones. */
+/* The sum of two convex ones; LMN_UNSUPPORTED when one is not. */
 lmn_status polyhedron_minkowski(polyhedron *out, const polyhedron *a, const polyhedron *b, lmn_error *error);
 /* Where the plane z = 0 cuts it, and its shadow on that plane. */
 lmn_status polyhedron_slice(region *out, const polyhedron *p, lmn_error *error);

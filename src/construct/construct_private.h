@@ -76,6 +76,34 @@ size_t region_point_count(const region *r);
 lmn_status region_copy(region *out, const region *r, lmn_error *error);
 lmn_status check_region(const char *shape, const region *r, lmn_error *error);
 
+typedef struct plane_edge {
+    point2 from, to;
+} plane_edge;
+/* By x, then y; by where they begin, then where they end. */
+int compare_places(const void *a, const void *b);
+int compare_plane_edges(const void *a, const void *b);
+/* The contours around faces that lie side by side, from the edges of all of them, the inside on the left: none crosses another, none
+ * touches itself, none has corners on straight lines where no other touches it. Sorts the edges. False when memory is gone. */
+bool edges_trace(region *out, plane_edge *edges, size_t count);
+
+/* An edge of a contour of an operand. */
+typedef struct wound_edge {
+    point2 from, to;
+    size_t operand;
+} wound_edge;
+typedef struct edge_strips {
+    wound_edge *edges;
+    size_t      edge_count, strip_count;
+    double      low, scale; /* a strip is scale times the height above low */
+    size_t     *starts;     /* of each strip's entries, and their end */
+    uint32_t   *entries;    /* numbers of edges */
+} edge_strips;
+/* Owns the edges from now on, on failure too: release it in any case. False when memory is gone. */
+bool edge_strips_make(edge_strips *s, wound_edge *edges, size_t count);
+void edge_strips_release(edge_strips *s);
+/* Adds to each operand's number how often its contours run anticlockwise round the place: edges that cross the ray to the right. */
+void edge_strips_wind(const edge_strips *s, double x, double y, int *windings);
+
 /* Which places are inside, by how often the contours of each operand run round them. ODD and POSITIVE have one operand. */
 typedef enum cover_rule { COVER_ODD, COVER_POSITIVE, COVER_UNION, COVER_INTERSECTION, COVER_DIFFERENCE } cover_rule;
 /* Contours of any kind on the grid to a region without crossings and without corners on straight lines. */

@@ -230,14 +230,6 @@ lmn_status region_transform(region *out, const region *r, const double m[6], lmn
 
 /* --- hulls ------------------------------------------------------------------------------------------------------------ */
 
-static int compare_points(const void *a, const void *b)
-{
-    const point2 *p = a, *q = b;
-    if (p->x != q->x)
-        return p->x < q->x ? -1 : 1;
-    return (p->y > q->y) - (p->y < q->y);
-}
-
 /* Does the way from a over b to c turn left? Nearly straight ones do not: such corners are rounding. */
 static bool turns_left(point2 a, point2 b, point2 c)
 {
@@ -248,7 +240,7 @@ static bool turns_left(point2 a, point2 b, point2 c)
 /* Andrew's monotone chains; sorts the points. The hull has room for one more than there are points. */
 static size_t find_hull(point2 *points, size_t count, point2 *hull)
 {
-    qsort(points, count, sizeof *points, compare_points);
+    qsort(points, count, sizeof *points, compare_places);
     size_t size = 0;
     for (size_t i = 0; i < count; i++) {
         while (size >= 2 && !turns_left(hull[size - 2], hull[size - 1], points[i]))
@@ -418,8 +410,11 @@ lmn_status region_minkowski(region *out, const region *a, const region *b, lmn_e
         return status;
     if (is_convex(a) && is_convex(b))
         return convex_sum(out, a->contours, b->contours, error);
+    /* Uniting parallelograms takes far longer than making points. */
     region sum = {0};
-    status = sum_of_borders(&sum, a, b, error);
+    status = check_point_count("minkowski", 16.0 * (double)region_point_count(a) * (double)region_point_count(b), error);
+    if (status == LMN_OK)
+        status = sum_of_borders(&sum, a, b, error);
     if (status == LMN_OK)
         status = unite_moved(&sum, a, b, error);
     if (status == LMN_OK)

@@ -82,24 +82,6 @@ static bool fill(filling *f, const contour *contours, size_t count)
 
 /* --- is the triangles' border that of the contours? ----------------------------------------------------------------- */
 
-typedef struct plane_edge {
-    point2 from, to;
-} plane_edge;
-
-static int compare_points(const point2 *a, const point2 *b)
-{
-    if (a->x != b->x)
-        return a->x < b->x ? -1 : 1;
-    return (a->y > b->y) - (a->y < b->y);
-}
-
-static int compare_edges(const void *a, const void *b)
-{
-    const plane_edge *p = a, *q = b;
-    int order = compare_points(&p->from, &q->from);
-    return order ? order : compare_points(&p->to, &q->to);
-}
-
 /* Both directions of each edge of the sum "contours minus triangles": it must be its own reverse, by places. */
 static bool borders_agree(const contour *contours, size_t count, const filling *f, const point2 *points, size_t point_count,
                           bool *failed)
@@ -116,11 +98,11 @@ static bool borders_agree(const contour *contours, size_t count, const filling *
             edges[at++] = (plane_edge){contours[i].points[(k + 1) % contours[i].count], contours[i].points[k]};
     for (size_t i = 0; i < total; i++)
         edges[total + i] = (plane_edge){edges[i].to, edges[i].from};
-    qsort(edges, total, sizeof *edges, compare_edges);
-    qsort(edges + total, total, sizeof *edges, compare_edges);
+    qsort(edges, total, sizeof *edges, compare_plane_edges);
+    qsort(edges + total, total, sizeof *edges, compare_plane_edges);
     bool same = true;
     for (size_t i = 0; same && i < total; i++)
-        same = compare_edges(&edges[i], &edges[total + i]) == 0;
+        same = compare_plane_edges(&edges[i], &edges[total + i]) == 0;
     mem_free(edges);
     return same;
 }

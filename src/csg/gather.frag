@@ -16,5 +16,5 @@ void main()
         return;
     ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(u_list_box.xy);
     uint next = atomicExchange(heads[pixel.y * int(u_list_box.z) + pixel.x], i + 1u);
-    nodes[i] = uvec4(next, floatBitsToUint(fragment_depth()), fragment_key(), packed_normal());
+    nodes[i] = uvec4(next, stored_at(fragment_depth()), fragment_key(), packed_normal());
 }

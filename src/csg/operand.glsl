@@ -1,12 +1,14 @@
 /* A fragment of an operand: its key (operand, plane, back-facing) and its depth. Fragments that lie in a plane which several operands share
  * get that plane's depth at the pixel, by the same arithmetic whichever triangle they come from: what is coincident is equal. */
+#include "csg/depth.glsl"
+
 in vec3 v_normal;
+in float v_depth;
 flat in uint v_key;
 
 uniform sampler2D t_planes; /* eye space, 256 a row */
 uniform vec2 u_unproject;
 uniform vec2 u_size;
-uniform vec4 u_window_depth;
 uniform float u_perspective;
 
 uint fragment_key()
@@ -19,21 +21,19 @@ float depth_on(vec4 plane, float otherwise)
     vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
     vec3 across = vec3(ndc * u_unproject, 0.0), along = vec3(across.xy * u_perspective, -1.0), from = across * (1.0 - u_perspective);
     float slope = dot(plane.xyz, along);
-    float distance = (plane.w - dot(plane.xyz, from)) / slope;
-    float z = -distance;
-    float clip = u_window_depth.x * z + u_window_depth.y, w = u_window_depth.z * z + u_window_depth.w;
     /* Nearly along the ray there is no telling; such fragments are few and thin. */
-    return abs(slope) > 1e-4 * length(along) ? clip / w * 0.5 + 0.5 : otherwise;
+    return abs(slope) > 1e-4 * length(along) ? (plane.w - dot(plane.xyz, from)) / slope : otherwise;
 }
 
+/* Of the eye. */
 float fragment_depth()
 {
-    float depth = gl_FragCoord.z;
+    float depth = v_depth;
     uint plane = (v_key & 0xFFFEu) >> 1;
     int shared_plane = plane != 0u ? 1 : 0;
     for (int once = 0; once < shared_plane; once++)
         depth = depth_on(texelFetch(t_planes, ivec2(int(plane - 1u) & 255, int(plane - 1u) >> 8), 0), depth);
-    return clamp(depth, 0.0, 1.0);
+    return depth;
 }
 
 /* Octahedron coordinates in 16 bits each. */

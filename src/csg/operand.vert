@@ -13,6 +13,7 @@ uniform uint u_first_plane;
 invariant gl_Position;
 
 out vec3 v_normal;
+out float v_depth; /* of the eye */
 flat out uint v_key; /* operand, plane */
 
 void main()
@@ -20,5 +21,7 @@ void main()
     v_normal = u_normal_matrix * a_normal;
     uint plane = a_key & 0xFFFEu;
     v_key = (a_key & 0xFFFF0000u) + (u_first_operand << 16) + (plane != 0u ? plane + (u_first_plane << 1) : 0u);
-    gl_Position = u_projection * (u_model_view * vec4(a_position, 1.0));
+    vec4 eye = u_model_view * vec4(a_position, 1.0);
+    v_depth = -eye.z;
+    gl_Position = u_projection * eye;
 }

@@ -11,12 +11,14 @@ layout(std430, binding = 5) buffer count_block { uint node_count; uint layer_cou
 layout(std430, binding = 7) writeonly buffer chain_block { uint chain[]; }; /* per node: the next surface behind */
 #endif
 
+#include "csg/depth.glsl"
+
 uniform vec4 u_list_box;
 uniform uint u_operand_count;
 layout(location = 0) out uvec4 out_surface; /* of the nearest: the next behind, depth, key, normal; all 0 where there is none */
 
 const uint FAR = 0xFFFFFFFFu; /* deeper than any depth */
-const uint BEYOND = 0x3F800000u; /* 1: the far plane, behind which nothing of the solids lies */
+uniform uint u_beyond; /* the far plane, behind which nothing of the solids lies */
 
 uint inside[OPERAND_WORDS];
 #if TERMS > 0
@@ -170,8 +172,8 @@ void main()
     uint open = head;
     while (open != 0u) {
         sort_nearest(open, least_depth, least_key, least_node);
-        bool full = depths[KEPT - 1] < BEYOND;
-        while (depths[0] < BEYOND) {
+        bool full = depths[KEPT - 1] < u_beyond;
+        while (depths[0] < u_beyond) {
             least_depth = depths[0];
             least_key = keys[0];
             least_node = kept[0];
@@ -208,7 +210,7 @@ void main()
         atomicMax(layer_count, surface_count);
 #endif
 #ifdef DEPTH_TESTED
-    gl_FragDepth = first_surface != 0u ? uintBitsToFloat(surface.y) : 1.0;
+    gl_FragDepth = first_surface != 0u ? clamp(window_depth_at(eye_depth_of(surface.y)), 0.0, 1.0) : 1.0;
 #endif
     out_surface = surface;
 }

@@ -1,11 +1,9 @@
 /* Where geometry of a solid comes from: a picture of the surface that the evaluation found, instead of triangles. */
+#include "csg/depth.glsl"
+
 uniform usampler2D t_surfaces; /* (any), depth, key, normal; all 0 where there is none */
 uniform sampler2D  t_operands; /* two texels each: colour; part */
-uniform vec4 u_solid_depth;    /* what u_window_depth is elsewhere */
 uniform vec2 u_solid_size;     /* of the page */
-#ifdef ENLARGED
-uniform mat4 u_projection;
-#endif
 uniform vec4 u_highlight;      /* colour instead of the operands', where alpha is not 0 */
 
 vec3 v_eye;
@@ -28,7 +26,8 @@ bool fetch_surface(uint part)
         return false;
     surface_albedo = u_highlight.a > 0.0 ? u_highlight : texelFetch(t_operands, place, 0);
     surface_operand = SURFACE_OPERAND | (surface.z >> 16 & 0x7FFFu);
-    surface_depth = uintBitsToFloat(surface.y);
+    float depth = eye_depth_of(surface.y);
+    surface_depth = clamp(window_depth_at(depth), 0.0, 1.0);
     bool taken_away = (surface.z & 0x80000000u) == 0u;
     surface_front = ((surface.z & 1u) == 0u) != taken_away;
     vec2 flat_normal = vec2(surface.w & 0xFFFFu, surface.w >> 16) / 32767.0 - 1.0;
@@ -37,16 +36,8 @@ bool fetch_surface(uint part)
     v_normal.x += v_normal.x < 0.0 ? under : -under;
     v_normal.y += v_normal.y < 0.0 ? under : -under;
     v_normal = normalize(v_normal) * (taken_away ? -1.0 : 1.0);
-    float ndc = 2.0 * surface_depth - 1.0;
-    /* z of the eye from (x z + y) / (z' z + w) */
-    float z = (u_solid_depth.w * ndc - u_solid_depth.y) / (u_solid_depth.x - u_solid_depth.z * ndc);
     vec2 across = (2.0 * gl_FragCoord.xy / u_solid_size - 1.0) * u_unproject;
-    v_eye = vec3(across * (u_perspective > 0.5 ? -z : 1.0), z);
-#ifdef ENLARGED
-    /* Drawn with wider clip planes than it was found with. */
-    vec4 clip = u_projection * vec4(v_eye, 1.0);
-    surface_depth = clip.z / clip.w * 0.5 + 0.5;
-#endif
+    v_eye = vec3(across * (u_perspective > 0.5 ? depth : 1.0), -depth);
     return true;
 }
 

@@ -25,7 +25,7 @@ typedef struct solid_layers {
     bool         ready;
     bool         first_only;  /* nothing behind the nearest was looked for */
     int          box[4];      /* pixels where solids can be */
-    float        window_depth[4]; /* u_window_depth of the projection that the surfaces' depths belong to */
+    double       near;        /* that the surfaces' depths are measured from */
     int          count;       /* layers there are */
     int          index;       /* of the current one */
     gpu_texture *surfaces;    /* of the current layer: (any), depth, key, normal */
@@ -146,6 +146,8 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
 /* Makes layer `index` current; layers are asked for in order, from any number to the next or from 0. */
 void solids_select(frame *f, solid_layers *s, int index);
 void solids_release(frame *f, solid_layers *s);
+/* Uniforms of csg/depth.glsl. */
+void solids_set_depth(frame *f, const solid_layers *s);
 /* Uniforms of csg/operand.vert and csg/operand.glsl for one item. */
 void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item);
 

@@ -321,8 +321,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     set_pass(f, job, s);
     gpu_set_texture(f->g, "t_surfaces", job->solids->surfaces, false);
     gpu_set_texture(f->g, "t_operands", f->up->operand_table, false);
-    gpu_set_vec4(f->g, "u_solid_depth", job->solids->window_depth);
-    raster_set_projection(f);
+    solids_set_depth(f, job->solids);
     gpu_set_vec2(f->g, "u_solid_size", (float)f->width, (float)f->height);
     float highlight[4] = {0, 0, 0, 0};
     if (s->figure->highlight)

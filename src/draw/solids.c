@@ -104,6 +104,13 @@ static void bind_buffers(frame *f, const solid_layers *s)
     gpu_buffer_bind(f->g, s->chain, 7);
 }
 
+void solids_set_depth(frame *f, const solid_layers *s)
+{
+    const double *m = f->camera.projection.m;
+    gpu_set_vec4(f->g, "u_solid_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
+    gpu_set_float(f->g, "u_solid_near", (float)s->near);
+}
+
 void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item)
 {
     raster_set_projection(f);
@@ -111,7 +118,7 @@ void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item)
     gpu_set_vec2(f->g, "u_size", (float)f->width, (float)f->height);
     gpu_set_float(f->g, "u_perspective", f->camera.orthographic ? 0 : 1);
     gpu_set_vec2(f->g, "u_unproject", (float)(1 / m[0]), (float)(1 / m[5]));
-    gpu_set_vec4(f->g, "u_window_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
+    solids_set_depth(f, s);
     gpu_set_texture(f->g, "t_planes", s->planes, false);
     raster_set_transform(f, &item->world);
     gpu_set_uint(f->g, "u_first_operand", item->first_operand);
@@ -166,6 +173,14 @@ static unsigned gather(frame *f, solid_layers *s, const bool *wanted, const int 
     return made / limit + 1;
 }
 
+/* A number that is not negative, as shaders compare it. */
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 static size_t power_of_two(size_t n)
 {
     size_t p = 1;
@@ -190,6 +205,8 @@ static void resolve(frame *f, solid_layers *s, const int box[4], bool inside)
     gpu_pass_begin(f->g, &pass);
     gpu_use(f->g, p, (gpu_state){.depth_test = s->depth != NULL, .depth_write = s->depth != NULL, .depth_compare = GPU_LESS});
     set_list_box(f, box);
+    solids_set_depth(f, s);
+    gpu_set_uint(f->g, "u_beyond", bits_of((float)(f->camera.far - s->near)));
     gpu_set_uint(f->g, "u_operand_count", (unsigned)c->operand_count);
     bind_buffers(f, s);
     gpu_draw_screen(f->g);
@@ -276,10 +293,9 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
 {
     if (s->ready || gpu_failed(f->g))
         return;
-    const double *m = f->camera.projection.m;
     s->ready = true;
     s->first_only = first_only;
-    memcpy(s->window_depth, (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]}, sizeof s->window_depth);
+    s->near = f->camera.near;
     bool inside = find_box(f, wanted, s->box);
     if (s->box[2] <= 0)
         return;

@@ -34,11 +34,11 @@ typedef struct convex_job {
     frame           *f;
     solid_layers    *solids;
     gpu_texture     *depth;     /* with stencil */
+    gpu_texture     *before;    /* depth of the batches before, while surfaces are identified; NULL: none */
+    bool             cleared;
     literal         *literals;  /* of all products */
-    convex_product  *products;  /* those with something to find out */
+    convex_product  *products;
     size_t           product_count;
-    literal         *plain;     /* products of one operand each */
-    size_t           plain_count;
     const literal  **chosen;    /* room for all of one draw */
     uint32_t       (*runs)[2];
 } convex_job;
@@ -97,10 +97,6 @@ static void set_levels(convex_product *p)
 
 static void add_product(convex_job *job, const draw_item *item, const upload_solid *s, const product *p, literal **next)
 {
-    if (p->count == 1) {
-        job->plain[job->plain_count++] = make_literal(job->f, item, s, p->operands[0]);
-        return;
-    }
     convex_product *out = &job->products[job->product_count++];
     *out = (convex_product){.literals = *next, .kept = p->kept, .count = p->count};
     for (size_t i = 0; i < p->count; i++) {
@@ -113,20 +109,45 @@ static void add_product(convex_job *job, const draw_item *item, const upload_sol
     set_levels(out);
 }
 
-/* Products of one batch keep apart on the page and intersect the same number of operands. Returns how many batches there are. */
-static int make_batches(convex_job *job)
+static bool one_batch(const convex_product *a, const convex_product *b)
+{
+    bool plain = a->count == 1;
+    return plain == (b->count == 1) && (plain || a->kept == b->kept);
+}
+
+/* Products of one batch keep apart on the page and intersect the same number of operands; those of one operand alone need not keep apart.
+ * Where surfaces may coincide, products that meet keep their order, since the first of them then has the surface. Returns how many batches
+ * there are. */
+static int make_batches(convex_job *job, bool ordered)
 {
     int batches = 0;
+    const convex_product **first = mem_calloc(job->product_count + 1, sizeof *first); /* of each batch */
+    if (!first) {
+        gpu_fail(job->f->g, LMN_MEMORY, "out of memory");
+        return 0;
+    }
     for (size_t i = 0; i < job->product_count; i++) {
         convex_product *p = &job->products[i];
-        for (bool meets = true; meets; p->batch += meets) {
-            meets = false;
-            for (size_t k = 0; k < i && !meets; k++)
-                meets = job->products[k].batch == p->batch &&
-                        (job->products[k].kept != p->kept || overlap(job->products[k].pixels, p->pixels));
+        for (bool settled = false; !settled;) {
+            settled = true;
+            while (p->batch < batches && !one_batch(first[p->batch], p))
+                p->batch++;
+            for (size_t k = 0; k < i; k++) {
+                const convex_product *other = &job->products[k];
+                bool stands_in_way = ordered ? other->batch >= p->batch : other->batch == p->batch;
+                bool may_share = other->batch == p->batch && p->count == 1 && other->count == 1;
+                if (stands_in_way && !may_share && overlap(other->pixels, p->pixels)) {
+                    p->batch = ordered ? other->batch + 1 : p->batch + 1;
+                    settled = false;
+                }
+            }
         }
-        batches = p->batch >= batches ? p->batch + 1 : batches;
+        if (p->batch >= batches)
+            batches = p->batch + 1;
+        if (!first[p->batch])
+            first[p->batch] = p;
     }
+    mem_free(first);
     return batches;
 }
 
@@ -142,10 +163,9 @@ static bool job_open(convex_job *job, const bool *wanted)
     }
     job->literals = mem_calloc(literals, sizeof *job->literals);
     job->products = mem_calloc(products, sizeof *job->products);
-    job->plain = mem_calloc(products, sizeof *job->plain);
     job->chosen = mem_calloc(literals + products, sizeof *job->chosen);
     job->runs = mem_calloc(literals + products, sizeof *job->runs);
-    if (!job->literals || !job->products || !job->plain || !job->chosen || !job->runs) {
+    if (!job->literals || !job->products || !job->chosen || !job->runs) {
         gpu_fail(job->f->g, LMN_MEMORY, "out of memory");
         return false;
     }
@@ -161,7 +181,6 @@ static void job_close(convex_job *job)
     gpu_target_release(job->f->g, job->depth);
     mem_free(job->literals);
     mem_free(job->products);
-    mem_free(job->plain);
     mem_free(job->chosen);
     mem_free(job->runs);
 }
@@ -177,13 +196,14 @@ static void draw_chosen(convex_job *job, size_t count, int faces, const char *fr
         for (end = first; end < count && job->chosen[end]->item == item; end++)
             memcpy(job->runs[end - first], job->chosen[end]->run, sizeof job->runs[0]);
         text prelude = {0};
-        if (item->plane_count)
-            text_append(&prelude, "#define SHARED_PLANES\n");
+        text_append(&prelude, "%s%s", item->plane_count ? "#define SHARED_PLANES\n" : "", job->before ? "#define AMONG_OTHERS\n" : "");
         gpu_program *p = program_of(f, GPU_FLOOR, "csg/operand.vert", fragment, &prelude);
         state.depth_clamp = true;
         gpu_use(f->g, p, state);
         gpu_cull_faces(f->g, faces == FACES_FRONT ? GPU_CULL_BACK : GPU_CULL_FRONT);
         solids_set_operands(f, job->solids, item);
+        if (job->before)
+            gpu_set_texture(f->g, "t_before", job->before, false);
         gpu_draw_mesh_runs(f->g, item->mesh, job->runs, end - first);
     }
 }
@@ -338,9 +358,10 @@ static void merge(convex_job *job, int batch, gpu_texture *into)
 static void draw_batch(convex_job *job, int batch)
 {
     size_t kept = 0;
-    gpu_pass_begin(job->f->g, &(gpu_pass){.depth = job->depth, .clear = batch == 0});
-    if (batch > 0)
+    gpu_pass_begin(job->f->g, &(gpu_pass){.depth = job->depth, .clear = !job->cleared});
+    if (job->cleared)
         draw_rectangles(job, batch, 1, write_depth);
+    job->cleared = true;
     for (size_t i = 0; i < job->product_count; i++)
         if (job->products[i].batch == batch)
             kept = job->products[i].kept;
@@ -349,34 +370,48 @@ static void draw_batch(convex_job *job, int batch)
     clip(job, batch, kept);
 }
 
-static int by_place(const void *a, const void *b)
+/* Whose surfaces they are: of each product what is taken away first, then what is kept; of what coincides the last stays. */
+static void identify(convex_job *job, int batch, gpu_texture *depth, gpu_texture *before)
 {
-    const literal *x = *(const literal *const *)a, *y = *(const literal *const *)b;
-    if (x->item != y->item)
-        return x->item < y->item ? -1 : 1;
-    return (x->run[0] > y->run[0]) - (x->run[0] < y->run[0]);
-}
-
-/* Whose surfaces they are: those that are taken away first, then the others; of what coincides the last stays. An operand may stand in several
- * products; once is enough. */
-static void identify(convex_job *job, gpu_texture *depth)
-{
-    frame *f = job->f;
-    gpu_pass_begin(f->g, &(gpu_pass){.colours = {job->solids->surfaces}, .colour_count = 1, .depth = depth});
+    job->before = before;
+    gpu_pass_begin(job->f->g, &(gpu_pass){.colours = {job->solids->surfaces}, .colour_count = 1, .depth = depth});
     for (int kept = 0; kept < 2; kept++) {
-        size_t count = 0, unique = 0;
+        size_t count = 0;
         for (size_t i = 0; i < job->product_count; i++) {
             const convex_product *p = &job->products[i];
-            for (size_t k = kept ? 0 : p->kept; k < (kept ? p->kept : p->count); k++)
+            for (size_t k = kept ? 0 : p->kept; p->batch == batch && k < (kept ? p->kept : p->count); k++)
                 job->chosen[count++] = &p->literals[k];
         }
-        for (size_t i = 0; kept && i < job->plain_count; i++)
-            job->chosen[count++] = &job->plain[i];
-        qsort(job->chosen, count, sizeof *job->chosen, by_place);
-        for (size_t i = 0; i < count; i++)
-            if (unique == 0 || by_place(&job->chosen[unique - 1], &job->chosen[i]) != 0)
-                job->chosen[unique++] = job->chosen[i];
-        draw_chosen(job, unique, kept ? FACES_FRONT : FACES_BACK, "csg/identify.frag", (gpu_state){.depth_test = true, .depth_compare = GPU_EQUAL});
+        draw_chosen(job, count, kept ? FACES_FRONT : FACES_BACK, "csg/identify.frag", (gpu_state){.depth_test = true, .depth_compare = GPU_EQUAL});
+    }
+    job->before = NULL;
+}
+
+/* Of operands that are products by themselves the nearest front is seen. */
+static void draw_plain(convex_job *job, int batch, gpu_texture *depth)
+{
+    gpu_pass_begin(job->f->g, &(gpu_pass){.colours = {job->solids->surfaces}, .colour_count = 1, .depth = depth});
+    draw_chosen(job, choose_kept(job, batch, 0), FACES_FRONT, "csg/identify.frag",
+                (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
+}
+
+static void draw_batches(convex_job *job, int batches, gpu_texture *all)
+{
+    bool alone = all == job->depth;
+    if (!alone)
+        gpu_pass_begin(job->f->g, &(gpu_pass){.depth = all, .clear = true});
+    for (int batch = 0; batch < batches && !gpu_failed(job->f->g); batch++) {
+        bool plain = false;
+        for (size_t i = 0; i < job->product_count; i++)
+            plain = plain || (job->products[i].batch == batch && job->products[i].count == 1);
+        if (plain) {
+            draw_plain(job, batch, all);
+            continue;
+        }
+        draw_batch(job, batch);
+        identify(job, batch, job->depth, alone ? NULL : all);
+        if (!alone)
+            merge(job, batch, all);
     }
 }
 
@@ -385,26 +420,18 @@ gpu_texture *solids_draw_convex(frame *f, solid_layers *s, const bool *wanted)
     convex_job job = {.f = f, .solids = s};
     gpu_texture *all = NULL;
     if (job_open(&job, wanted)) {
-        int batches = make_batches(&job);
-        bool alone = batches == 1 && job.plain_count == 0;
+        bool planes = false, plain = false;
+        for (size_t i = 0; i < job.product_count; i++) {
+            planes = planes || job.products[i].literals[0].item->plane_count > 0;
+            plain = plain || job.products[i].count == 1;
+        }
+        int batches = make_batches(&job, planes);
         job.depth = gpu_target_acquire(f->g, f->width, f->height, GPU_DEPTH32F_STENCIL8);
-        all = alone ? job.depth : gpu_target_acquire(f->g, f->width, f->height, GPU_DEPTH32F);
-        if (!alone) {
-            gpu_pass_begin(f->g, &(gpu_pass){.depth = all, .clear = true});
-            for (size_t i = 0; i < job.plain_count; i++)
-                job.chosen[i] = &job.plain[i];
-            draw_chosen(&job, job.plain_count, FACES_FRONT, "csg/depth.frag",
-                        (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
-        }
-        for (int batch = 0; batch < batches && !gpu_failed(f->g); batch++) {
-            draw_batch(&job, batch);
-            if (!alone)
-                merge(&job, batch, all);
-        }
+        all = batches == 1 && !plain ? job.depth : gpu_target_acquire(f->g, f->width, f->height, GPU_DEPTH32F);
         if (!gpu_failed(f->g))
-            identify(&job, all);
+            draw_batches(&job, batches, all);
         gpu_cull_faces(f->g, GPU_CULL_NONE);
-        if (alone)
+        if (all == job.depth)
             job.depth = NULL;
     }
     job_close(&job);

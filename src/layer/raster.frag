@@ -4,10 +4,12 @@
 #include "csg/surface.glsl"
 #define IS_FRONT surface_front
 #define WINDOW_DEPTH surface_depth
+#define DEPTH_ROUNDING 1e-6 /* computed, not interpolated */
 #else
 #include "layer/material.glsl"
 #define IS_FRONT gl_FrontFacing
 #define WINDOW_DEPTH gl_FragCoord.z
+#define DEPTH_ROUNDING 0.0
 #endif
 #if defined(CUT_FACE) && defined(AT_SHADE)
 #include "light/cut.glsl"
@@ -91,7 +93,7 @@ void main()
 #endif
 #ifdef MERGED
     /* Early z reject by hand: only what the first pass left visible goes through edge detection. */
-    if (WINDOW_DEPTH > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r)
+    if (WINDOW_DEPTH > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r + DEPTH_ROUNDING)
         discard;
 #endif
     vec4 albedo = model_colour();
