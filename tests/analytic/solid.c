@@ -373,6 +373,30 @@ static void extremes(void)
     csg_release(&c);
 }
 
+/* What is taken away may end behind the far plane, which is tight around the solid: the eye looks through the hole. */
+static void through_the_back(void)
+{
+    static const uint32_t seeds[] = {20, 28};
+    for (int k = 0; k < 4; k++) {
+        csg       c = {0};
+        char      title[64];
+        shot_view view = {.width = 100, .height = 90, .eye = {0.3, -6, 0.4}, .up = {0, 0, 1}, .orthographic = k % 2};
+        if (k < 2) {
+            csg_add(&c, -1, CSG_DIFFERENCE);
+            csg_box(&c, 0, dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+            csg_place(&c, csg_cylinder(&c, 0, 0.6, 0.6, 12, 24), dvec_of(1, 1, 1), dvec_of(1, 0, 0), -85, dvec_of(0, -2, 0.3));
+            csg_box(&c, 0, dvec_of(-2, -2, 0.6), dvec_of(-0.7, 1.005, 3));
+            csg_colour(&c);
+        } else {
+            csg_random(&c, CSG_CONVEX, seeds[k - 2]);
+            view = views[seeds[k - 2] % 3];
+        }
+        snprintf(title, sizeof title, "%s %d", k < 2 ? "a bore that ends behind the far plane" : "convex", k < 2 ? k : (int)seeds[k - 2]);
+        against_rays(title, &c, &view, true);
+        csg_release(&c);
+    }
+}
+
 /* --- single statements ------------------------------------------------------------------------------------------------ */
 
 /* The second layer of a hollow box is the inner side of its front wall, not the far wall. */
@@ -460,7 +484,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"convex", convex}, {"concave", concave}, {"deep", deep}, {"many", many}, {"coincident", coincident}, {"inside", from_inside},
-        {"dialect", dialect}, {"by-hand", by_hand}, {"extremes", extremes}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
+        {"dialect", dialect}, {"by-hand", by_hand}, {"extremes", extremes}, {"through", through_the_back}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
     };
     int status = check_main(argc, argv, "solid", cases, sizeof cases / sizeof *cases);
     shot_end();
