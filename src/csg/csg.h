@@ -18,10 +18,12 @@ typedef struct csg_program {
     size_t   solid_count;
 } csg_program;
 
-/* Fragments have a key, a number each: the operand from 1 on, whether it is kept or taken away in the end (an even or odd number of negations
- * above it), a plane from 1 on or 0, and whether they face away. Keys order what lies at one depth: what is taken away comes first. */
+/* Corners of triangles have a key: is the operand kept in the end, or taken away (an odd number of negations above it); the operand from 1 on; a plane
+ * from 1 on or 0. Fragments have the same with two other bits at the top: does the solid begin there, and is the triangle seen from its front? So keys
+ * order what lies at one depth: ends before beginnings; among beginnings, what is taken away before what is kept, and among ends the other way
+ * round. Of several operands the one at which the solid changes in this order is the one whose face people see there. */
 #define CSG_KEY_KEPT 0x80000000u
-enum { CSG_KEY_OPERAND_SHIFT = 16, CSG_KEY_PLANE_SHIFT = 1, CSG_OPERANDS_MAX = 32767, CSG_PLANES_MAX = 32767 };
+enum { CSG_KEY_OPERAND_SHIFT = 16, CSG_OPERANDS_MAX = 16383, CSG_PLANES_MAX = 65535 };
 
 /* Adds a solid; its operands get consecutive numbers from operand_count + 1 on, in the order of solid_form_used. False when memory is gone. */
 bool csg_program_add(csg_program *p, const solid_form *form);

@@ -1,4 +1,4 @@
-/* A fragment of an operand: its key (operand, plane, back-facing) and its depth. Fragments that lie in a plane which several operands share
+/* A fragment of an operand: its key and its depth. Fragments that lie in a plane which several operands share
  * get that plane's depth at the pixel, by the same arithmetic whichever triangle they come from: what is coincident is equal. */
 #include "csg/depth.glsl"
 
@@ -11,9 +11,11 @@ uniform vec2 u_unproject;
 uniform vec2 u_size;
 uniform float u_perspective;
 
+/* Does the solid begin here, seen from the front, operand, plane: src/csg/csg.h. */
 uint fragment_key()
 {
-    return v_key | (gl_FrontFacing ? 0u : 1u);
+    bool kept = (v_key & 0x80000000u) != 0u;
+    return (v_key & 0x3FFFFFFFu) | (gl_FrontFacing == kept ? 0x80000000u : 0u) | (gl_FrontFacing ? 0x40000000u : 0u);
 }
 
 float depth_on(vec4 plane, float otherwise)
@@ -29,7 +31,7 @@ float depth_on(vec4 plane, float otherwise)
 float fragment_depth()
 {
     float depth = v_depth;
-    uint plane = (v_key & 0xFFFEu) >> 1;
+    uint plane = v_key & 0xFFFFu;
     int shared_plane = plane != 0u ? 1 : 0;
     for (int once = 0; once < shared_plane; once++)
         depth = depth_on(texelFetch(t_planes, ivec2(int(plane - 1u) & 255, int(plane - 1u) >> 8), 0), depth);

@@ -14,13 +14,13 @@ invariant gl_Position;
 
 out vec3 v_normal;
 out float v_depth; /* of the eye */
-flat out uint v_key; /* operand, plane */
+flat out uint v_key; /* kept, operand, plane: src/csg/csg.h */
 
 void main()
 {
     v_normal = u_normal_matrix * a_normal;
-    uint plane = a_key & 0xFFFEu;
-    v_key = (a_key & 0xFFFF0000u) + (u_first_operand << 16) + (plane != 0u ? plane + (u_first_plane << 1) : 0u);
+    uint plane = a_key & 0xFFFFu;
+    v_key = (a_key & 0xFFFF0000u) + (u_first_operand << 16) + (plane != 0u ? plane + u_first_plane : 0u);
     vec4 eye = u_model_view * vec4(a_position, 1.0);
     v_depth = -eye.z;
     gl_Position = u_projection * eye;

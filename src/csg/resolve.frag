@@ -1,8 +1,7 @@
 /* Which fragments are surfaces of the solids: the pixel's list is walked from front to back, in rounds of the nearest few, and with each
  * fragment an operand is entered or left and the terms above it are counted. Where a whole tree's value changes, there is the surface.
  * Fragments at the same depth in one plane are one event: the state before and after them decides, so that flush unions have no
- * wall inside and flush cuts leave no skin. Within it, operands that are taken away come first, then all in the order of the tree,
- * and the one at which the whole changes gives the surface. Roth 1982, per pixel; seed 003, 5.1; rows K02, K03, C3, C5, C6. */
+ * wall inside and flush cuts leave no skin. The one of them at which the whole changes, in the order of their keys, gives the surface. Roth 1982, per pixel; seed 003, 5.1; rows K02, K03, C3, C5, C6. */
 layout(std430, binding = 3) readonly buffer heads_block { uint heads[]; };
 layout(std430, binding = 4) readonly buffer nodes_block { uvec4 nodes[]; };
 layout(std430, binding = 6) readonly buffer program_block { uvec2 links[]; };
@@ -88,7 +87,7 @@ void end_group()
 
 void take(uint depth, uint key, uint node)
 {
-    uint operand = (key >> 16 & 0x7FFFu) - 1u, plane = key & 0xFFFEu;
+    uint operand = (key >> 16 & 0x3FFFu) - 1u, plane = key & 0xFFFFu;
     /* What lies before the near plane comes at once: only what holds behind it counts. */
     plane = depth == 0u ? 0xFFFFu : plane;
     uint own = links[operand].y << 16 | plane;
@@ -101,7 +100,7 @@ void take(uint depth, uint key, uint node)
     bool changes = go_through(operand, value);
     group_changes += changes ? 1u : 0u;
     group_owner = changes ? node : group_owner;
-    bool begins = ((key & 1u) == 0u) == ((key & 0x80000000u) != 0u);
+    bool begins = (key & 0x80000000u) != 0u;
     group_fits = changes ? begins == value : group_fits;
 }
 
@@ -143,7 +142,7 @@ void start_inside(uint head)
     while (i != 0u) {
         uvec4 node = nodes[i - 1u];
         bool value;
-        go_through((node.z >> 16 & 0x7FFFu) - 1u, value);
+        go_through((node.z >> 16 & 0x3FFFu) - 1u, value);
         i = node.x;
     }
 }

@@ -19,17 +19,17 @@ bool fetch_surface(uint part)
     uvec4 surface = texelFetch(t_surfaces, ivec2(gl_FragCoord.xy), 0);
     if (surface.z == 0u)
         return false;
-    int operand = int(surface.z >> 16 & 0x7FFFu) - 1;
+    int operand = int(surface.z >> 16 & 0x3FFFu) - 1;
     ivec2 place = ivec2(2 * (operand & 511), operand >> 9);
     vec4 facts = texelFetch(t_operands, place + ivec2(1, 0), 0);
     if (uint(facts.x) != part)
         return false;
     surface_albedo = u_highlight.a > 0.0 ? u_highlight : texelFetch(t_operands, place, 0);
-    surface_operand = SURFACE_OPERAND | (surface.z >> 16 & 0x7FFFu);
+    surface_operand = SURFACE_OPERAND | (surface.z >> 16 & 0x3FFFu);
     float depth = eye_depth_of(surface.y);
     surface_depth = clamp(window_depth_at(depth), 0.0, 1.0);
-    bool taken_away = (surface.z & 0x80000000u) == 0u;
-    surface_front = ((surface.z & 1u) == 0u) != taken_away;
+    surface_front = (surface.z & 0x80000000u) != 0u;
+    bool taken_away = surface_front != ((surface.z & 0x40000000u) != 0u);
     vec2 flat_normal = vec2(surface.w & 0xFFFFu, surface.w >> 16) / 32767.0 - 1.0;
     v_normal = vec3(flat_normal, 1.0 - abs(flat_normal.x) - abs(flat_normal.y));
     float under = max(-v_normal.z, 0.0);

@@ -175,7 +175,7 @@ static lmn_status mark_planes(baker *b, const uint16_t *numbers, lmn_error *erro
         size_t own = b->vertex_count++;
         b->positions[own] = b->positions[*last];
         b->normals[own] = b->normals[*last];
-        b->keys[own] = b->keys[*last] | (uint32_t)numbers[i] << CSG_KEY_PLANE_SHIFT;
+        b->keys[own] = b->keys[*last] | numbers[i];
         *last = (uint32_t)own;
     }
     return LMN_OK;

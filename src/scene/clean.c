@@ -22,17 +22,17 @@ static bool is_finite_point(vec3 p)
 }
 
 /* A triangle that has no area at rest may open when morphs or joints move it; then only repeated corners count. */
-static bool has_no_area(const primitive *p, const uint32_t *t)
+static bool has_no_area(const primitive *p, const uint32_t *t, bool keep_closed)
 {
     if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2])
         return true;
-    if (p->morph_count || p->joints)
+    if (p->morph_count || p->joints || keep_closed)
         return false;
     dvec3 cross = face_cross(p->positions[t[0]], p->positions[t[1]], p->positions[t[2]]);
     return cross.x == 0 && cross.y == 0 && cross.z == 0;
 }
 
-static void drop_triangles(primitive *p, clean_counts *counts)
+static void drop_triangles(primitive *p, bool keep_closed, clean_counts *counts)
 {
     uint32_t kept = 0;
     counts->triangles += p->index_count / 3;
@@ -43,7 +43,7 @@ static void drop_triangles(primitive *p, clean_counts *counts)
             counts->not_finite++;
             continue;
         }
-        if (has_no_area(p, t)) {
+        if (has_no_area(p, t, keep_closed)) {
             counts->degenerate++;
             continue;
         }
@@ -184,9 +184,9 @@ static void set_bounds(primitive *p)
     p->bounds = box;
 }
 
-bool primitive_clean(primitive *p, clean_counts *counts)
+bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts)
 {
-    drop_triangles(p, counts);
+    drop_triangles(p, keep_closed, counts);
     if (p->index_count == 0)
         return true;
     if (!drop_vertices(p))

@@ -7,6 +7,7 @@
 #include "scene/clean.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
+#include "scene/solid.h"
 
 typedef struct check {
     lmn_scene  *scene;
@@ -134,6 +135,10 @@ static lmn_status check_nodes(const check *c)
         for (size_t k = 0; k < s->animations[i].channel_count; k++)
             if (s->animations[i].channels[k].node == NONE || !in_range(s->animations[i].channels[k].node, s->node_count))
                 return broken(c, "animation", i, "node");
+    for (size_t i = 0; i < s->solid_count; i++)
+        for (size_t k = 0; k < s->solids[i].node_count; k++)
+            if (!in_range(s->solids[i].nodes[k].mesh, s->mesh_count))
+                return broken(c, "solid", i, "mesh");
     for (size_t i = 0; i < s->material_count; i++)
         if (!in_range(s->materials[i].base_texture.image, s->image_count) ||
             !in_range(s->materials[i].normal_texture.image, s->image_count))
@@ -217,7 +222,18 @@ static void repair_transforms(check *c)
     }
 }
 
-static lmn_status clean_meshes(check *c)
+/* Meshes that solids are made of: they must stay closed. NULL when memory is gone. */
+static bool *find_operand_meshes(const lmn_scene *s)
+{
+    bool *found = mem_calloc(s->mesh_count, sizeof *found);
+    for (size_t i = 0; found && i < s->solid_count; i++)
+        for (size_t k = 0; k < s->solids[i].node_count; k++)
+            if (s->solids[i].nodes[k].mesh != NONE)
+                found[s->solids[i].nodes[k].mesh] = true;
+    return found;
+}
+
+static lmn_status clean_meshes(check *c, const bool *operands)
 {
     for (size_t i = 0; i < c->scene->mesh_count; i++) {
         mesh *m = &c->scene->meshes[i];
@@ -231,7 +247,7 @@ static lmn_status clean_meshes(check *c)
                 m->primitive_count = kept + (m->primitive_count - k);
                 return status;
             }
-            if (!primitive_clean(p, &c->counts)) {
+            if (!primitive_clean(p, operands[i], &c->counts)) {
                 memmove(&m->primitives[kept], p, (m->primitive_count - k) * sizeof *p);
                 m->primitive_count = kept + (m->primitive_count - k);
                 return error_memory(c->error);
@@ -319,7 +335,9 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     if (status != LMN_OK)
         return status;
     repair_transforms(&c);
-    status = clean_meshes(&c);
+    bool *operands = find_operand_meshes(s);
+    status = operands ? clean_meshes(&c, operands) : error_memory(error);
+    mem_free(operands);
     if (status != LMN_OK)
         return status;
     tell(&c);

@@ -26,7 +26,7 @@ typedef struct solid {
     size_t      node_count, node_capacity;
 } solid;
 
-enum { SOLID_OPERANDS_MAX = 32767, SOLID_DEPTH_MAX = 4096 };
+enum { SOLID_OPERANDS_MAX = 16383, SOLID_DEPTH_MAX = 4096 };
 
 /* Appends a solid with its root; NULL when memory is gone. A scene node draws it by its `solid`. */
 solid *scene_append_solid(lmn_scene *scene, solid_kind root);

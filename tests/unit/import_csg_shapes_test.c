@@ -291,9 +291,20 @@ static void walk(const char *folder, each_file use, void *user)
         closedir(d);
 }
 
+/* All leaves of the collection are closed. */
 static void load_one(const char *path, void *user)
 {
     lmn_scene *s = load_or_fail(path);
+    for (size_t i = 0; i < s->mesh_count; i++) {
+        const primitive *p = &s->meshes[i].primitives[0];
+        uint32_t *twins = mesh_adjacency(p), open = 0;
+        for (uint32_t k = 0; k < p->index_count; k++)
+            open += twins[k] == UINT32_MAX;
+        if (open > 0)
+            print_error("%s: mesh %zu of %u triangles has %u open edges\n", path, i, p->index_count / 3, open);
+        assert_int_equal(open, 0);
+        mem_free(twins);
+    }
     ++*(int *)user;
     lmn_scene_destroy(&s);
 }
