@@ -39,7 +39,7 @@ static void set_part_frames(frame *f, const figure_state *s)
     gpu_set_mat4(f->g, "u_world_from_eye", world);
     gpu_set_texture(f->g, "t_part_frames", frames, false);
     int only = 0; /* where there are no ids there is one part */
-    for (size_t i = 0; i < f->plan->scene->part_count; i++)
+    for (size_t i = 0; i < f->up->part_count; i++)
         if (s->figure->designated[i])
             only = (int)i;
     gpu_set_int(f->g, "u_only_part", only);

@@ -26,6 +26,7 @@ typedef struct figure {
 typedef struct plan {
     const lmn_scene *scene;
     const lmn_look  *look;
+    size_t           part_count; /* of the upload: ghosts too when the look asks for them */
     rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t           rule_count;
     bool            *selected; /* per part: drawn by some figure */

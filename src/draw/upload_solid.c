@@ -9,7 +9,9 @@
 #include "scene/solid_form.h"
 
 /* Light grey, sRGB 0.8, as formats without colours have it. */
-static const float plain_grey = 0.6038f;
+static const vec4 plain_grey = {0.6038f, 0.6038f, 0.6038f, 1};
+/* Of what is taken away, where the file says no colour: a warm red, sRGB 0.85 0.26 0.16. */
+static const vec4 removed_red = {0.693f, 0.055f, 0.022f, 1};
 
 /* One solid while it is put together. */
 typedef struct baker {
@@ -209,7 +211,7 @@ static lmn_status add_planes(upload *u, baker *b, uint32_t *plane_count, lmn_err
 }
 
 /* Colours and part of the operands, and the tree. */
-static lmn_status add_program(upload *u, const upload_solid *s, size_t part_index, lmn_error *error)
+static lmn_status add_program(upload *u, const upload_solid *s, size_t part_index, vec4 plain, lmn_error *error)
 {
     size_t first = u->program.operand_count, count = s->count;
     if (first + count > CSG_OPERANDS_MAX)
@@ -218,7 +220,7 @@ static lmn_status add_program(upload *u, const upload_solid *s, size_t part_inde
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
         const solid_operand *o = &s->form.operands[s->used[i]];
-        vec4 c = o->has_colour ? o->colour : (vec4){plain_grey, plain_grey, plain_grey, 1};
+        vec4 c = o->has_colour ? o->colour : plain;
         memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, 0, 0, 0}, sizeof u->operands[0]);
     }
     return LMN_OK;
@@ -371,7 +373,7 @@ static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t pa
             item.world = mat4_multiply(&item.world, &n->instances[k]);
         item.first_operand = (uint32_t)u->program.operand_count;
         item.reach = reach_of(s, &item.world);
-        status = add_program(u, s, part_index, error);
+        status = add_program(u, s, part_index, n->ghost ? removed_red : plain_grey, error);
         u->triangles += b->index_count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);
