@@ -220,7 +220,7 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
     if (status == LMN_OK && p->selected_count == 0) {
         if (!select)
             return error_set(error, LMN_FORMAT, "the scene has no parts to draw");
-        status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", select, p->part_count);
+        status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
         error_hint(error, "`limner info` lists the parts with their names and paths");
     }
     return status;
