@@ -143,11 +143,20 @@ static void find_opaque_parts(plan *p)
             }
 }
 
+static bool has_ghosts_alone(const plan *p, const figure *f)
+{
+    for (size_t i = 0; i < p->part_count; i++)
+        if (f->designated[i] && !p->scene->parts[i].ghost)
+            return false;
+    return true;
+}
+
 static void settle_layers(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
+    f->ghostly = has_ghosts_alone(p, f);
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
     f->channels = channels_of(r, f->part_count > 1 || p->has_cut || has_solid(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))

@@ -20,6 +20,7 @@ typedef struct figure {
     bool        direct;     /* drawn straight onto the page */
     bool        reflects;
     bool        layered;    /* composed layer by layer */
+    bool        ghostly;    /* of ghosts alone */
     int         layer_count; /* layers at most */
 } figure;
 
