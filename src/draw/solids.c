@@ -148,23 +148,21 @@ static void draw_operands(frame *f, const draw_item *item, bool products_done)
 /* Gathers a box's fragments; returns how many times the room is needed. */
 static unsigned gather(frame *f, solid_layers *s, const bool *wanted, const int box[4], unsigned limit)
 {
-    text prelude = {0};
-    gpu_program *p = program_of(f, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude);
     gpu_buffer_fill(f->g, s->heads, 0, (size_t)box[2] * (size_t)box[3] * sizeof(uint32_t));
     gpu_buffer_fill(f->g, s->counter, 0, 64);
     bind_buffers(f, s);
-    if (!p || gpu_failed(f->g))
-        return 1;
     /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
     gpu_pass pass = {.depth = f->page_depth};
     memcpy(pass.scissor, box, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    gpu_use(f->g, p, (gpu_state){.depth_clamp = true});
-    set_list_box(f, box);
-    gpu_set_uint(f->g, "u_node_limit", limit);
     for (size_t i = 0; i < f->up->item_count && !gpu_failed(f->g); i++) {
         if (!wanted[i])
             continue;
+        text prelude = {0};
+        text_append(&prelude, "%s", f->up->items[i].plane_count ? "#define SHARED_PLANES\n" : "");
+        gpu_use(f->g, program_of(f, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude), (gpu_state){.depth_clamp = true});
+        set_list_box(f, box);
+        gpu_set_uint(f->g, "u_node_limit", limit);
         solids_set_operands(f, s, &f->up->items[i]);
         draw_operands(f, &f->up->items[i], s->depth != NULL);
     }

@@ -153,6 +153,7 @@ static bool draw_next(sweep *s)
 {
     frame *f = s->f;
     text prelude = {0};
+    text_append(&prelude, "#define SHARED_PLANES\n");
     gpu_program *p = program_of(f, GPU_FLOOR, "csg/operand.vert", "csg/sweep.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return false;
