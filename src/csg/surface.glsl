@@ -4,7 +4,7 @@
 uniform usampler2D t_surfaces; /* (any), depth, key, normal; all 0 where there is none */
 uniform sampler2D  t_operands; /* two texels each: colour; part, index of a cut face, whether it is one */
 uniform vec2 u_solid_size;     /* of the page */
-uniform vec4 u_highlight;      /* colour instead of the operands', where alpha is not 0 */
+uniform vec4 u_solid_highlight;      /* colour instead of the operands', where alpha is not 0 */
 
 vec3 v_eye;
 vec3 v_normal;
@@ -25,7 +25,7 @@ bool fetch_surface(uint part)
     vec4 facts = texelFetch(t_operands, place + ivec2(1, 0), 0);
     if (uint(facts.x) != part)
         return false;
-    surface_albedo = u_highlight.a > 0.0 ? u_highlight : texelFetch(t_operands, place, 0);
+    surface_albedo = u_solid_highlight.a > 0.0 ? u_solid_highlight : texelFetch(t_operands, place, 0);
     surface_is_cut = facts.z > 0.5;
     surface_operand = surface_is_cut ? SURFACE_CUT | uint(facts.y) : SURFACE_OPERAND | (surface.z >> 16 & 0x3FFFu);
     float depth = eye_depth_of(surface.y);

@@ -326,7 +326,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     float highlight[4] = {0, 0, 0, 0};
     if (s->figure->highlight)
         uniforms_linear(*s->figure->highlight, highlight);
-    gpu_set_vec4(f->g, "u_highlight", highlight);
+    gpu_set_vec4(f->g, "u_solid_highlight", highlight);
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);
     set_ids(f, job, s, item, 0);
