@@ -330,14 +330,13 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, const solid_wish
     if (all_convex || gpu_failed(f->g))
         return;
     w = watch_start(f);
-    /* Around the eye only lists know what it is in. */
-    bool swept = (!lists || (wishes->evaluation == EVALUATION_PRODUCTS && !inside)) && solids_sweep(f, s, wanted, wishes->layers);
+    bool swept = (!lists || wishes->evaluation == EVALUATION_PRODUCTS) && solids_sweep(f, s, wanted, inside, wishes->layers);
     if (swept)
         watch_stop(f, w, "solids", "sweep");
     else if (lists)
         open_lists(f, s, wanted, inside);
     else
-        gpu_fail(f->g, LMN_UNSUPPORTED, "solids of this many operands need OpenGL 4.3");
+        gpu_fail(f->g, LMN_UNSUPPORTED, "solids of more than 256 operands, or of a normal form of more than 4096 products, need OpenGL 4.3");
 }
 
 void solids_select(frame *f, solid_layers *s, int index)
