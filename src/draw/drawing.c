@@ -36,16 +36,20 @@ void renderer_destroy(lmn_renderer **renderer)
     *renderer = NULL;
 }
 
-/* The parts that a selector matches; NULL text or an empty one: `otherwise`. */
+/* The parts that a selector matches; NULL text or an empty one: `otherwise`. Ghosts go with their parts. */
 static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *text, bool otherwise, lmn_error *error)
 {
     selector *wanted = NULL;
     lmn_status status = text && text[0] ? selector_parse(&wanted, text, error) : LMN_OK;
-    *out = status == LMN_OK ? mem_calloc(scene->part_count, sizeof **out) : NULL;
+    *out = status == LMN_OK ? mem_calloc(scene->part_count + scene->ghost_count, sizeof **out) : NULL;
     if (status == LMN_OK && !*out)
         status = error_memory(error);
     for (size_t i = 0; i < scene->part_count && *out; i++)
         (*out)[i] = wanted ? selector_matches(wanted, scene, i) : otherwise;
+    for (size_t i = scene->part_count; i < scene->part_count + scene->ghost_count && *out; i++) {
+        size_t owner = scene_part_of_ghost(scene, i);
+        (*out)[i] = (wanted && selector_matches(wanted, scene, i)) || (owner != SIZE_MAX && (*out)[owner]);
+    }
     selector_destroy(&wanted);
     return status;
 }
@@ -95,7 +99,7 @@ static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn
     lmn_status status = find_section(&section, scene, look, desc, error);
     bool removed = scene->ghost_count > 0 && asks_for_removed(look);
     bool there = r->up_valid && r->up.has_removed == removed && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease;
-    if (status != LMN_OK || (there && same_section(&r->up.section, &section, scene->part_count))) {
+    if (status != LMN_OK || (there && same_section(&r->up.section, &section, scene->part_count + scene->ghost_count))) {
         mem_free(section.spared);
         return status;
     }
@@ -230,7 +234,7 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     if (up->open_parts)
         warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", up->open_parts,
                      scene->part_count);
-    for (size_t i = 0; up->section.spared && i < scene->part_count; i++)
+    for (size_t i = 0; up->section.spared && i < up->part_count; i++)
         spares = spares || up->section.spared[i];
     if (up->section.spared && v->cut_keep.text[0] && !spares)
         warnings_add(&d->warnings, WARNING_NO_MATCH, "scene.cut_keep '%s' selects no part", v->cut_keep.text);

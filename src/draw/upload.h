@@ -12,6 +12,7 @@
 typedef struct upload_solid {
     solid_form   form;
     int32_t     *used;        /* per operand: its number in the form */
+    uint32_t    *cut_bits;    /* per operand of the form: bits of a cut face's surface id, 0: none */
     size_t       count;
     uint32_t   (*runs)[2];    /* per operand: its indices in the mesh, first and count */
     box3        *boxes;       /* per operand: solid's axes */
@@ -19,6 +20,7 @@ typedef struct upload_solid {
     bool        *in_products; /* per operand: belongs to a branch of the tree that is given by products of convex operands */
     product_list products;    /* of those branches; of operands as they are numbered here */
     bool        *meets;       /* per operand: is taken away from where another one is taken away too */
+    bool         ghost;       /* what another one takes away */
     bool         all_convex;  /* there is nothing but these products */
     product_list rest;        /* of the other branches */
 } upload_solid;
@@ -68,7 +70,7 @@ typedef struct upload {
     csg_program   program;     /* of all solids */
     csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
     size_t        plane_count, plane_capacity;
-    float       (*operands)[8]; /* per operand: linear colour, part, 0, 0, 0 */
+    float       (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
     gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */
