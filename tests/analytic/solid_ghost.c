@@ -333,9 +333,38 @@ static void selected(void)
     shot_release(&alone);
 }
 
+/* Sections cut it with its part; where that stays whole, so does it. */
+static void cut_with_its_part(void)
+{
+    static const char *const cut[] = {"scene.cut", "x", NULL}, *const kept[] = {"scene.cut", "x", "scene.cut_keep", "pierced", NULL};
+    shot whole, other;
+    shot_view view = {.width = 160, .height = 160, .eye = {6, 3, 4}, .up = {0, 0, 1}, .without_maps = true};
+    if (!pierced(&whole, "ghost", NULL, 1.5, 0.3) || !shot_take(&other, check_path("pierced.csg"), "ghost", kept, &view))
+        return;
+    shot_release(&whole);
+    if (!shot_take(&whole, check_path("pierced.csg"), "ghost", NULL, &view))
+        return;
+    check_at_most("C9", shot_differing(&whole, &other, 0), 0, "its part stays whole: values that differ");
+    shot_release(&whole);
+    shot_release(&other);
+    if (!shot_take(&whole, check_path("pierced.csg"), "edges", cut, &view) || !shot_take(&other, check_path("pierced.csg"), "ghost", cut, &view))
+        return;
+    /* The hole is open to the viewer, and of the hatched face beside it nothing changes. */
+    int red = 0, face = 0;
+    for (int i = 0; i < view.width * view.height; i++) {
+        const uint8_t *a = &whole.picture[4 * i], *b = &other.picture[4 * i];
+        red += b[0] > b[1] + 20;
+        face += a[0] < 200 && memcmp(a, b, 4) == 0;
+    }
+    check_at_least("C9", red, 500, "cut: pixels that are tinted");
+    check_at_least("C9", face, 1500, "  pixels of the solid that are not");
+    shot_release(&whole);
+    shot_release(&other);
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"seen", seen_in_front}, {"fitted", fitted_to_the_solid}, {"turns", in_turn}, {"selected", selected}};
+    static const check_case cases[] = {{"seen", seen_in_front}, {"fitted", fitted_to_the_solid}, {"turns", in_turn}, {"selected", selected}, {"cut", cut_with_its_part}};
     int status = check_main(argc, argv, "solid_ghost", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
