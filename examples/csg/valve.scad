@@ -1,9 +1,12 @@
 // The body of a ball valve: a cast ball with two pipe flanges and a neck for the stem, ribs between them, and all that a lathe and a
-// drill take away from it. What is machined has a colour of its own.
+// drill take away from it. What is machined has a colour of its own. With section = true a quarter is cut away.
 $fn = 96;
+
+section = false;
 
 iron  = [0.50, 0.58, 0.64];
 steel = [0.90, 0.70, 0.38];
+red   = [0.80, 0.32, 0.28];
 
 length    = 160;   // from flange to flange
 pipe      = 22;    // outer radius
@@ -31,7 +34,8 @@ module neck_casting() {
 // A plate from the neck's flange down to the pipe's hub.
 module rib() {
     rotate([90, 0, 0]) linear_extrude(height = 7, center = true)
-        polygon([[neck - 6, 10], [length / 2 - thickness - 2, pipe + 3], [length / 2 - thickness - 2, pipe + 6], [neck + 10, height - 12], [neck - 6, height - 12]]);
+        polygon([[neck - 6, 10], [length / 2 - thickness + 1, pipe - 2], [length / 2 - thickness + 1, pipe + 10], [neck + 11, height - 10],
+            [neck - 6, height - 10]]);
 }
 
 module casting() {
@@ -57,14 +61,14 @@ module inside() {
         sphere(r = 31);
         cube([44, 80, 80], center = true);
     }
-    along_x() cylinder(h = 60, r = 21, center = true);
+    along_x() cylinder(h = 54, r = 18, center = true);
     // The way of the stem, with two shoulders for its packing.
     cylinder(h = height + 1, r = 9);
     translate([0, 0, height - 26]) cylinder(h = 30, r = 14);
     translate([0, 0, height - 5]) cylinder(h = 10, r = 26);
     // The drain: drilled, with the point that a drill leaves.
-    translate([0, 0, -foot - 1]) cylinder(h = 12, r = 7);
-    translate([0, 0, -foot + 11]) cylinder(h = 4, r1 = 7, r2 = 0);
+    translate([0, 0, -foot - 1]) cylinder(h = 9, r = 7);
+    translate([0, 0, -foot + 8]) cylinder(h = 3.5, r1 = 7, r2 = 0);
     translate([0, 0, -foot - 1]) cylinder(h = 22, r = 3);
 }
 
@@ -83,4 +87,5 @@ difference() {
         inside();
         holes();
     }
+    if (section) color(red) translate([0, -100, 0]) cube([100, 100, 100]);
 }
