@@ -31,6 +31,7 @@ static const struct {
     {"layers", "shading", "both ways give the same picture"},
     {"layers", "producer", "both ways give the same layers"},
     {"layers", "memory", "less memory gives the same layers"},
+    {"layers", "evaluation", "all ways give the same surfaces"},
     {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
     {"lines", "taps", "both forms are the same sums"},
