@@ -12,6 +12,7 @@
 typedef struct upload_solid {
     solid_form   form;
     int32_t     *used;        /* per operand: its number in the form */
+    uint32_t    *cut_bits;    /* per operand of the form: bits of a cut face's surface id, 0: none */
     size_t       count;
     uint32_t   (*runs)[2];    /* per operand: its indices in the mesh, first and count */
     box3        *boxes;       /* per operand: solid's axes */
@@ -67,7 +68,7 @@ typedef struct upload {
     csg_program   program;     /* of all solids */
     csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
     size_t        plane_count, plane_capacity;
-    float       (*operands)[8]; /* per operand: linear colour, part, 0, 0, 0 */
+    float       (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
     gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */
