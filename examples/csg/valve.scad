@@ -1,12 +1,9 @@
 // The body of a ball valve: a cast ball with two pipe flanges and a neck for the stem, ribs between them, and all that a lathe and a
-// drill take away from it. What is machined has a colour of its own. With section = true a quarter is cut away.
+// drill take away from it. What is machined has a colour of its own.
 $fn = 96;
-
-section = false;
 
 iron  = [0.50, 0.58, 0.64];
 steel = [0.90, 0.70, 0.38];
-red   = [0.80, 0.32, 0.28];
 
 length    = 160;   // from flange to flange
 pipe      = 22;    // outer radius
@@ -87,5 +84,4 @@ difference() {
         inside();
         holes();
     }
-    if (section) color(red) translate([0, -100, 0]) cube([100, 100, 100]);
 }
