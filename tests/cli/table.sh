@@ -368,7 +368,7 @@ group_solids() {
     # Several files are one scene, solids among meshes.
     row 0 '' 'x.png' draw "$widget" "$gear" $small -o x.png
     row 0 '' '' info "$examples/csg/spanner.csg"; out 'solid: [0-9]+ operands'; out '^ +difference +\(line [0-9]+\)$'
-    row 0 '' '' bench "$widget" $small --look edges --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
+    row 0 '' '' bench "$widget" $small --look edges --repeat 2 --view top --ortho; out '^edges +[0-9.]+ +[0-9.]+'
     # Mistakes are told with line and column, what is left out with its line.
     printf 'group() {\n cube(size = 1;\n}' > in-wrong.csg
     row 2 '^limner: in-wrong.csg:2:15: expected' '' draw in-wrong.csg $small
