@@ -78,7 +78,7 @@ lmn_scene_info lmn_scene_info_of(const lmn_scene *scene)
         return info;
     info.parts = scene->part_count;
     info.nodes = scene->node_count;
-    info.meshes = scene->mesh_count;
+    info.meshes = scene->mesh_count - scene->spare_meshes;
     info.materials = scene->material_count;
     info.textures = scene->image_count;
     info.cameras = scene->camera_count;

@@ -367,7 +367,7 @@ lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t p
     memset(s, 0, sizeof *s);
     baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count, sizeof *b.cache),
                .convex = mem_calloc(scene->mesh_count, sizeof *b.convex)};
-    lmn_status status = solid_form_create(&s->form, scene, &scene->solids[scene->nodes[scene->parts[part_index].node].solid], true, error);
+    lmn_status status = solid_form_create(&s->form, &scene->solids[scene->nodes[scene->parts[part_index].node].solid], true, error);
     int32_t *used = mem_alloc((s->form.operand_count + 1) * sizeof *used);
     if (status == LMN_OK && (!b.cache || !b.convex || !used))
         status = error_memory(error);

@@ -341,6 +341,11 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     if (status != LMN_OK)
         return status;
     tell(&c);
+    for (size_t i = 0; i < s->solid_count; i++) {
+        if (!solid_measure(s, &s->solids[i]))
+            return error_memory(error);
+        s->solids[i].revision = scene_next_revision();
+    }
     part *parts;
     size_t count;
     if (!parts_list(s, NULL, 0, NULL, &parts, &count))

@@ -68,8 +68,7 @@ static void shift_references(lmn_scene *s, const offsets *by)
         s->parts[i].node += by->nodes;
 }
 
-/* Brings the up axis `from` to `to`: a quarter turn about x, with exact zeros so that boxes stay boxes. */
-static mat4 up_rotation(char from, char to)
+mat4 scene_up_rotation(char from, char to)
 {
     mat4 m = mat4_identity();
     if (from == to)
@@ -178,7 +177,7 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     lmn_status status = check_room(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4 place = up_rotation(from->up, into->up ? into->up : from->up);
+    mat4 place = scene_up_rotation(from->up, into->up ? into->up : from->up);
     char *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part *parts = NULL, *grown = NULL;
     size_t part_count = 0;

@@ -30,7 +30,10 @@ void parts_release(part *parts, size_t count)
 
 lmn_scene *scene_new(void)
 {
-    return mem_calloc(1, sizeof(lmn_scene));
+    lmn_scene *scene = mem_calloc(1, sizeof *scene);
+    if (scene)
+        scene->identity = scene_next_revision();
+    return scene;
 }
 
 /* Makes room for one more zeroed element and counts it. */

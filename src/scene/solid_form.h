@@ -27,7 +27,7 @@ typedef struct solid_form {
 } solid_form;
 
 /* Errors: LMN_MEMORY. Without `prune` only what is empty by itself is left out. */
-lmn_status solid_form_create(solid_form *out, const lmn_scene *scene, const solid *s, bool prune, lmn_error *error);
+lmn_status solid_form_create(solid_form *out, const solid *s, bool prune, lmn_error *error);
 void       solid_form_release(solid_form *f);
 /* The operands that are left, in order; `out` has room for operand_count. Returns how many. */
 size_t     solid_form_used(const solid_form *f, int32_t *out);

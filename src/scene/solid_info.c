@@ -77,7 +77,7 @@ json_t *solid_info_json(const lmn_scene *scene, const solid *s, json_t *bounds)
         depth = levels && levels[i] > depth ? levels[i] : depth;
     }
     json_t *out = json_pack("{s:I,s:I,s:I,s:{s:I,s:I,s:I},s:o}", "operands", counts[SOLID_OPERAND], "triangles",
-                            (json_int_t)solid_triangle_count(scene, s), "depth", (json_int_t)depth, "operations", "union",
+                            (json_int_t)s->triangles, "depth", (json_int_t)depth, "operations", "union",
                             counts[SOLID_UNION], "intersection", counts[SOLID_INTERSECTION], "difference", counts[SOLID_DIFFERENCE],
                             "bounds", bounds);
     if (out && shown)
