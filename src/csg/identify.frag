@@ -15,6 +15,9 @@ void main()
 #ifdef SHARED_PLANES
     depth = gl_FragDepth = window_depth();
 #endif
+    /* 1 says that nothing is there, and what lies behind the far plane is drawn at it. */
+    if (depth >= 1.0)
+        discard;
 #ifdef AMONG_OTHERS
     if (depth >= texelFetch(t_before, ivec2(gl_FragCoord.xy), 0).r)
         discard;

@@ -141,8 +141,13 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 
 /* --- solids.c: evaluation of solids --- */
-/* Finds the surfaces of the solids among the wanted items (one a draw item), only the nearest or all. Errors stick to the GPU. */
-void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only);
+typedef struct solid_wishes {
+    int32_t evaluation; /* layer_evaluation */
+    int     layers;     /* at most */
+    bool    first_only; /* opaque: what lies behind the nearest is not asked for */
+} solid_wishes;
+/* Finds the surfaces of the solids among the wanted items (one a draw item). Errors stick to the GPU. */
+void solids_open(frame *f, solid_layers *s, const bool *wanted, const solid_wishes *wishes);
 /* Makes layer `index` current; layers are asked for in order, from any number to the next or from 0. */
 void solids_select(frame *f, solid_layers *s, int index);
 void solids_release(frame *f, solid_layers *s);
@@ -150,6 +155,10 @@ void solids_release(frame *f, solid_layers *s);
 void solids_set_depth(frame *f, const solid_layers *s);
 /* Uniforms of csg/operand.vert and csg/operand.glsl for one item. */
 void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item);
+
+/* --- solids_sweep.c: any solids on any GL --- */
+/* The nearest surfaces, among those of convex products where there are any, or all layers at once. False when the normal form is too large. */
+bool solids_sweep(frame *f, solid_layers *s, const bool *wanted, int layers);
 
 /* --- solids_convex.c: products of convex operands --- */
 /* Is there anything of that kind, and is it all? */

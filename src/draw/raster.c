@@ -352,6 +352,22 @@ static bool *solids_wanted(frame *f, const raster_job *job)
     return wanted;
 }
 
+/* How the figure wants its solids evaluated; of several figures the first that says so decides. */
+static int32_t evaluation_of(const raster_job *job)
+{
+    int count = job->state ? 1 : job->stack->count;
+    int32_t evaluation = EVALUATION_AUTO;
+    for (int i = 0; i < count && evaluation == EVALUATION_AUTO; i++) {
+        const figure_state *s = job->state ? job->state : &job->stack->states[i];
+        const technique_use *layers = rule_use(s->figure->rule, KIND_LAYERS);
+        if (layers && layers->technique == &layers_front)
+            evaluation = ((const front_values *)layers->values)->evaluation;
+        else if (layers && layers->technique == &layers_peel)
+            evaluation = ((const peel_values *)layers->values)->evaluation;
+    }
+    return evaluation;
+}
+
 /* Layer after layer; in front of what follows them only the nearest is needed. */
 static void draw_solids(frame *f, const gpu_pass *pass, const raster_job *job, const bool *wanted)
 {
@@ -380,7 +396,7 @@ static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
     const upload *up = f->up;
     bool *wanted = solids_wanted(f, job);
     if (wanted)
-        solids_open(f, job->solids, wanted, !job->stack);
+        solids_open(f, job->solids, wanted, &(solid_wishes){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});
     if (gpu_failed(f->g)) {
         mem_free(wanted);
         return;

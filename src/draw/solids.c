@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layer/layer.h"
 
 enum { KEPT = 8, NODE_BYTES = 16, PLANES_A_ROW = 256, BANDS_MAX = 4096 };
 
@@ -269,14 +270,18 @@ static void evaluate(frame *f, solid_layers *s, const bool *wanted, bool inside,
     int rows = s->box[3];
     for (int row = 0; row < s->box[3] && !gpu_failed(f->g);) {
         int left = s->box[3] - row, band[4] = {s->box[0], s->box[1] + row, s->box[2], rows < left ? rows : left};
+        stopwatch w = watch_start(f);
         unsigned times = gather(f, s, wanted, band, limit);
+        watch_stop(f, w, "solids", "gather");
         if (times > 1 && band[3] > 1) {
             rows = band[3] / (int)(times < (unsigned)band[3] ? times : (unsigned)band[3]);
             continue;
         }
         if (times > 1)
             gpu_fail(f->g, LMN_LIMIT, "a row of the picture has more surfaces of operands than fit into the driver's storage block");
+        w = watch_start(f);
         resolve(f, s, band, inside);
+        watch_stop(f, w, "solids", "resolve");
         bool whole = band[3] == s->box[3];
         if (!s->first_only && !gpu_failed(f->g)) {
             int count = layers_of_band(f, s);
@@ -289,44 +294,52 @@ static void evaluate(frame *f, solid_layers *s, const bool *wanted, bool inside,
     }
 }
 
-void solids_open(frame *f, solid_layers *s, const bool *wanted, bool first_only)
+/* By lists; errors stick to the GPU. */
+static void open_lists(frame *f, solid_layers *s, const bool *wanted, bool inside)
 {
-    if (s->ready || gpu_failed(f->g))
-        return;
-    s->ready = true;
-    s->first_only = first_only;
-    s->near = f->camera.near;
-    bool inside = find_box(f, wanted, s->box);
-    if (s->box[2] <= 0)
-        return;
-    open_planes(f, s, wanted);
-    s->nearest = s->surfaces = blank_picture(f);
-    s->count = first_only ? 1 : 0;
-    bool all_convex = false;
-    if (first_only && !inside && solids_have_convex(f, wanted, &all_convex) && !gpu_failed(f->g)) {
-        stopwatch w = watch_start(f);
-        s->depth = solids_draw_convex(f, s, wanted);
-        watch_stop(f, w, "solids", "products");
-        if (all_convex)
-            return;
-    }
-    if (!gpu_facts_of(f->g)->lists) {
-        gpu_fail(f->g, LMN_UNSUPPORTED, "solids need OpenGL 4.3");
-        return;
-    }
-    stopwatch w = watch_start(f);
-    size_t block = (size_t)gpu_facts_of(f->g)->max_storage_mib << 20, pixels = (size_t)s->box[2] * (size_t)s->box[3];
     enum { ROOM = 128 << 20 };
+    size_t block = (size_t)gpu_facts_of(f->g)->max_storage_mib << 20, pixels = (size_t)s->box[2] * (size_t)s->box[3];
     size_t room = block < ROOM ? block : ROOM;
     unsigned limit = (unsigned)(room / NODE_BYTES);
     s->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
     s->nodes = gpu_buffer_acquire(f->g, room);
     s->counter = gpu_buffer_acquire(f->g, 64);
-    if (!first_only)
+    if (!s->first_only)
         s->chain = gpu_buffer_acquire(f->g, limit * sizeof(uint32_t));
     if (!gpu_failed(f->g))
         evaluate(f, s, wanted, inside, limit);
-    watch_stop(f, w, "solids", "lists");
+}
+
+void solids_open(frame *f, solid_layers *s, const bool *wanted, const solid_wishes *wishes)
+{
+    if (s->ready || gpu_failed(f->g))
+        return;
+    s->ready = true;
+    s->first_only = wishes->first_only;
+    s->near = f->camera.near;
+    bool inside = find_box(f, wanted, s->box), all_convex = false, lists = lists_possible(f);
+    if (s->box[2] <= 0)
+        return;
+    open_planes(f, s, wanted);
+    s->nearest = s->surfaces = blank_picture(f);
+    s->count = s->first_only ? 1 : 0;
+    bool convex = s->first_only && !inside && wishes->evaluation != EVALUATION_LISTS && solids_have_convex(f, wanted, &all_convex);
+    stopwatch w = watch_start(f);
+    if (convex && !gpu_failed(f->g))
+        s->depth = solids_draw_convex(f, s, wanted);
+    if (convex)
+        watch_stop(f, w, "solids", "products");
+    if (all_convex || gpu_failed(f->g))
+        return;
+    w = watch_start(f);
+    /* Around the eye only lists know what it is in. */
+    bool swept = (!lists || (wishes->evaluation == EVALUATION_PRODUCTS && !inside)) && solids_sweep(f, s, wanted, wishes->layers);
+    if (swept)
+        watch_stop(f, w, "solids", "sweep");
+    else if (lists)
+        open_lists(f, s, wanted, inside);
+    else
+        gpu_fail(f->g, LMN_UNSUPPORTED, "solids of this many operands need OpenGL 4.3");
 }
 
 void solids_select(frame *f, solid_layers *s, int index)

@@ -11,6 +11,7 @@
 /* A solid ready to be drawn. Operands are numbered from 0 on in the order of the tree, those alone that pruning left. */
 typedef struct upload_solid {
     solid_form   form;
+    int32_t     *used;        /* per operand: its number in the form */
     size_t       count;
     uint32_t   (*runs)[2];    /* per operand: its indices in the mesh, first and count */
     box3        *boxes;       /* per operand: solid's axes */
@@ -19,6 +20,7 @@ typedef struct upload_solid {
     product_list products;    /* of those branches; of operands as they are numbered here */
     bool        *meets;       /* per operand: is taken away from where another one is taken away too */
     bool         all_convex;  /* there is nothing but these products */
+    product_list rest;        /* of the other branches */
 } upload_solid;
 
 /* One draw call: a primitive of a part at one place. */

@@ -17,6 +17,7 @@ typedef struct baker {
     double           crease_angle;
     render_vertices **cache; /* per mesh and primitive, made when first needed */
     signed char     *convex; /* per mesh: 1 yes, −1 no, 0 not asked yet */
+    bool             has_lists;
     vec3            *positions, *normals;
     uint32_t        *keys, *indices, *owners;
     size_t           vertex_count, vertex_capacity, normal_capacity, index_count, index_capacity, owner_capacity;
@@ -208,42 +209,19 @@ static lmn_status add_planes(upload *u, baker *b, uint32_t *plane_count, lmn_err
 }
 
 /* Colours and part of the operands, and the tree. */
-static lmn_status add_program(upload *u, const solid_form *form, const int32_t *used, size_t count, size_t part_index, lmn_error *error)
+static lmn_status add_program(upload *u, const upload_solid *s, size_t part_index, lmn_error *error)
 {
-    size_t first = u->program.operand_count;
+    size_t first = u->program.operand_count, count = s->count;
     if (first + count > CSG_OPERANDS_MAX)
         return error_set(error, LMN_LIMIT, "the solids of the scene have more than %d operands in all", CSG_OPERANDS_MAX);
-    if (!csg_program_add(&u->program, form) || !mem_grow((void **)&u->operands, &u->operand_capacity, first + count, sizeof *u->operands))
+    if (!csg_program_add(&u->program, &s->form) || !mem_grow((void **)&u->operands, &u->operand_capacity, first + count, sizeof *u->operands))
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
-        const solid_operand *o = &form->operands[used[i]];
+        const solid_operand *o = &s->form.operands[s->used[i]];
         vec4 c = o->has_colour ? o->colour : (vec4){plain_grey, plain_grey, plain_grey, 1};
         memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, 0, 0, 0}, sizeof u->operands[0]);
     }
     return LMN_OK;
-}
-
-/* Products of one branch, when all its operands are convex; false leaves the branch to other evaluation. `numbers`: from the form's operands to
- * the solid's. */
-static bool take_branch(upload_solid *s, baker *b, int32_t term_index, const int32_t *numbers, lmn_error *error)
-{
-    product_list own;
-    bool convex = solid_products_create(&own, &s->form, term_index, true, error) == LMN_OK && !own.too_many;
-    for (size_t i = 0; i < own.count && convex; i++)
-        for (size_t k = 0; k < own.items[i].count && convex; k++)
-            convex = is_convex(b, s->form.operands[own.items[i].operands[k]].mesh);
-    convex = convex && mem_grow((void **)&s->products.items, &s->products.capacity, s->products.count + own.count, sizeof *own.items);
-    for (size_t i = 0; i < own.count && convex; i++) {
-        product p = own.items[i];
-        for (size_t k = 0; k < p.count; k++) {
-            p.operands[k] = numbers[p.operands[k]];
-            s->in_products[p.operands[k]] = true;
-        }
-        s->products.items[s->products.count++] = p;
-        own.items[i] = (product){.operands = NULL};
-    }
-    solid_products_release(&own);
-    return convex;
 }
 
 static bool boxes_touch(box3 a, box3 b)
@@ -251,42 +229,86 @@ static bool boxes_touch(box3 a, box3 b)
     return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
 }
 
-static void find_meetings(upload_solid *s)
+/* Marks what is taken away from where something else is taken away too. Returns how many there are. */
+static size_t find_meetings(upload_solid *s, const product *p)
 {
-    for (size_t i = 0; i < s->products.count; i++) {
-        const product *p = &s->products.items[i];
-        for (size_t a = p->kept; a < p->count; a++)
-            for (size_t b = a + 1; b < p->count; b++)
-                if (boxes_touch(s->boxes[p->operands[a]], s->boxes[p->operands[b]]))
-                    s->meets[p->operands[a]] = s->meets[p->operands[b]] = true;
+    size_t count = 0;
+    for (size_t a = p->kept; a < p->count; a++)
+        for (size_t b = p->kept; b < p->count && !s->meets[p->operands[a]]; b++)
+            s->meets[p->operands[a]] = a != b && boxes_touch(s->boxes[p->operands[a]], s->boxes[p->operands[b]]);
+    for (size_t a = p->kept; a < p->count; a++)
+        count += s->meets[p->operands[a]];
+    return count;
+}
+
+/* Convex operands alone, and few that have to be taken away again and again: beyond, lists are faster where there are any. */
+static bool suits(upload_solid *s, baker *b, const product_list *own)
+{
+    enum { MEETINGS_MAX = 64 };
+    for (size_t i = 0; i < own->count; i++) {
+        product *p = &own->items[i];
+        for (size_t k = 0; k < p->count; k++) {
+            if (!is_convex(b, s->form.operands[s->used[p->operands[k]]].mesh))
+                return false;
+        }
+        if (find_meetings(s, p) > MEETINGS_MAX && b->has_lists)
+            return false;
     }
+    return true;
+}
+
+/* Sorts the products of one branch: where they suit, or among the rest. `numbers`: from the form's operands to the
+ * solid's. */
+static lmn_status take_branch(upload_solid *s, baker *b, int32_t term_index, const int32_t *numbers, lmn_error *error)
+{
+    product_list own;
+    lmn_status status = solid_products_create(&own, &s->form, term_index, true, error);
+    for (size_t i = 0; i < own.count; i++)
+        for (size_t k = 0; k < own.items[i].count; k++)
+            own.items[i].operands[k] = numbers[own.items[i].operands[k]];
+    bool convex = !own.too_many && suits(s, b, &own);
+    product_list *into = convex ? &s->products : &s->rest;
+    s->rest.too_many = s->rest.too_many || own.too_many;
+    if (status == LMN_OK && !mem_grow((void **)&into->items, &into->capacity, into->count + own.count, sizeof *own.items))
+        status = error_memory(error);
+    for (size_t i = 0; i < own.count && status == LMN_OK; i++) {
+        for (size_t k = 0; k < own.items[i].count; k++)
+            s->in_products[own.items[i].operands[k]] = convex;
+        into->items[into->count++] = own.items[i];
+        own.items[i] = (product){.operands = NULL};
+    }
+    solid_products_release(&own);
+    s->all_convex = s->all_convex && convex;
+    return status;
 }
 
 /* Which branches of the tree's union are given by products of convex operands. */
-static lmn_status find_products(upload_solid *s, baker *b, const int32_t *used, lmn_error *error)
+static lmn_status find_products(upload_solid *s, baker *b, lmn_error *error)
 {
     int32_t *numbers = mem_alloc((s->form.operand_count + 1) * sizeof *numbers);
     if (!numbers)
         return error_memory(error);
     for (size_t i = 0; i < s->count; i++)
-        numbers[used[i]] = (int32_t)i;
+        numbers[s->used[i]] = (int32_t)i;
     const term *root = &s->form.terms[s->form.root];
+    lmn_status status = LMN_OK;
     s->all_convex = true;
     if (root->kind != TERM_OR) {
-        s->all_convex = take_branch(s, b, s->form.root, numbers, error);
+        status = take_branch(s, b, s->form.root, numbers, error);
     } else {
-        for (int32_t c = root->first; c != NONE; c = s->form.terms[c].next)
-            s->all_convex = take_branch(s, b, c, numbers, error) && s->all_convex;
+        for (int32_t c = root->first; c != NONE && status == LMN_OK; c = s->form.terms[c].next)
+            status = take_branch(s, b, c, numbers, error);
     }
-    find_meetings(s);
     mem_free(numbers);
-    return LMN_OK;
+    return status;
 }
 
 static void solid_release_upload(upload_solid *s)
 {
     solid_form_release(&s->form);
     solid_products_release(&s->products);
+    solid_products_release(&s->rest);
+    mem_free(s->used);
     mem_free(s->runs);
     mem_free(s->boxes);
     mem_free(s->taken_away);
@@ -302,7 +324,7 @@ void upload_solids_release(upload *u)
 }
 
 /* The operands' triangles, and what is known of each. */
-static lmn_status bake(upload_solid *s, baker *b, const int32_t *used, lmn_error *error)
+static lmn_status bake(upload_solid *s, baker *b, lmn_error *error)
 {
     csg_program program = {.operands = NULL};
     size_t room = s->count ? s->count : 1;
@@ -315,9 +337,9 @@ static lmn_status bake(upload_solid *s, baker *b, const int32_t *used, lmn_error
     lmn_status status = good ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < s->count && status == LMN_OK; i++) {
         s->runs[i][0] = (uint32_t)b->index_count;
-        s->boxes[i] = s->form.operands[used[i]].box;
+        s->boxes[i] = s->form.operands[s->used[i]].box;
         s->taken_away[i] = program.taken_away[i];
-        status = bake_operand(b, &s->form.operands[used[i]], (uint32_t)i + 1, program.taken_away[i], error);
+        status = bake_operand(b, &s->form.operands[s->used[i]], (uint32_t)i + 1, program.taken_away[i], error);
         s->runs[i][1] = (uint32_t)b->index_count - s->runs[i][0];
     }
     csg_program_release(&program);
@@ -332,8 +354,7 @@ static box3 reach_of(const upload_solid *s, const mat4 *world)
     return reach;
 }
 
-static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, size_t solid_index, const int32_t *used, baker *b,
-                            lmn_error *error)
+static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, size_t solid_index, baker *b, lmn_error *error)
 {
     const node *n = &scene->nodes[scene->parts[part_index].node];
     upload_solid *s = &u->solids[solid_index];
@@ -350,7 +371,7 @@ static lmn_status add_items(upload *u, gpu *g, const lmn_scene *scene, size_t pa
             item.world = mat4_multiply(&item.world, &n->instances[k]);
         item.first_operand = (uint32_t)u->program.operand_count;
         item.reach = reach_of(s, &item.world);
-        status = add_program(u, &s->form, used, s->count, part_index, error);
+        status = add_program(u, s, part_index, error);
         u->triangles += b->index_count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);
@@ -366,21 +387,20 @@ lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t p
     size_t index = u->solid_count++;
     memset(s, 0, sizeof *s);
     baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count, sizeof *b.cache),
-               .convex = mem_calloc(scene->mesh_count, sizeof *b.convex)};
+               .convex = mem_calloc(scene->mesh_count, sizeof *b.convex), .has_lists = gpu_facts_of(g)->lists};
     lmn_status status = solid_form_create(&s->form, &scene->solids[scene->nodes[scene->parts[part_index].node].solid], true, error);
-    int32_t *used = mem_alloc((s->form.operand_count + 1) * sizeof *used);
-    if (status == LMN_OK && (!b.cache || !b.convex || !used))
+    s->used = mem_alloc((s->form.operand_count + 1) * sizeof *s->used);
+    if (status == LMN_OK && (!b.cache || !b.convex || !s->used))
         status = error_memory(error);
     if (status == LMN_OK) {
-        s->count = solid_form_used(&s->form, used);
-        status = bake(s, &b, used, error);
+        s->count = solid_form_used(&s->form, s->used);
+        status = bake(s, &b, error);
     }
     if (status == LMN_OK && b.index_count) {
-        status = find_products(s, &b, used, error);
+        status = find_products(s, &b, error);
         if (status == LMN_OK)
-            status = add_items(u, g, scene, part_index, index, used, &b, error);
+            status = add_items(u, g, scene, part_index, index, &b, error);
     }
-    mem_free(used);
     baker_release(&b);
     return status;
 }

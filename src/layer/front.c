@@ -8,6 +8,9 @@ static const param params[] = {
                    .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they meet this rule's parts."),
     PARAM_ENUM_ROW(front_values, shading, .names = shading_names, .cpu_only = true,
                    .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless the surface technique needs its geometry."),
+    PARAM_ENUM_ROW(front_values, evaluation, .names = layer_evaluations, .cpu_only = true,
+                   .doc = "Solids: lists sort every fragment of their operands, needs OpenGL 4.3; products work with their normal form, a union of "
+                          "intersections and differences; auto takes what is faster. The surfaces are the same."),
 };
 
 const technique layers_front = {

@@ -13,8 +13,12 @@ typedef enum layer_shading { SHADING_FORWARD, SHADING_DEFERRED } layer_shading;
 /* The parameters, read by src/draw when it plans the geometry pass. */
 typedef struct front_values {
     bool    complement;
-    int32_t shading;
+    int32_t shading, evaluation;
 } front_values;
+
+/* How the surfaces of solids are found. */
+typedef enum layer_evaluation { EVALUATION_AUTO, EVALUATION_LISTS, EVALUATION_PRODUCTS } layer_evaluation;
+extern const char *const layer_evaluations[];
 
 typedef enum layer_producer { PRODUCER_AUTO, PRODUCER_PEELING, PRODUCER_LISTS } layer_producer;
 
@@ -30,7 +34,7 @@ enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = 
 #define SURFACE_OPERAND    0x00080000u /* of a solid: what is below this bit is the operand's number */
 
 typedef struct peel_values {
-    int32_t     count, producer, memory;
+    int32_t     count, producer, memory, evaluation;
     float       fraction;
     param_words focus;
     float       focus_share, rear;

@@ -1,6 +1,8 @@
 /* The table of layer techniques. */
 #include "layer/layer.h"
 
+const char *const layer_evaluations[] = {"auto", "lists", "products", NULL};
+
 static const technique *const techniques[] = {&layers_front, &layers_peel};
 
 const kind kind_layers = {

@@ -23,6 +23,9 @@ static const param params[] = {
                    .doc = "peeling: the geometry once a layer; lists: once, needs OpenGL 4.3; auto takes what is faster. The layers are the same."),
     PARAM_INT_ROW(peel_values, memory, .def = 128, .min = 1, .max = 2048, .soft_min = 16, .soft_max = 512, .cpu_only = true,
                   .doc = "MiB that lists may take, within the driver's limit; what does not fit is drawn in bands, or else by peeling."),
+    PARAM_ENUM_ROW(peel_values, evaluation, .names = layer_evaluations, .cpu_only = true,
+                   .doc = "Solids: lists sort every fragment of their operands, needs OpenGL 4.3; products peel them and work with the normal form of "
+                          "the tree, a union of intersections and differences; auto takes what is faster. The layers are the same."),
 };
 
 const technique layers_peel = {

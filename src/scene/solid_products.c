@@ -113,8 +113,18 @@ static void multiply_pair(expansion *e, product_list *out, const product *a, con
     append(e, out, p);
 }
 
+/* Operands of products that are about to go. */
+static size_t operands_of(const product_list *l)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < l->count; i++)
+        sum += l->items[i].count;
+    return sum;
+}
+
 static void multiply(expansion *e, product_list *into, product_list *by)
 {
+    e->total -= operands_of(into) + operands_of(by);
     product_list out = {.too_many = into->too_many || by->too_many};
     for (size_t i = 0; i < into->count && !out.too_many && !e->failed; i++)
         for (size_t k = 0; k < by->count && !out.too_many && !e->failed; k++)
@@ -140,6 +150,7 @@ static void expand(expansion *e, product_list *out, int32_t index, bool negated)
         product_list one = {.count = 0};
         expand(e, &one, c, negated != e->form->terms[c].negated);
         if (adds) {
+            e->total -= operands_of(&one);
             for (size_t i = 0; i < one.count; i++)
                 append(e, out, one.items[i]);
             bool too_many = one.too_many;

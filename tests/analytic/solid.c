@@ -20,30 +20,39 @@ static const shot_view views[] = {
 static const char look_front[] = LOOK(FLAT);
 static const char look_all[] = LOOK(FLAT ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}");
 
-/* Ways to run the trees; the first is the engine's own choice. */
-static const char *const evaluations[] = {"auto", "lists", "products"};
+/* Ways to find the layers; the first is the engine's own choice. */
+typedef struct way {
+    const char *name, *key, *value;
+    bool        layers, front; /* what it is for */
+} way;
 
-/* How many of them this build has. */
-static int evaluation_count(void)
+static const way ways[] = {
+    {"auto", NULL, NULL, true, true},
+    {"peeling", "layers.producer", "peeling", true, false},
+    {"lists", "layers.evaluation", "lists", true, true},
+    {"products", "layers.evaluation", "products", true, true},
+};
+
+enum { WAYS = sizeof ways / sizeof *ways };
+
+/* Not every build has a choice. */
+static bool is_there(const way *w, bool front)
 {
-    static int count;
-    lmn_look  *look = NULL;
-    lmn_error  error = {0};
-    if (count == 0) {
-        count = lmn_look_parse(&look, look_all, "look", &error) == LMN_OK && lmn_look_set(look, "layers.evaluation", "products", &error) == LMN_OK ? 3 : 1;
-        lmn_look_destroy(&look);
-        if (count == 1)
-            check_note("no choice of evaluations here");
-    }
-    return count;
+    lmn_look *look = NULL;
+    lmn_error error = {0};
+    bool      there = (front ? w->front : w->layers) &&
+                 (!w->key || (lmn_look_parse(&look, front ? look_front : look_all, "look", &error) == LMN_OK &&
+                              lmn_look_set(look, w->key, w->value, &error) == LMN_OK));
+    lmn_look_destroy(&look);
+    return there;
 }
 
-static bool draw(shot *out, const csg *c, const char *look, const char *evaluation, const shot_view *view)
+static bool draw(shot *out, const csg *c, bool front, const way *w, const shot_view *view)
 {
-    const char *changes[] = {evaluation_count() > 1 ? "layers.evaluation" : NULL, evaluation, NULL};
+    const char *changes[] = {w->key, w->value, NULL};
     char        path[512];
     snprintf(path, sizeof path, "%s", check_path("solid.csg"));
-    return csg_write(c, path) && shot_take(out, path, look, changes, view);
+    return is_there(w, front) && csg_write(c, path) && shot_take(out, path, front ? look_front : look_all, changes, view);
 }
 
 /* --- one drawing ----------------------------------------------------------------------------------------------------- */
@@ -89,17 +98,17 @@ static void check_score(const char *title, const csg_map *m, csg_rays *r, const 
     check_at_least("self", (double)c.sharp / (double)c.pixels, 0.85, "  share of pixels whose answer is sure");
 }
 
-/* Draws with each evaluation, all layers and the front alone. */
+/* Draws in each way, all layers and the front alone; OpenGL ES has no lists for layers. */
 static void against_rays(const char *name, const csg *c, const shot_view *view, bool outside)
 {
     csg_rays *r = csg_rays_create(c, 30);
     csg_map   map = {0};
-    for (int e = 0; e < evaluation_count(); e++)
-        for (int front = 0; front < 2; front++) {
+    for (int e = 0; e < WAYS; e++)
+        for (int front = view->es; front < 2; front++) {
             char title[128];
             shot s;
-            snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", evaluations[e], view->orthographic ? ", parallel" : "");
-            if (!draw(&s, c, front ? look_front : look_all, evaluations[e], view))
+            snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", ways[e].name, view->orthographic ? ", parallel" : "");
+            if (!draw(&s, c, front, &ways[e], view))
                 continue;
             if (!map.hits)
                 csg_map_make(&map, r, &s);
@@ -174,6 +183,21 @@ static void from_inside(void)
             k++;
         }
         csg_rays_destroy(r);
+        csg_release(&c);
+    }
+}
+
+/* What is convex is found without lists. */
+static void dialect(void)
+{
+    for (uint32_t seed = 1; seed <= 4; seed++) {
+        csg  c = {0};
+        char title[64];
+        shot_view view = views[seed % 3];
+        view.es = true;
+        csg_random(&c, CSG_CONVEX, seed);
+        snprintf(title, sizeof title, "ES, convex %u, %d leaves", seed, csg_leaf_count(&c));
+        against_rays(title, &c, &view, true);
         csg_release(&c);
     }
 }
@@ -349,19 +373,44 @@ static void extremes(void)
     csg_release(&c);
 }
 
+/* What is taken away may end behind the far plane, which is tight around the solid: the eye looks through the hole. */
+static void through_the_back(void)
+{
+    static const uint32_t seeds[] = {20, 28};
+    for (int k = 0; k < 4; k++) {
+        csg       c = {0};
+        char      title[64];
+        shot_view view = {.width = 100, .height = 90, .eye = {0.3, -6, 0.4}, .up = {0, 0, 1}, .orthographic = k % 2};
+        if (k < 2) {
+            csg_add(&c, -1, CSG_DIFFERENCE);
+            csg_box(&c, 0, dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+            csg_place(&c, csg_cylinder(&c, 0, 0.6, 0.6, 12, 24), dvec_of(1, 1, 1), dvec_of(1, 0, 0), -85, dvec_of(0, -2, 0.3));
+            csg_box(&c, 0, dvec_of(-2, -2, 0.6), dvec_of(-0.7, 1.005, 3));
+            csg_colour(&c);
+        } else {
+            csg_random(&c, CSG_CONVEX, seeds[k - 2]);
+            view = views[seeds[k - 2] % 3];
+        }
+        snprintf(title, sizeof title, "%s %d", k < 2 ? "a bore that ends behind the far plane" : "convex", k < 2 ? k : (int)seeds[k - 2]);
+        against_rays(title, &c, &view, true);
+        csg_release(&c);
+    }
+}
+
 /* --- single statements ------------------------------------------------------------------------------------------------ */
 
 /* The second layer of a hollow box is the inner side of its front wall, not the far wall. */
 static void inner_side(void)
 {
     static const shot_view straight = {.width = 90, .height = 80, .eye = {0.03, -6, 0.02}, .target = {0.03, 0, 0.02}, .up = {0, 0, 1}, .orthographic = true};
-    for (int e = 0; e < evaluation_count(); e++) {
+    for (int e = 0; e < WAYS; e++) {
         csg  c = {0};
         shot s;
         int  judged = 0, wrong = 0;
         hollow(&c);
         csg_colour(&c);
-        if (draw(&s, &c, look_all, evaluations[e], &straight) && s.layer_count > 1)
+        bool drawn = draw(&s, &c, false, &ways[e], &straight);
+        if (drawn && s.layer_count > 1)
             for (int i = 0; i < s.width * s.height; i++) {
                 dvec origin, direction;
                 shot_ray(&s, i % s.width + 0.5, i / s.width + 0.5, &origin, &direction);
@@ -370,9 +419,11 @@ static void inner_side(void)
                 judged++; /* the wall reaches from y = −1 to −0.7; its inner side looks along +y, away from the viewer */
                 wrong += fabs((double)s.layers[1].depth[i] - 5.3) > 0.001 || (double)s.layers[1].normal[i][2] > -0.99;
             }
-        check_at_least("C6", judged, 500, "%s: pixels through a hollow box", evaluations[e]);
-        check_at_most("C6", wrong, 0, "  whose second layer is not the inner side of its front wall");
-        shot_release(&s);
+        if (drawn) {
+            check_at_least("C6", judged, 500, "%s: pixels through a hollow box", ways[e].name);
+            check_at_most("C6", wrong, 0, "  whose second layer is not the inner side of its front wall");
+            shot_release(&s);
+        }
         csg_release(&c);
     }
 }
@@ -380,7 +431,7 @@ static void inner_side(void)
 /* Overlapping unions have no walls inside: behind the front there is only the back. */
 static void no_inner_walls(void)
 {
-    for (int e = 0; e < evaluation_count(); e++) {
+    for (int e = 0; e < WAYS; e++) {
         csg  c = {0};
         shot s;
         int  more = 0, full = 0;
@@ -393,7 +444,7 @@ static void no_inner_walls(void)
         csg_colour(&c);
         csg_rays *r = csg_rays_create(&c, 30);
         csg_map   map = {0};
-        if (draw(&s, &c, look_all, evaluations[e], &views[0])) {
+        if (draw(&s, &c, false, &ways[e], &views[0])) {
             csg_map_make(&map, r, &s);
             for (int i = 0; i < s.width * s.height; i++) {
                 size_t drawn = 0;
@@ -402,12 +453,12 @@ static void no_inner_walls(void)
                 full += csg_count(&map, i) > 0 && map.sharp[i];
                 more += map.sharp[i] && drawn > csg_count(&map, i);
             }
+            check_at_least("K03", full, 2000, "%s: pixels of ten leaves in each other", ways[e].name);
+            check_at_most("K03", more, 0, "  that show a wall inside the union");
+            shot_release(&s);
         }
-        check_at_least("K03", full, 2000, "%s: pixels of ten leaves in each other", evaluations[e]);
-        check_at_most("K03", more, 0, "  that show a wall inside the union");
         csg_map_release(&map);
         csg_rays_destroy(r);
-        shot_release(&s);
         csg_release(&c);
     }
 }
@@ -433,7 +484,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"convex", convex}, {"concave", concave}, {"deep", deep}, {"many", many}, {"coincident", coincident}, {"inside", from_inside},
-        {"by-hand", by_hand}, {"extremes", extremes}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
+        {"dialect", dialect}, {"by-hand", by_hand}, {"extremes", extremes}, {"through", through_the_back}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
     };
     int status = check_main(argc, argv, "solid", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -285,7 +285,7 @@ static void flush(void)
     boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {0, 1}});
     along_x(&c, 2, (double[]){1, 2}, (int[]){1, 0}, "a cut flush with a face");
     boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {2, 3}});
-    along_x(&c, 2, (double[]){0, 2}, (int[]){0, 1}, "a cut that only touches");
+    along_x(&c, 2, (double[]){0, 2}, (int[]){0, 0}, "a cut that only touches");
     boxes(&c, CSG_DIFFERENCE, 3, (double[][2]){{0, 4}, {1, 2}, {2, 3}});
     along_x(&c, 4, (double[]){0, 1, 3, 4}, (int[]){0, 1, 2, 0}, "two cuts side by side");
     boxes(&c, CSG_INTERSECTION, 2, (double[][2]){{0, 1}, {1, 2}});

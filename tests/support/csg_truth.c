@@ -431,25 +431,35 @@ static bool order_matters(csg_rays *r, const crossing *c, size_t count, int one,
     return !(one_idle || other_idle || all_idle);
 }
 
-/* Goes through the crossings of an event: leaves that are taken away first, then in the order of the tree. Returns the one at which the
- * solid last changed. Its own crossing goes the way of the solid, for no leaf occurs twice in a tree. */
+/* When a crossing's turn comes among those of its event: ends of the solid before beginnings; among ends what is kept first, among
+ * beginnings what is taken away; then the order of the tree. */
+static int turn_of(const csg_rays *r, const crossing *c)
+{
+    const leaf *l = &r->leaves[c->leaf];
+    bool entered = !r->value[l->node], begins = entered != l->taken_away;
+    return ((begins ? 2 : 0) + (entered ? 1 : 0)) * 65536 + c->leaf;
+}
+
+/* Goes through the crossings of an event and returns the one at which the solid last changed. Its own crossing goes the way of the
+ * solid, for no leaf occurs twice in a tree. */
 static const crossing *go_through(csg_rays *r, const crossing *c, size_t count, int event)
 {
     const crossing *owner = NULL;
-    for (int kept = 0; kept < 2; kept++)
-        for (int last = -1;;) {
-            const crossing *next = NULL;
-            for (size_t k = (size_t)event; k < count; k++)
-                if (c[k].event == event && r->leaves[c[k].leaf].taken_away == !kept && c[k].leaf > last && (!next || c[k].leaf < next->leaf))
-                    next = &c[k];
-            if (!next)
-                break;
-            bool before = r->value[0];
-            toggle(r, next->leaf);
-            owner = r->value[0] != before ? next : owner;
-            last = next->leaf;
-        }
-    return owner;
+    int  turns[CROSSINGS_MAX];
+    for (size_t k = (size_t)event; k < count; k++)
+        turns[k] = c[k].event == event ? turn_of(r, &c[k]) : -1;
+    for (;;) {
+        size_t next = count;
+        for (size_t k = (size_t)event; k < count; k++)
+            if (turns[k] >= 0 && (next == count || turns[k] < turns[next]))
+                next = k;
+        if (next == count)
+            return owner;
+        bool before = r->value[0];
+        toggle(r, c[next].leaf);
+        owner = r->value[0] != before ? &c[next] : owner;
+        turns[next] = -1;
+    }
 }
 
 static csg_hit hit_of(const trace_triangle *f, const crossing *c, dvec direction, bool entering)

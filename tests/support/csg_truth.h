@@ -69,8 +69,9 @@ typedef struct csg_way {
 } csg_way;
 
 /* On a whole line, nearest first. Crossings of different leaves in one plane are one event: there is a surface when the tree's
- * value before all of them is not that after. Within it, leaves that are taken away come first, then all in the order of the tree, and
- * the one at which the tree's value last changes owns the surface. */
+ * value before all of them is not that after. Within it, ends of the solid come before beginnings; among ends leaves that are kept and
+ * then those that are taken away, among beginnings the other way round; then the order of the tree. The one at which the tree's value
+ * changes owns the surface. */
 size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way);
 
 bool csg_inside(csg_rays *r, dvec point);

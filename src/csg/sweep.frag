@@ -1,0 +1,21 @@
+/* The nearest fragment behind the one that was taken last, by depth and then by key; pixels that have found their surface wait. Depths are
+ * shares of the range between the clip planes, the same numbers in the picture and in the depth buffer. */
+#include "csg/operand.glsl"
+
+uniform usampler2D t_state; /* depth and key of the last fragment; owner */
+uniform usampler2D t_found;
+uniform float u_solid_range; /* from the near to the far plane */
+layout(location = 0) out uvec4 out_fragment;
+
+void main()
+{
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    float share = max(fragment_depth() - u_solid_near, 0.0) / u_solid_range;
+    uint depth = floatBitsToUint(share), key = fragment_key();
+    uvec4 last = texelFetch(t_state, at, 0);
+    bool behind = depth > last.x || (depth == last.x && key > last.y);
+    if (!behind || share >= 1.0 || texelFetch(t_found, at, 0).z != 0u)
+        discard;
+    gl_FragDepth = share;
+    out_fragment = uvec4(1u, depth, key, packed_normal());
+}
