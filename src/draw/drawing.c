@@ -90,9 +90,9 @@ static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn
         mem_free(section.spared);
         return status;
     }
-    r->up_valid = false;
-    upload_release(&r->up, r->g);
-    status = upload_create(&r->up, r->g, scene, crease, &section, desc->progress, desc->progress_user, error);
+    upload earlier = r->up;
+    status = upload_create(&r->up, r->g, scene, crease, &section, r->up_valid ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    upload_release(&earlier, r->g);
     r->scene = scene;
     r->up_valid = status == LMN_OK;
     return status;

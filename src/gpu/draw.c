@@ -257,11 +257,6 @@ void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
     *m = NULL;
 }
 
-size_t gpu_mesh_bytes(const gpu_mesh *m)
-{
-    return m ? m->bytes : 0;
-}
-
 uint32_t gpu_mesh_triangles(const gpu_mesh *m)
 {
     return m ? m->index_count / 3 : 0;

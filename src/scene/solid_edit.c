@@ -72,6 +72,7 @@ static void spare_mesh(lmn_scene *scene, int32_t index)
     if (index == NONE)
         return;
     mesh_release(&scene->meshes[index]);
+    scene->meshes[index].revision = scene_next_revision();
     scene->meshes[index].spare = true;
     scene->spare_meshes++;
 }
