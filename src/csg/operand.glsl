@@ -6,10 +6,12 @@ in vec3 v_normal;
 in float v_depth;
 flat in uint v_key;
 
+#ifdef SHARED_PLANES
 uniform sampler2D t_planes; /* eye space, 256 a row */
 uniform vec2 u_unproject;
 uniform vec2 u_size;
 uniform float u_perspective;
+#endif
 
 /* Does the solid begin here, seen from the front, operand, plane: src/csg/csg.h. */
 uint fragment_key()
@@ -18,6 +20,7 @@ uint fragment_key()
     return (v_key & 0x3FFFFFFFu) | (gl_FrontFacing == kept ? 0x80000000u : 0u) | (gl_FrontFacing ? 0x40000000u : 0u);
 }
 
+#ifdef SHARED_PLANES
 float depth_on(vec4 plane, float otherwise)
 {
     vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
@@ -27,14 +30,18 @@ float depth_on(vec4 plane, float otherwise)
     return abs(slope) > 1e-4 * length(along) ? (plane.w - dot(plane.xyz, from)) / slope : otherwise;
 }
 
+#endif
+
 /* Of the eye. */
 float fragment_depth()
 {
     float depth = v_depth;
+#ifdef SHARED_PLANES
     uint plane = v_key & 0xFFFFu;
     int shared_plane = plane != 0u ? 1 : 0;
     for (int once = 0; once < shared_plane; once++)
         depth = depth_on(texelFetch(t_planes, ivec2(int(plane - 1u) & 255, int(plane - 1u) >> 8), 0), depth);
+#endif
     return depth;
 }
 

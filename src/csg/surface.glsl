@@ -2,15 +2,16 @@
 #include "csg/depth.glsl"
 
 uniform usampler2D t_surfaces; /* (any), depth, key, normal; all 0 where there is none */
-uniform sampler2D  t_operands; /* two texels each: colour; part */
+uniform sampler2D  t_operands; /* two texels each: colour; part, index of a cut face, whether it is one */
 uniform vec2 u_solid_size;     /* of the page */
-uniform vec4 u_highlight;      /* colour instead of the operands', where alpha is not 0 */
+uniform vec4 u_solid_highlight;      /* colour instead of the operands', where alpha is not 0 */
 
 vec3 v_eye;
 vec3 v_normal;
 bool surface_front;
 float surface_depth;
 vec4 surface_albedo;
+bool surface_is_cut;
 uint surface_operand; /* bits of the surface id */
 
 /* False where this part has no surface. */
@@ -24,8 +25,9 @@ bool fetch_surface(uint part)
     vec4 facts = texelFetch(t_operands, place + ivec2(1, 0), 0);
     if (uint(facts.x) != part)
         return false;
-    surface_albedo = u_highlight.a > 0.0 ? u_highlight : texelFetch(t_operands, place, 0);
-    surface_operand = SURFACE_OPERAND | (surface.z >> 16 & 0x3FFFu);
+    surface_albedo = u_solid_highlight.a > 0.0 ? u_solid_highlight : texelFetch(t_operands, place, 0);
+    surface_is_cut = facts.z > 0.5;
+    surface_operand = surface_is_cut ? SURFACE_CUT | uint(facts.y) : SURFACE_OPERAND | (surface.z >> 16 & 0x3FFFu);
     float depth = eye_depth_of(surface.y);
     surface_depth = clamp(window_depth_at(depth), 0.0, 1.0);
     surface_front = (surface.z & 0x80000000u) != 0u;

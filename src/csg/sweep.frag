@@ -11,10 +11,16 @@ void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float share = max(fragment_depth() - u_solid_near, 0.0) / u_solid_range;
+#ifdef AROUND_EYE
+    share = min(share, 1.0);
+#else
+    if (share >= 1.0)
+        discard;
+#endif
     uint depth = floatBitsToUint(share), key = fragment_key();
     uvec4 last = texelFetch(t_state, at, 0);
     bool behind = depth > last.x || (depth == last.x && key > last.y);
-    if (!behind || share >= 1.0 || texelFetch(t_found, at, 0).z != 0u)
+    if (!behind || texelFetch(t_found, at, 0).z != 0u)
         discard;
     gl_FragDepth = share;
     out_fragment = uvec4(1u, depth, key, packed_normal());

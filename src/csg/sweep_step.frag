@@ -40,8 +40,36 @@ bool solid_at(uvec4 facts, uvec4 low, uvec4 high)
     return value;
 }
 
+void go_through(uvec4 facts, inout uvec4 low, inout uvec4 high)
+{
+    uint bit = facts.x & 127u;
+    uvec4 mask = uvec4(equal(uvec4(bit >> 5), uvec4(0u, 1u, 2u, 3u))) * (1u << (bit & 31u));
+    low ^= facts.x < 128u ? mask : uvec4(0u);
+    high ^= facts.x < 128u ? uvec4(0u) : mask;
+}
+
+#ifdef AROUND_EYE
+void toggle_only()
+{
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    uvec4 fragment = texelFetch(t_fragment, at, 0), low = texelFetch(t_inside, at, 0), high = texelFetch(t_inside_more, at, 0);
+    bool some = fragment.z != 0u;
+    if (some)
+        go_through(facts_of(fragment.z), low, high);
+    out_state = some ? uvec4(fragment.yz, 0u, 0u) : texelFetch(t_state, at, 0);
+    out_inside = low;
+    out_inside_more = high;
+    out_found = uvec4(0u);
+}
+#endif
+
 void main()
 {
+#ifdef AROUND_EYE
+    /* What is gone through an odd number of times was around the eye: only the bits are wanted. */
+    toggle_only();
+    return;
+#endif
     ivec2 at = ivec2(gl_FragCoord.xy);
     uvec4 fragment = texelFetch(t_fragment, at, 0), state = texelFetch(t_state, at, 0), found = texelFetch(t_found, at, 0);
     uvec4 low = texelFetch(t_inside, at, 0), high = texelFetch(t_inside_more, at, 0);
@@ -60,11 +88,8 @@ void main()
             state.z = solid_at(own, low, high) ? HELD : 0u;
     }
     if (!waits && some) {
-        uint bit = own.x & 127u;
-        uvec4 mask = uvec4(equal(uvec4(bit >> 5), uvec4(0u, 1u, 2u, 3u))) * (1u << (bit & 31u));
         bool before = solid_at(own, low, high);
-        low ^= own.x < 128u ? mask : uvec4(0u);
-        high ^= own.x < 128u ? uvec4(0u) : mask;
+        go_through(own, low, high);
         if (solid_at(own, low, high) != before)
             state.zw = uvec2((fragment.z & 0xFFFF0000u) | OWNED | (state.z & HELD), fragment.w);
         state.xy = fragment.yz;

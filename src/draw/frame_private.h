@@ -157,8 +157,9 @@ void solids_set_depth(frame *f, const solid_layers *s);
 void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item);
 
 /* --- solids_sweep.c: any solids on any GL --- */
-/* The nearest surfaces, among those of convex products where there are any, or all layers at once. False when the normal form is too large. */
-bool solids_sweep(frame *f, solid_layers *s, const bool *wanted, int layers);
+/* The nearest surfaces, among those of convex products where there are any, or all layers at once. `inside`: the eye may be in an operand. False
+ * when the normal form is too large. */
+bool solids_sweep(frame *f, solid_layers *s, const bool *wanted, bool inside, int layers);
 
 /* --- solids_convex.c: products of convex operands --- */
 /* Is there anything of that kind, and is it all? */

@@ -314,7 +314,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
 {
     const figure_state *s = owner_of(f, job, item);
     text prelude = {0};
-    text_append(&prelude, "#define SOLID\n");
+    text_append(&prelude, "#define SOLID\n%s", f->plan->has_cut ? "#define HAS_CUT\n" : "");
     gpu_use(f->g, raster_program(f, s, "gpu/boxes.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
@@ -326,7 +326,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     float highlight[4] = {0, 0, 0, 0};
     if (s->figure->highlight)
         uniforms_linear(*s->figure->highlight, highlight);
-    gpu_set_vec4(f->g, "u_highlight", highlight);
+    gpu_set_vec4(f->g, "u_solid_highlight", highlight);
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);
     set_ids(f, job, s, item, 0);

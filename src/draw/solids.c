@@ -148,23 +148,21 @@ static void draw_operands(frame *f, const draw_item *item, bool products_done)
 /* Gathers a box's fragments; returns how many times the room is needed. */
 static unsigned gather(frame *f, solid_layers *s, const bool *wanted, const int box[4], unsigned limit)
 {
-    text prelude = {0};
-    gpu_program *p = program_of(f, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude);
     gpu_buffer_fill(f->g, s->heads, 0, (size_t)box[2] * (size_t)box[3] * sizeof(uint32_t));
     gpu_buffer_fill(f->g, s->counter, 0, 64);
     bind_buffers(f, s);
-    if (!p || gpu_failed(f->g))
-        return 1;
     /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
     gpu_pass pass = {.depth = f->page_depth};
     memcpy(pass.scissor, box, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    gpu_use(f->g, p, (gpu_state){.depth_clamp = true});
-    set_list_box(f, box);
-    gpu_set_uint(f->g, "u_node_limit", limit);
     for (size_t i = 0; i < f->up->item_count && !gpu_failed(f->g); i++) {
         if (!wanted[i])
             continue;
+        text prelude = {0};
+        text_append(&prelude, "%s", f->up->items[i].plane_count ? "#define SHARED_PLANES\n" : "");
+        gpu_use(f->g, program_of(f, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude), (gpu_state){.depth_clamp = true});
+        set_list_box(f, box);
+        gpu_set_uint(f->g, "u_node_limit", limit);
         solids_set_operands(f, s, &f->up->items[i]);
         draw_operands(f, &f->up->items[i], s->depth != NULL);
     }
@@ -332,14 +330,13 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, const solid_wish
     if (all_convex || gpu_failed(f->g))
         return;
     w = watch_start(f);
-    /* Around the eye only lists know what it is in. */
-    bool swept = (!lists || (wishes->evaluation == EVALUATION_PRODUCTS && !inside)) && solids_sweep(f, s, wanted, wishes->layers);
+    bool swept = (!lists || wishes->evaluation == EVALUATION_PRODUCTS) && solids_sweep(f, s, wanted, inside, wishes->layers);
     if (swept)
         watch_stop(f, w, "solids", "sweep");
     else if (lists)
         open_lists(f, s, wanted, inside);
     else
-        gpu_fail(f->g, LMN_UNSUPPORTED, "solids of this many operands need OpenGL 4.3");
+        gpu_fail(f->g, LMN_UNSUPPORTED, "solids of more than 256 operands, or of a normal form of more than 4096 products, need OpenGL 4.3");
 }
 
 void solids_select(frame *f, solid_layers *s, int index)

@@ -21,6 +21,7 @@ typedef struct sweep {
     solid_layers *solids;
     const bool   *wanted;
     bool          rest_only;  /* what no product of convex operands has */
+    bool          around_eye; /* only what holds around the eye is being found out */
     gpu_texture  *facts, *products;
     gpu_texture  *fragment, *depth;
     gpu_texture  *now[PICTURES], *next[PICTURES]; /* state, bits, more bits, surfaces found */
@@ -153,6 +154,7 @@ static bool draw_next(sweep *s)
 {
     frame *f = s->f;
     text prelude = {0};
+    text_append(&prelude, "#define SHARED_PLANES\n%s", s->around_eye ? "#define AROUND_EYE\n" : "");
     gpu_program *p = program_of(f, GPU_FLOOR, "csg/operand.vert", "csg/sweep.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return false;
@@ -182,6 +184,7 @@ static void take_fragment(sweep *s)
     static const char *const names[PICTURES] = {"t_state", "t_inside", "t_inside_more", "t_found"};
     frame *f = s->f;
     text prelude = {0};
+    text_append(&prelude, "%s", s->around_eye ? "#define AROUND_EYE\n" : "");
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "csg/sweep_step.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
@@ -268,6 +271,20 @@ static void find_layer(sweep *s)
     }
 }
 
+/* All fragments once, for what holds where the eye is; then from the beginning again. */
+static void look_around(sweep *s)
+{
+    s->around_eye = true;
+    find_layer(s);
+    s->around_eye = false;
+    gpu_pass pass = pass_in(s);
+    pass.colours[0] = s->now[0];
+    pass.colour_count = 1;
+    pass.clear = true;
+    if (!gpu_failed(s->f->g))
+        gpu_pass_begin(s->f->g, &pass);
+}
+
 /* Keeps the layer that was found and makes a blank one for the next. */
 static bool keep_layer(sweep *s)
 {
@@ -286,12 +303,14 @@ static bool keep_layer(sweep *s)
     return !gpu_failed(f->g);
 }
 
-bool solids_sweep(frame *f, solid_layers *l, const bool *wanted, int layers)
+bool solids_sweep(frame *f, solid_layers *l, const bool *wanted, bool inside, int layers)
 {
     sweep s = {.f = f, .solids = l, .wanted = wanted, .rest_only = l->depth != NULL};
     if (!make_tables(&s))
         return false;
     sweep_open(&s);
+    if (inside)
+        look_around(&s);
     if (l->first_only) {
         find_layer(&s);
         if (l->depth) {

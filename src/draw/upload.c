@@ -129,7 +129,7 @@ static lmn_status open_upload(upload *out, const lmn_scene *scene, double crease
     out->textures = mem_calloc(out->texture_count, sizeof(gpu_texture *));
     out->meshes = mem_calloc(scene->mesh_count, sizeof *out->meshes);
     out->posed = mem_calloc(scene->node_count, sizeof *out->posed);
-    out->shapes = mem_calloc(scene->mesh_count, sizeof *out->shapes);
+    out->shapes = mem_calloc(scene->mesh_count + 1, sizeof *out->shapes);
     if (!out->worlds || !out->part_boxes || !out->textures || !out->meshes || !out->posed || !out->shapes)
         return error_memory(error);
     out->mesh_count = scene->mesh_count;
@@ -210,7 +210,7 @@ void upload_release(upload *u, gpu *g)
         gpu_texture_destroy(g, &u->textures[i]);
     release_meshes(u->meshes, u->mesh_count, g);
     release_meshes(u->posed, u->node_count, g);
-    for (size_t i = 0; i < u->mesh_count; i++)
+    for (size_t i = 0; i <= u->mesh_count && u->shapes; i++)
         upload_shape_release(&u->shapes[i]);
     gpu_target_release(g, u->part_frames);
     gpu_target_release(g, u->operand_table);

@@ -13,6 +13,7 @@
 typedef struct upload_solid {
     solid_form   form;
     int32_t     *used;        /* per operand: its number in the form */
+    uint32_t    *cut_bits;    /* per operand of the form: bits of a cut face's surface id, 0: none */
     size_t       count;
     uint32_t   (*runs)[2];    /* per operand: its indices in the mesh, first and count */
     box3        *boxes;       /* per operand: solid's axes */
@@ -84,7 +85,7 @@ typedef struct upload {
     size_t        piece_count, piece_capacity;
     upload_mesh  *meshes;     /* per mesh of the scene, for parts in no pose */
     upload_mesh  *posed;      /* per node of the scene */
-    upload_shape *shapes;     /* per mesh of the scene */
+    upload_shape *shapes;     /* per mesh of the scene, and behind them that of the half-spaces of sections */
     size_t        mesh_count, node_count;
     gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
     size_t        texture_count;
@@ -93,7 +94,7 @@ typedef struct upload {
     csg_program   program;     /* of all solids */
     csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
     size_t        plane_count, plane_capacity;
-    float       (*operands)[8]; /* per operand: linear colour, part, 0, 0, 0 */
+    float       (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
     gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */

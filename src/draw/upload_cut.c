@@ -10,13 +10,12 @@
 /* Bits of a cut face's surface id, from the lowest: positive side, plane, nearest axis, body (light/cut.glsl). */
 enum { ID_PLANE_SHIFT = 1, ID_AXIS_SHIFT = 6, ID_BODY_SHIFT = 8, ID_BODY_MASK = (1 << (SURFACE_INDEX_BITS - ID_BODY_SHIFT)) - 1 };
 
-static uint32_t cap_id(const cut *c, const cut_cap *cap)
+uint32_t cut_face_bits(const cut *c, int32_t plane, uint32_t body, bool positive)
 {
-    const double *n = c->planes[cap->plane].normal;
+    const double *n = c->planes[plane].normal;
     double x = fabs(n[0]), y = fabs(n[1]), z = fabs(n[2]);
     uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-    return SURFACE_CUT | (cap->body & ID_BODY_MASK) << ID_BODY_SHIFT | axis << ID_AXIS_SHIFT | (uint32_t)cap->plane << ID_PLANE_SHIFT |
-           (uint32_t)cap->positive;
+    return SURFACE_CUT | (body & ID_BODY_MASK) << ID_BODY_SHIFT | axis << ID_AXIS_SHIFT | (uint32_t)plane << ID_PLANE_SHIFT | (uint32_t)positive;
 }
 
 /* --- what cutting reads -------------------------------------------------------------------------------------------- */
@@ -172,7 +171,7 @@ static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap
     item.is_cut = true;
     item.nearer = job->nearer;
     item.has_uvs = item.has_colours = false;
-    item.surface_id = cap_id(&u->section.cut, cap);
+    item.surface_id = cut_face_bits(&u->section.cut, cap->plane, cap->body, cap->positive);
     if (status == LMN_OK)
         status = upload_add_piece(u, g, &item.mesh, &data, error);
     u->triangles += cap->count / 3;

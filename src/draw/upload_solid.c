@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "layer/layer.h"
 #include "scene/solid_form.h"
 
 /* Light grey, sRGB 0.8, as formats without colours have it. */
@@ -17,10 +18,26 @@ typedef struct baker {
     double           crease_angle;
     upload_shape    *shapes; /* per mesh; the upload's, as other solids may ask the same */
     bool             has_lists;
+    mesh             half_space; /* what sections take away, numbered behind the scene's meshes */
     vec3            *positions, *normals;
     uint32_t        *keys, *indices, *owners;
     size_t           vertex_count, vertex_capacity, normal_capacity, index_count, index_capacity, owner_capacity;
 } baker;
+
+/* A box from 0 to 1; its arrays are constant and not owned. */
+static void make_half_space(mesh *out, primitive *p)
+{
+    static const vec3 corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    *p = (primitive){.vertex_count = 8, .index_count = 36, .positions = (vec3 *)(uintptr_t)corners, .indices = (uint32_t *)(uintptr_t)indices,
+                     .material = NONE, .bounds = {{0, 0, 0}, {1, 1, 1}}};
+    *out = (mesh){.primitives = p, .primitive_count = 1};
+}
+
+static const mesh *mesh_of(const baker *b, int32_t index)
+{
+    return (size_t)index < b->scene->mesh_count ? &b->scene->meshes[index] : &b->half_space;
+}
 
 static void baker_release(baker *b)
 {
@@ -41,7 +58,7 @@ void upload_shape_release(upload_shape *s)
 /* The vertices of a mesh's primitives, split at creases. NULL after an error. */
 static const render_vertices *vertices_of(baker *b, int32_t mesh_index, lmn_error *error)
 {
-    const mesh *m = &b->scene->meshes[mesh_index];
+    const mesh *m = mesh_of(b, mesh_index);
     upload_shape *s = &b->shapes[mesh_index];
     if (s->vertices)
         return s->vertices;
@@ -86,14 +103,14 @@ static double signed_volume(const mesh *m)
 static bool is_convex(baker *b, int32_t mesh_index)
 {
     if (b->shapes[mesh_index].convex == 0)
-        b->shapes[mesh_index].convex = mesh_is_convex(&b->scene->meshes[mesh_index]) ? 1 : -1;
+        b->shapes[mesh_index].convex = mesh_is_convex(mesh_of(b, mesh_index)) ? 1 : -1;
     return b->shapes[mesh_index].convex > 0;
 }
 
 static bool is_inside_out(baker *b, int32_t mesh_index)
 {
     if (b->shapes[mesh_index].inside_out == 0)
-        b->shapes[mesh_index].inside_out = signed_volume(&b->scene->meshes[mesh_index]) < 0 ? 1 : -1;
+        b->shapes[mesh_index].inside_out = signed_volume(mesh_of(b, mesh_index)) < 0 ? 1 : -1;
     return b->shapes[mesh_index].inside_out > 0;
 }
 
@@ -157,7 +174,7 @@ static void bake_primitive(baker *b, const primitive *p, const render_vertices *
 
 static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number, bool taken_away, lmn_error *error)
 {
-    const mesh *m = &b->scene->meshes[o->mesh];
+    const mesh *m = mesh_of(b, o->mesh);
     const render_vertices *v = vertices_of(b, o->mesh, error);
     if (!v)
         return LMN_MEMORY;
@@ -231,8 +248,11 @@ static lmn_status add_program(upload *u, const upload_solid *s, size_t part_inde
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
         const solid_operand *o = &s->form.operands[s->used[i]];
+        /* Cut faces have the colour of what the solid begins with. */
+        if (s->cut_bits[s->used[i]])
+            o = &s->form.operands[s->used[0]];
         vec4 c = o->has_colour ? o->colour : (vec4){plain_grey, plain_grey, plain_grey, 1};
-        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, 0, 0, 0}, sizeof u->operands[0]);
+        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(s->cut_bits[s->used[i]] & ~SURFACE_CUT), s->cut_bits[s->used[i]] ? 1 : 0, 0}, sizeof u->operands[0]);
     }
     return LMN_OK;
 }
@@ -324,6 +344,7 @@ static void solid_release_upload(upload_solid *s, gpu *g)
     solid_products_release(&s->products);
     solid_products_release(&s->rest);
     mem_free(s->used);
+    mem_free(s->cut_bits);
     mem_free(s->runs);
     mem_free(s->boxes);
     mem_free(s->taken_away);
@@ -369,18 +390,15 @@ static box3 reach_of(const upload_solid *s, const mat4 *world)
     return reach;
 }
 
-static lmn_status add_items(upload *u, const lmn_scene *scene, size_t part_index, size_t solid_index, lmn_error *error)
+static lmn_status add_items(upload *u, size_t part_index, size_t solid_index, const mat4 *worlds, size_t count, lmn_error *error)
 {
-    const node *n = &scene->nodes[scene->parts[part_index].node];
     upload_solid *s = &u->solids[solid_index];
     draw_item item = {.is_solid = true, .part_index = part_index, .part_id = (uint32_t)part_index + 1, .surface_id = 1, .material = NONE,
                       .solid = solid_index, .operand_count = (uint32_t)s->count, .first_plane = (uint32_t)u->plane_count,
                       .plane_count = (uint32_t)s->plane_count, .mesh = s->mesh};
     lmn_status status = add_planes(u, s) ? LMN_OK : error_memory(error);
-    for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
-        item.world = u->worlds[scene->parts[part_index].node];
-        if (n->instance_count)
-            item.world = mat4_multiply(&item.world, &n->instances[k]);
+    for (size_t k = 0; k < count && status == LMN_OK; k++) {
+        item.world = worlds[k];
         item.first_operand = (uint32_t)u->program.operand_count;
         item.reach = reach_of(s, &item.world);
         status = add_program(u, s, part_index, error);
@@ -400,10 +418,14 @@ static lmn_status send(upload_solid *s, gpu *g, const baker *b, lmn_error *error
     return gpu_check(g, error);
 }
 
-static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene *scene, lmn_error *error)
+static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene *scene, size_t part_index, const mat4 *world, lmn_error *error)
 {
+    primitive half_space;
     baker b = {.scene = scene, .crease_angle = u->crease_angle, .shapes = u->shapes, .has_lists = gpu_facts_of(g)->lists};
+    make_half_space(&b.half_space, &half_space);
     lmn_status status = solid_form_create(&s->form, &scene->solids[s->source], true, error);
+    if (status == LMN_OK)
+        status = upload_cut_solid(u, &s->form, part_index, world, (int32_t)scene->mesh_count, &s->cut_bits, error);
     s->used = mem_alloc((s->form.operand_count + 1) * sizeof *s->used);
     if (status == LMN_OK && !s->used)
         status = error_memory(error);
@@ -422,10 +444,12 @@ static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene
     return status;
 }
 
-/* Takes a solid that has not changed from an earlier upload, unless it would have more or fewer planes here. */
+/* Takes a solid that has not changed from an earlier upload, unless it would have more or fewer planes here. Sections change it too. */
 static bool take_solid(upload *u, upload_solid *s, upload *earlier)
 {
-    for (size_t i = 0; earlier && i < earlier->solid_count; i++) {
+    if (!earlier || u->section.cut.cell_count || earlier->section.cut.cell_count)
+        return false;
+    for (size_t i = 0; i < earlier->solid_count; i++) {
         upload_solid *old = &earlier->solids[i];
         size_t room = room_for_planes(u), planes = old->planes_found < room ? old->planes_found : room;
         if (old->source != s->source || old->revision != s->revision || old->plane_count != planes)
@@ -437,7 +461,9 @@ static bool take_solid(upload *u, upload_solid *s, upload *earlier)
     return false;
 }
 
-lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, lmn_error *error)
+/* Instances that share one solid; with a section, which cuts each elsewhere, there is one only. */
+static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, const mat4 *worlds,
+                                   size_t count, lmn_error *error)
 {
     if (!mem_grow((void **)&u->solids, &u->solid_capacity, u->solid_count + 1, sizeof *u->solids))
         return error_memory(error);
@@ -447,8 +473,25 @@ lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t p
     memset(s, 0, sizeof *s);
     s->source = source;
     s->revision = scene->solids[source].revision;
-    lmn_status status = take_solid(u, s, earlier) ? LMN_OK : make_solid(u, s, g, scene, error);
-    return status == LMN_OK && s->mesh ? add_items(u, scene, part_index, index, error) : status;
+    lmn_status status = take_solid(u, s, earlier) ? LMN_OK : make_solid(u, s, g, scene, part_index, &worlds[0], error);
+    return status == LMN_OK && s->mesh ? add_items(u, part_index, index, worlds, count, error) : status;
+}
+
+lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, lmn_error *error)
+{
+    const node *n = &scene->nodes[scene->parts[part_index].node];
+    size_t count = node_draw_count(n), together = u->section.cut.cell_count ? 1 : count;
+    mat4 *worlds = mem_alloc(count * sizeof *worlds);
+    lmn_status status = worlds ? LMN_OK : error_memory(error);
+    for (size_t k = 0; k < count && status == LMN_OK; k++) {
+        worlds[k] = u->worlds[scene->parts[part_index].node];
+        if (n->instance_count)
+            worlds[k] = mat4_multiply(&worlds[k], &n->instances[k]);
+    }
+    for (size_t first = 0; first < count && status == LMN_OK; first += together)
+        status = upload_instances(u, g, scene, part_index, earlier, worlds + first, together, error);
+    mem_free(worlds);
+    return status;
 }
 
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error)

@@ -11,7 +11,7 @@
 #define WINDOW_DEPTH gl_FragCoord.z
 #define DEPTH_ROUNDING 0.0
 #endif
-#if defined(CUT_FACE) && defined(AT_SHADE)
+#if (defined(CUT_FACE) || (defined(SOLID) && defined(HAS_CUT))) && defined(AT_SHADE)
 #include "light/cut.glsl"
 #endif
 
@@ -144,6 +144,10 @@ void main()
     out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, surface_id), albedo.rgb);
 #else
     out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0));
+#if defined(SOLID) && defined(HAS_CUT)
+    if (surface_is_cut)
+        out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, surface_id), albedo.rgb);
+#endif
 #endif
 #ifdef MERGED
     detect_edges();

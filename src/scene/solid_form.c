@@ -179,11 +179,44 @@ lmn_status solid_form_create(solid_form *out, const solid *s, bool pruned, lmn_e
     if (!solid_operands(s, &out->operands, &out->operand_count))
         return error_memory(error);
     lmn_status status = make_terms(out, s, error);
-    if (status == LMN_OK && pruned && out->root != EMPTY)
-        out->root = prune(out, out->root, out->terms[out->root].box);
-    if (out->root != EMPTY)
-        out->terms[out->root].next = NONE;
+    if (status == LMN_OK && pruned)
+        solid_form_prune(out);
     return status;
+}
+
+void solid_form_prune(solid_form *f)
+{
+    if (f->root != EMPTY)
+        f->root = prune(f, f->root, f->terms[f->root].box);
+    if (f->root != EMPTY)
+        f->terms[f->root].next = NONE;
+}
+
+lmn_status solid_form_take_away(solid_form *f, const solid_operand *operands, size_t count, lmn_error *error)
+{
+    if (f->root == EMPTY || count == 0)
+        return LMN_OK;
+    solid_operand *grown = mem_realloc(f->operands, (f->operand_count + count) * sizeof *grown);
+    int32_t whole = grown ? add_term(f, TERM_AND) : NO_MEMORY, common = grown ? add_term(f, TERM_AND) : NO_MEMORY;
+    if (grown)
+        f->operands = grown;
+    if (whole == NO_MEMORY || common == NO_MEMORY)
+        return error_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        int32_t t = add_term(f, TERM_OPERAND);
+        if (t == NO_MEMORY)
+            return error_memory(error);
+        f->operands[f->operand_count] = operands[i];
+        f->terms[t].operand = (int32_t)f->operand_count++;
+        f->terms[t].box = operands[i].box;
+        add_child(f, common, t, false);
+    }
+    set_box(f, common);
+    add_dissolved(f, whole, f->root, false);
+    add_dissolved(f, whole, without_shell(f, common), true);
+    set_box(f, whole);
+    f->root = whole;
+    return LMN_OK;
 }
 
 void solid_form_release(solid_form *f)

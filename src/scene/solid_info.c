@@ -2,6 +2,7 @@
 #include "scene/solid_info.h"
 
 #include "base/memory.h"
+#include "scene/solid_products.h"
 
 /* Enough to know a model by; the tree is for people, level by level. */
 enum { TREE_NODES_MAX = 256, TREE_LEVELS_MAX = 64 };
@@ -66,6 +67,19 @@ static json_t *tree_json(const lmn_scene *scene, const solid *s, const bool *sho
     return entry;
 }
 
+/* How many partial products the normal form has; null when they are too many. */
+static json_t *products_json(const solid *s)
+{
+    solid_form form;
+    product_list products = {.too_many = true};
+    if (solid_form_create(&form, s, true, NULL) == LMN_OK && solid_products_create(&products, &form, form.root, true, NULL) != LMN_OK)
+        products.too_many = true;
+    json_t *out = products.too_many ? json_null() : json_integer((json_int_t)products.count);
+    solid_products_release(&products);
+    solid_form_release(&form);
+    return out;
+}
+
 json_t *solid_info_json(const lmn_scene *scene, const solid *s, json_t *bounds)
 {
     json_int_t counts[4] = {0};
@@ -80,6 +94,8 @@ json_t *solid_info_json(const lmn_scene *scene, const solid *s, json_t *bounds)
                             (json_int_t)s->triangles, "depth", (json_int_t)depth, "operations", "union",
                             counts[SOLID_UNION], "intersection", counts[SOLID_INTERSECTION], "difference", counts[SOLID_DIFFERENCE],
                             "bounds", bounds);
+    if (out)
+        json_object_set_new(out, "products", products_json(s));
     if (out && shown)
         json_object_set_new(out, "tree", tree_json(scene, s, shown, 0));
     mem_free(levels);
