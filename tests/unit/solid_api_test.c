@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/text.h"
 #include "limner/limner.h"
 #include "scene/solid.h"
 
@@ -432,26 +433,27 @@ static void limits_hold(void **state)
 /* --- ids, trees, meshes -------------------------------------------------------------------------------------------------- */
 
 /* "root(a b(c))" by names. */
-static void print_tree(const lmn_scene *s, uint32_t solid, uint32_t node, char *out)
+static void print_tree(const lmn_scene *s, uint32_t solid, uint32_t node, text *out)
 {
     lmn_solid_info info = info_of(s, solid, node);
-    strcat(out, info.name ? info.name : "?");
+    text_append(out, "%s", info.name ? info.name : "?");
     size_t count = 0;
     for (uint32_t c = info.first_child; c; c = info_of(s, solid, c).next_sibling) {
-        strcat(out, count++ ? " " : "(");
+        text_append(out, count++ ? " " : "(");
         assert_int_equal(info_of(s, solid, c).parent, node);
         print_tree(s, solid, c, out);
     }
     assert_int_equal(count, info.child_count);
     if (count)
-        strcat(out, ")");
+        text_append(out, ")");
 }
 
 static void expect_tree(const lmn_scene *s, uint32_t solid, const char *wanted)
 {
-    char text[512] = "";
-    print_tree(s, solid, ROOT, text);
-    assert_string_equal(text, wanted);
+    text found = {0};
+    print_tree(s, solid, ROOT, &found);
+    assert_string_equal(found.data, wanted);
+    text_release(&found);
     const solid_node *nodes = s->solids[solid - 1].nodes;
     for (size_t i = 0; i < s->solids[solid - 1].node_count; i++)
         assert_true(nodes[i].parent < (int32_t)i); /* parents come before their children */
