@@ -109,6 +109,7 @@ solid *scene_append_solid(lmn_scene *s, solid_kind root)
         return NULL;
     if (solid_append(made, NONE, root) == 0)
         return made;
+    solid_release(made);
     s->solid_count--;
     return NULL;
 }
