@@ -13,6 +13,7 @@ int32_t solid_append(solid *s, int32_t parent, solid_kind kind)
         return NONE;
     int32_t index = (int32_t)s->node_count++;
     s->places[s->id_count++] = index;
+    s->operand_count += kind == SOLID_OPERAND;
     s->nodes[index] = (solid_node){.kind = kind, .id = (uint32_t)s->id_count, .parent = parent, .first_child = NONE, .last_child = NONE,
                                    .next_sibling = NONE, .matrix = mat4_identity(), .mesh = NONE, .box = box3_empty()};
     if (parent == NONE)
@@ -31,6 +32,8 @@ void solid_take_back(solid *s)
     int32_t index = (int32_t)--s->node_count, before = NONE;
     s->id_count--;
     solid_node *above = &s->nodes[s->nodes[index].parent];
+    s->operand_count -= s->nodes[index].kind == SOLID_OPERAND;
+    s->triangles -= s->nodes[index].triangles;
     mem_free(s->nodes[index].name);
     for (int32_t c = above->first_child; c != index; c = s->nodes[c].next_sibling)
         before = c;
@@ -89,9 +92,11 @@ int32_t solid_next(const solid *s, int32_t top, int32_t current)
     return current == top ? NONE : s->nodes[current].next_sibling;
 }
 
-static void measure_operand(const lmn_scene *scene, solid_node *n, const mat4 *place)
+static void measure_operand(const lmn_scene *scene, solid *s, solid_node *n, const mat4 *place)
 {
+    s->triangles -= n->triangles;
     n->triangles = n->mesh == NONE ? 0 : mesh_triangle_count(&scene->meshes[n->mesh]);
+    s->triangles += n->triangles;
     n->box = n->triangles ? mesh_box(&scene->meshes[n->mesh], place) : box3_empty();
 }
 
@@ -100,7 +105,7 @@ bool solid_measure(const lmn_scene *scene, solid *s)
     inherited *from = hand_down(s);
     for (size_t i = 0; from && i < s->node_count; i++)
         if (s->nodes[i].kind == SOLID_OPERAND)
-            measure_operand(scene, &s->nodes[i], &from[i].matrix);
+            measure_operand(scene, s, &s->nodes[i], &from[i].matrix);
     solid_sum_up(s);
     mem_free(from);
     return from != NULL;
@@ -137,7 +142,7 @@ bool solid_measure_below(const lmn_scene *scene, solid *s, int32_t top)
         if (s->nodes[i].kind != SOLID_OPERAND)
             continue;
         mat4 place = place_of(s, i);
-        measure_operand(scene, &s->nodes[i], &place);
+        measure_operand(scene, s, &s->nodes[i], &place);
         good = good && is_within_reach(&s->nodes[i]);
     }
     return good;
@@ -173,6 +178,12 @@ void solid_sum_up(solid *s)
         s->operand_count += n->kind == SOLID_OPERAND;
         s->triangles += n->triangles;
     }
+}
+
+void solid_sum_up_above(solid *s, int32_t node)
+{
+    for (int32_t i = s->nodes[node].parent; i != NONE; i = s->nodes[i].parent)
+        s->nodes[i].box = box_of_operation(s, &s->nodes[i]);
 }
 
 bool solid_operands(const solid *s, solid_operand **out, size_t *count)

@@ -53,6 +53,8 @@ bool solid_measure(const lmn_scene *scene, solid *s);
 bool solid_measure_below(const lmn_scene *scene, solid *s, int32_t top);
 /* Boxes of operations and all counts, from the operands'. */
 void solid_sum_up(solid *s);
+/* The same when nothing but one operand has changed. */
+void solid_sum_up_above(solid *s, int32_t operand);
 
 /* An operand with all that stands above it in the tree folded in. */
 typedef struct solid_operand {

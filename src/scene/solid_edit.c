@@ -31,10 +31,9 @@ static lmn_status list_parts(lmn_scene *scene, lmn_error *error)
 
 /* Solids without triangles are no parts. Only where that changes is the list made again, and only then can this fail: parts are as they
  * were then. */
-static lmn_status settle(lmn_scene *scene, size_t index, lmn_error *error)
+static lmn_status settle_part(lmn_scene *scene, size_t index, lmn_error *error)
 {
     solid *s = &scene->solids[index];
-    solid_sum_up(s);
     if (is_part(scene, index) != (s->triangles > 0)) {
         lmn_status status = list_parts(scene, error);
         if (status != LMN_OK)
@@ -52,6 +51,12 @@ static lmn_status settle(lmn_scene *scene, size_t index, lmn_error *error)
     return LMN_OK;
 }
 
+static lmn_status settle(lmn_scene *scene, size_t index, lmn_error *error)
+{
+    solid_sum_up(&scene->solids[index]);
+    return settle_part(scene, index, error);
+}
+
 static lmn_status too_far(lmn_error *error)
 {
     error_set(error, LMN_USAGE, "an operand would lie farther than 1e18 from the solid's origin");
@@ -62,7 +67,14 @@ static lmn_status too_far(lmn_error *error)
 /* Measures what is below a node, then settles. */
 static lmn_status settle_below(lmn_scene *scene, size_t index, int32_t node, lmn_error *error)
 {
-    return solid_measure_below(scene, &scene->solids[index], node) ? settle(scene, index, error) : too_far(error);
+    solid *s = &scene->solids[index];
+    if (!solid_measure_below(scene, s, node))
+        return too_far(error);
+    if (s->nodes[node].kind == SOLID_OPERAND)
+        solid_sum_up_above(s, node);
+    else
+        solid_sum_up(s);
+    return settle_part(scene, index, error);
 }
 
 /* --- meshes ------------------------------------------------------------------------------------------------------------- */
@@ -540,8 +552,8 @@ lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t
     solid_link(s, node, (solid_seat){parent, before});
     lmn_status status = solid_arrange(s, error);
     bool arranged = status == LMN_OK;
-    if (arranged)
-        status = settle_below(scene, index, s->places[id - 1], error);
+    if (arranged) /* what it was taken from changes too */
+        status = solid_measure_below(scene, s, s->places[id - 1]) ? settle(scene, index, error) : too_far(error);
     if (status == LMN_OK) {
         mem_free(whole.nodes);
         mem_free(whole.places);
