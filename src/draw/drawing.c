@@ -91,7 +91,10 @@ static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn
         return status;
     }
     upload earlier = r->up;
-    status = upload_create(&r->up, r->g, scene, crease, &section, r->up_valid ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    bool related = r->up_valid && earlier.identity == scene->identity && earlier.crease_angle == crease;
+    if (!related)
+        upload_release(&earlier, r->g); /* at once: two scenes may not fit */
+    status = upload_create(&r->up, r->g, scene, crease, &section, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
     upload_release(&earlier, r->g);
     r->scene = scene;
     r->up_valid = status == LMN_OK;

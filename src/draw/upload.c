@@ -173,8 +173,6 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
 lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, upload_section *section, upload *earlier,
                          lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    if (earlier && (earlier->identity != scene->identity || earlier->crease_angle != crease_angle))
-        earlier = NULL;
     lmn_status status = open_upload(out, scene, crease_angle, section, error);
     if (status == LMN_OK && earlier)
         take_over(out, earlier, scene);

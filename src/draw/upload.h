@@ -104,7 +104,8 @@ typedef struct upload {
 } upload;
 
 /* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over, and so is what
- * an earlier upload has that still holds: after an edit, meshes, textures and solids that did not change. Release that one too. */
+ * an earlier upload (may be NULL) of the same scene and crease angle has that still holds: after an edit, meshes, textures and solids that did
+ * not change. Release that one too. */
 lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, upload_section *section, upload *earlier,
                          lmn_progress_fn progress, void *user, lmn_error *error);
 void       upload_release(upload *u, gpu *g);
