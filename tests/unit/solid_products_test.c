@@ -194,8 +194,10 @@ static void test_too_many_products(void **state)
     solid *s = scene_append_solid(scene, SOLID_INTERSECTION);
     for (int i = 0; i < 14; i++) {
         int32_t either = solid_append(s, 0, SOLID_UNION);
-        for (int k = 0; k < 2; k++)
-            s->nodes[solid_append(s, either, SOLID_OPERAND)].mesh = 0;
+        for (int k = 0; k < 2; k++) {
+            int32_t at = solid_append(s, either, SOLID_OPERAND); /* moves the nodes */
+            s->nodes[at].mesh = 0;
+        }
     }
     assert_true(solid_measure(scene, s));
     solid_form f;
