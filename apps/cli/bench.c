@@ -8,9 +8,12 @@ typedef struct bench_values {
     word_list     looks;
     option_size   size;
     option_number repeat;
-    int           up_axis;
-    bool          json, quiet;
+    option_vector eye, target;
+    int           view, up_axis;
+    bool          orthographic, json, quiet;
 } bench_values;
+
+static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
 
 #define AT(field) offsetof(bench_values, field)
 
@@ -18,6 +21,10 @@ static const option options[] = {
     {"look", 'l', OPTION_LIST, AT(looks), "NAME|FILE", "Look to measure; may be repeated. Default: all that ship."},
     {"size", 0, OPTION_SIZE, AT(size), "WxH", "Picture size in pixels. Default: 1024x1024.", 1, 16384},
     {"repeat", 0, OPTION_WHOLE, AT(repeat), "N", "Frames of each look; the median counts. Default: 9.", 1, 100000},
+    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.", .choices = views},
+    {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
+    {"target", 0, OPTION_VECTOR, AT(target), "X,Y,Z", "What the viewer looks at. Default: the scene's middle."},
+    {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.", .choices = up_axis_choices},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "Write JSON (docs/reference/bench.md)."},
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No progress."},
@@ -41,6 +48,19 @@ static void print_table(const json_t *root)
     }
 }
 
+static void place_view(const bench_values *v, const lmn_scene *scene, lmn_draw_desc *desc)
+{
+    lmn_scene_info info = lmn_scene_info_of(scene);
+    if (v->view >= 0)
+        desc->view = (lmn_view)v->view;
+    desc->orthographic = v->orthographic;
+    desc->eye_given = v->eye.given;
+    for (int i = 0; i < 3; i++) {
+        desc->eye[i] = v->eye.value[i];
+        desc->target[i] = v->target.given ? v->target.value[i] : (info.bounds_min[i] + info.bounds_max[i]) / 2;
+    }
+}
+
 static int measure(const bench_values *v, const lmn_scene *scene, progress *bar, char **out)
 {
     lmn_error error = {0};
@@ -57,6 +77,7 @@ static int measure(const bench_values *v, const lmn_scene *scene, progress *bar,
         desc.width = v->size.width;
         desc.height = v->size.height;
     }
+    place_view(v, scene, &desc);
     desc.progress = progress_report;
     desc.progress_user = bar;
     bar->label = "measuring";

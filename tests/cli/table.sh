@@ -351,6 +351,42 @@ group_sketch() {
     row 1 'set perturb.technique first' '' draw "$gear" --look edges --set perturb.amount=3
 }
 
+group_solids() {
+    local widget=$examples/csg/widget.csg look map
+    for look in edges blueprint xray sketch; do
+        row 0 '' 'a.png' draw "$widget" $small --look $look -o a.png && is_png a.png 64 64
+        cp a.png in-$look.png
+    done
+    # Depth, ids and the colours of operands; inner layers are those of the solid: 2 by 2 surfaces around a bore.
+    row 0 '' 'r.json x.png' draw "$widget" $small --look blueprint --set layers.count=0 --view top --ortho -o x.png --report r.json --aov .maps
+    cp r.json in-solids.json; documented in-solids.json report.md
+    grep -q '"layers": 4' r.json || complain "the report does not tell four layers"
+    for map in layer0.depth.pfm layer3.normal.pfm layer3.edge.png; do [ -s .maps/$map ] || complain "there is no $map"; done
+    # The lines where operands meet are the solid's, and can be left out.
+    row 0 '' 'x.png' draw "$widget" $small --look edges --set lines.meet=180 -o x.png
+    cmp -s x.png in-edges.png && complain "lines.meet changes nothing"
+    # Several files are one scene, solids among meshes.
+    row 0 '' 'x.png' draw "$widget" "$gear" $small -o x.png
+    row 0 '' '' info "$examples/csg/spanner.csg"; out 'solid: [0-9]+ operands'; out '^ +difference +\(line [0-9]+\)$'
+    row 0 '' '' bench "$widget" $small --look edges --repeat 2 --view top --ortho; out '^edges +[0-9.]+ +[0-9.]+'
+    # Mistakes are told with line and column, what is left out with its line.
+    printf 'group() {\n cube(size = 1;\n}' > in-wrong.csg
+    row 2 '^limner: in-wrong.csg:2:15: expected' '' draw in-wrong.csg $small
+    printf 'cube(size = 1);\nimport(file = "nosuch.stl");\n' > in-missing.csg
+    row 0 'in-missing.csg, line 2: import\(\) is left out: .*No such file' 'x.png' draw in-missing.csg $small -o x.png
+    printf 'cube(size = 1);\nroof() { square(size = 1); }\n' > in-unknown.csg
+    row 0 'in-unknown.csg, line 2: roof\(\) is not known and left out' 'x.png' draw in-unknown.csg $small -o x.png
+    printf 'difference() { cube(size = 1); cube(size = 1); }\n' > in-nothing.csg
+    row 0 '' 'x.png' draw in-nothing.csg $small -o x.png
+    # Programs need openscad, which nobody must have installed.
+    cp "$examples/csg/widget.scad" in-program.scad
+    without_openscad() { PATH=$folder/.nothing "$real" "$@"; }
+    local real=$limner
+    local limner=without_openscad
+    row 2 '^limner: in-program.scad: a .scad file is a program that openscad must evaluate' '' draw in-program.scad $small
+    row 2 '^hint: install OpenSCAD' '' draw in-program.scad $small
+}
+
 group_doctor() {
     row 0 '' '' doctor; out 'Limner can draw here'
     row 0 '' '' doctor --json; documented .stdout doctor.md

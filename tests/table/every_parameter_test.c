@@ -18,6 +18,7 @@ enum { SIDE = 160, VALUES_MAX = 24, TEXT_SIZE = 96 };
 
 typedef struct fixture {
     lmn_scene    *scene;
+    lmn_scene    *solid; /* for parameters that only solids know */
     lmn_renderer *renderer;
     const char   *examples;
     int           mistakes, drawn;
@@ -30,10 +31,24 @@ static const struct {
     {"layers", "shading", "both ways give the same picture"},
     {"layers", "producer", "both ways give the same layers"},
     {"layers", "memory", "less memory gives the same layers"},
+    {"layers", "evaluation", "all ways give the same surfaces"},
     {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
     {"lines", "taps", "both forms are the same sums"},
 };
+
+/* Parameters that change nothing but solids. They are drawn alone, of convex operands, which every path of drawing can. */
+static const struct {
+    const char *kind, *key;
+} of_solids[] = {{"lines", "meet"}};
+
+static bool is_of_solids(const kind *k, const param *p)
+{
+    for (size_t i = 0; i < PARAM_COUNT(of_solids); i++)
+        if (strcmp(of_solids[i].kind, k->name) == 0 && strcmp(of_solids[i].key, p->key) == 0)
+            return true;
+    return false;
+}
 
 static bool is_exception(const kind *k, const param *p)
 {
@@ -74,7 +89,7 @@ static lmn_look *look_of(const technique *t, char *json, size_t size)
     return look;
 }
 
-static lmn_drawing *draw(fixture *f, const lmn_look *look, const char *what)
+static lmn_drawing *draw(fixture *f, const lmn_scene *scene, const lmn_look *look, const char *what)
 {
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.time_s = 0.5; /* some parameters count by the second */
@@ -82,7 +97,7 @@ static lmn_drawing *draw(fixture *f, const lmn_look *look, const char *what)
     lmn_error error = {0};
     desc.width = desc.height = SIDE;
     f->drawn++;
-    if (lmn_draw(&drawing, f->renderer, f->scene, look, &desc, &error) == LMN_OK)
+    if (lmn_draw(&drawing, f->renderer, scene, look, &desc, &error) == LMN_OK)
         return drawing;
     print_error("%s: cannot be drawn: %s\n", what, error.message);
     f->mistakes++;
@@ -179,7 +194,8 @@ static bool check_param(fixture *f, const kind *k, const technique *t, const par
     if (k->id == KIND_LINES) /* white lines show only on something darker */
         lmn_look_set(look, "0:surface.technique", "lit", NULL);
     make_condition_hold(look, k, t, p->only_if);
-    lmn_drawing *before = draw(f, look, path);
+    const lmn_scene *scene = is_of_solids(k, p) ? f->solid : f->scene;
+    lmn_drawing *before = draw(f, scene, look, path);
     size_t count = values_of(p, values);
     bool changed = false;
     for (size_t i = 0; i < count && before; i++) {
@@ -188,7 +204,7 @@ static bool check_param(fixture *f, const kind *k, const technique *t, const par
         if (lmn_look_set(look, path, values[i], NULL) != LMN_OK)
             continue;
         snprintf(what, sizeof what, "%.60s: %.90s=%.90s", t->name, path, values[i]);
-        lmn_drawing *after = draw(f, look, what);
+        lmn_drawing *after = draw(f, scene, look, what);
         changed = changed || (after && !are_equal(before, after));
         lmn_drawing_destroy(&after);
     }
@@ -237,7 +253,15 @@ static void write_plate(FILE *file, double x)
     fprintf(file, "o plate\nusemtl left\nf 4 5 2 1\nusemtl right\nf 5 6 3 2\n");
 }
 
-static bool add_file(fixture *f, const char *folder, const char *name, void (*write)(FILE *, double), double x, lmn_error *error)
+/* A block with a round hole, on it a ball cut by a plane: operands that meet at an angle. */
+static void write_solid(FILE *file, double x)
+{
+    fprintf(file, "multmatrix([[1, 0, 0, %g], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n"
+                  " difference() { cube(size = [40, 40, 20], center = true); cylinder($fn = 24, h = 30, r1 = 9, r2 = 12, center = true); }\n"
+                  " intersection() { sphere($fn = 24, r = 18); cube(size = [36, 20, 60], center = true); }\n}\n", x);
+}
+
+static bool add_file(lmn_scene *scene, const char *folder, const char *name, void (*write)(FILE *, double), double x, lmn_error *error)
 {
     char path[128];
     lmn_load_desc load = LMN_LOAD_DESC_INIT;
@@ -247,7 +271,7 @@ static bool add_file(fixture *f, const char *folder, const char *name, void (*wr
         return false;
     write(file, x);
     fclose(file);
-    bool done = lmn_scene_add_file(f->scene, path, &load, error) == LMN_OK;
+    bool done = lmn_scene_add_file(scene, path, &load, error) == LMN_OK;
     remove(path);
     return done;
 }
@@ -263,9 +287,10 @@ static int make_fixture(void **state)
         return 1;
     snprintf(path, sizeof path, "%s/gearbox.stl", f->examples);
     bool done = lmn_scene_create(&f->scene, &error) == LMN_OK && lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
-                add_file(f, folder, "ball.ply", write_ball, 10, &error) &&
-                add_file(f, folder, "other.ply", write_ball, 70, &error) &&
-                add_file(f, folder, "plate.obj", write_plate, -60, &error) &&
+                add_file(f->scene, folder, "ball.ply", write_ball, 10, &error) &&
+                add_file(f->scene, folder, "other.ply", write_ball, 70, &error) &&
+                add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
+                lmn_scene_create(&f->solid, &error) == LMN_OK && add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
                 lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
     if (!done)
         print_error("%s: %s\n", error.file, error.message);
@@ -277,6 +302,7 @@ static int end_fixture(void **state)
 {
     fixture *f = *state;
     lmn_scene_destroy(&f->scene);
+    lmn_scene_destroy(&f->solid);
     lmn_renderer_destroy(&f->renderer);
     return 0;
 }
