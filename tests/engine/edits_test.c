@@ -144,8 +144,8 @@ static void emptied_solids_leave_the_rest(void **state)
     assert_ptr_equal(after.solids[0], before.solids[1]);
 }
 
-/* A file that comes later leaves what is there, and another crease angle nothing. */
-static void files_and_crease_angles(void **state)
+/* A file that comes later leaves what is there. */
+static void files_come_later(void **state)
 {
     fixture *f = *state;
     draw(f);
@@ -155,11 +155,6 @@ static void files_and_crease_angles(void **state)
     places after = places_of(f);
     assert_memory_equal(after.parts, before.parts, sizeof after.parts);
     assert_memory_equal(after.solids, before.solids, sizeof after.solids);
-    DO(lmn_look_set(f->look, "scene.crease_angle", "3", &error));
-    draw(f);
-    places again = places_of(f);
-    for (int i = 0; i < 2; i++)
-        assert_true(again.parts[i] != after.parts[i] && again.solids[i] != after.solids[i]);
 }
 
 int main(void)
@@ -168,7 +163,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(one_solid_is_made_anew, set_up, tear_down),
         cmocka_unit_test_setup_teardown(another_shape_makes_its_normals_alone, set_up, tear_down),
         cmocka_unit_test_setup_teardown(emptied_solids_leave_the_rest, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(files_and_crease_angles, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_come_later, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
