@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "api/load_desc.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -26,13 +27,13 @@ void lmn_scene_destroy(lmn_scene **scene)
 }
 
 /* A caller built against an older header hands over a shorter description; what it lacks keeps its default. */
-static lmn_status complete(lmn_load_desc *full, const lmn_load_desc *given, lmn_error *error)
+lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, const char *caller, lmn_error *error)
 {
     *full = (lmn_load_desc)LMN_LOAD_DESC_INIT;
     if (!given)
         return LMN_OK;
     if (given->struct_size < sizeof given->struct_size) {
-        error_set(error, LMN_USAGE, "lmn_scene_add_file: the description's struct_size is not set");
+        error_set(error, LMN_USAGE, "%s: the description's struct_size is not set", caller);
         error_hint(error, "initialise it with LMN_LOAD_DESC_INIT");
         return LMN_USAGE;
     }
@@ -40,7 +41,7 @@ static lmn_status complete(lmn_load_desc *full, const lmn_load_desc *given, lmn_
     memcpy(full, given, size);
     full->struct_size = sizeof *full;
     if (full->up_axis != LMN_UP_AUTO && full->up_axis != LMN_UP_Y && full->up_axis != LMN_UP_Z)
-        return error_set(error, LMN_USAGE, "lmn_scene_add_file: up_axis %d is none of AUTO, Y, Z", (int)full->up_axis);
+        return error_set(error, LMN_USAGE, "%s: up_axis %d is none of AUTO, Y, Z", caller, (int)full->up_axis);
     return LMN_OK;
 }
 
@@ -51,7 +52,7 @@ lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load
     if (!path || !path[0])
         return error_set(error, LMN_USAGE, "lmn_scene_add_file: the path is empty");
     lmn_load_desc full;
-    lmn_status status = complete(&full, desc, error);
+    lmn_status status = load_desc_complete(&full, desc, "lmn_scene_add_file", error);
     if (status != LMN_OK)
         return status;
     lmn_scene *loaded = NULL;
@@ -78,7 +79,7 @@ lmn_scene_info lmn_scene_info_of(const lmn_scene *scene)
         return info;
     info.parts = scene->part_count;
     info.nodes = scene_plain_node_count(scene);
-    info.meshes = scene->mesh_count;
+    info.meshes = scene->mesh_count - scene->spare_meshes;
     info.materials = scene->material_count;
     info.textures = scene->image_count;
     info.cameras = scene->camera_count;

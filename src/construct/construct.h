@@ -100,7 +100,9 @@ lmn_status polyhedron_shadow(region *out, const polyhedron *p, lmn_error *error)
 /* Is every point on or behind every face (within 1e-9 of the extent)? Sets `convex`. */
 bool polyhedron_check_convex(polyhedron *p);
 bool polyhedron_bounds(const polyhedron *p, point3 *low, point3 *high);
-/* A mesh of one primitive without normals (NONE material) in the scene; NONE when memory is gone. Points are welded as they are. */
+/* A mesh of one primitive without normals and material. Points are welded as they are. False when memory is gone. */
+bool polyhedron_into_mesh(mesh *out, const polyhedron *p);
+/* The same in the scene; NONE when memory is gone. */
 int32_t polyhedron_into_scene(lmn_scene *scene, const polyhedron *p);
 
 #endif

@@ -121,15 +121,24 @@ static bool make_primitive(primitive *out, const polyhedron *p)
     return true;
 }
 
-int32_t polyhedron_into_scene(lmn_scene *scene, const polyhedron *p)
+bool polyhedron_into_mesh(mesh *out, const polyhedron *p)
 {
     primitive made;
-    mesh *m = NULL;
-    if (make_primitive(&made, p))
-        m = scene_append_mesh(scene);
-    if (!m || !mesh_set_primitives(m, &made, 1)) {
-        primitive_release(&made);
+    *out = (mesh){.name = NULL};
+    if (make_primitive(&made, p) && mesh_set_primitives(out, &made, 1))
+        return true;
+    primitive_release(&made);
+    return false;
+}
+
+int32_t polyhedron_into_scene(lmn_scene *scene, const polyhedron *p)
+{
+    mesh made;
+    mesh *m = polyhedron_into_mesh(&made, p) ? scene_append_mesh(scene) : NULL;
+    if (!m) {
+        mesh_release(&made);
         return NONE;
     }
+    *m = made;
     return (int32_t)scene->mesh_count - 1;
 }

@@ -103,9 +103,12 @@ static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn
         mem_free(section.spared);
         return status;
     }
-    r->up_valid = false;
-    upload_release(&r->up, r->g);
-    status = upload_create(&r->up, r->g, scene, crease, removed, &section, desc->progress, desc->progress_user, error);
+    upload earlier = r->up;
+    bool related = r->up_valid && earlier.identity == scene->identity && earlier.crease_angle == crease;
+    if (!related)
+        upload_release(&earlier, r->g); /* at once: two scenes may not fit */
+    status = upload_create(&r->up, r->g, scene, crease, removed, &section, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    upload_release(&earlier, r->g);
     r->scene = scene;
     r->up_valid = status == LMN_OK;
     return status;

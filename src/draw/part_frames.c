@@ -56,7 +56,7 @@ static void rotation_of(const mat4 *world, double out[9])
 /* The middle of a part's mesh in its own axes. */
 static vec3 middle_of(const lmn_scene *scene, const node *n)
 {
-    box3 box = n->solid != NONE ? solid_bounds(scene, &scene->solids[n->solid]) : box3_empty();
+    box3 box = n->solid != NONE ? solid_bounds(&scene->solids[n->solid]) : box3_empty();
     for (size_t i = 0; n->mesh != NONE && i < scene->meshes[n->mesh].primitive_count; i++)
         box = box3_union(box, scene->meshes[n->mesh].primitives[i].bounds);
     if (box3_is_empty(box))

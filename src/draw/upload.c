@@ -9,8 +9,10 @@ static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, const prim
 {
     posed_mesh m;
     lmn_status status = posed_make(&m, u, p, pose, error);
-    if (status == LMN_OK)
-        status = upload_add_mesh(u, g, out, &m.data, error);
+    if (status == LMN_OK) {
+        *out = gpu_mesh_create(g, &m.data);
+        status = gpu_check(g, error);
+    }
     posed_release(&m);
     return status;
 }
@@ -74,12 +76,22 @@ static float nearer_of(const upload *u, const lmn_scene *scene, size_t part_inde
     return (float)(8 * level + (int)(part_index % 8)) * 3e-7f;
 }
 
-static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, gpu_mesh **shared, lmn_error *error)
+static bool make_room(upload_mesh *m, const mesh *source)
+{
+    if (!m->primitives) {
+        m->primitives = mem_calloc(source->primitive_count, sizeof *m->primitives);
+        m->count = source->primitive_count;
+        m->revision = source->revision;
+    }
+    return m->primitives != NULL;
+}
+
+static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
 {
     const node *n = &scene->nodes[scene->parts[part_index].node];
     const mesh *m = &scene->meshes[n->mesh];
     const skin *s = n->skin >= 0 ? &scene->skins[n->skin] : NULL;
-    upload_part_job job = {.part_index = part_index, .mesh = m, .meshes = shared, .nearer = nearer_of(u, scene, part_index)};
+    upload_part_job job = {.part_index = part_index, .mesh = m, .nearer = nearer_of(u, scene, part_index)};
     job.pose.weights = n->morph_weights ? n->morph_weights : m->morph_weights;
     job.pose.weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
     mat4 *joints = s ? joint_matrices(scene, u->worlds, s) : NULL;
@@ -87,21 +99,26 @@ static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t 
         return error_memory(error);
     job.pose.joints = joints;
     job.pose.joint_count = s ? s->joint_count : 0;
-    gpu_mesh **own = s || job.pose.weight_count > 0 ? mem_calloc(m->primitive_count, sizeof *own) : NULL;
-    if (s || job.pose.weight_count > 0)
-        job.meshes = own;
-    lmn_status status = job.meshes ? add_instances(u, g, scene, &job, error) : error_memory(error);
+    upload_mesh *made = s || job.pose.weight_count > 0 ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
+    lmn_status status = LMN_OK;
+    if (make_room(made, m)) {
+        job.meshes = made->primitives;
+        status = add_instances(u, g, scene, &job, error);
+    } else {
+        status = error_memory(error);
+    }
     upload_part_close(&job);
-    mem_free(own);
     mem_free(joints);
     return status;
 }
 
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section,
-                         lmn_progress_fn progress, void *user, lmn_error *error)
+/* --- all parts ----------------------------------------------------------------------------------------------------------- */
+
+static lmn_status open_upload(upload *out, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->revision = scene->revision;
+    out->identity = scene->identity;
     out->crease_angle = crease_angle;
     out->section = *section;
     *section = (upload_section){.spared = NULL};
@@ -111,50 +128,98 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
     out->part_boxes = mem_calloc(out->part_count, sizeof *out->part_boxes);
     out->texture_count = scene->image_count * 2;
     out->textures = mem_calloc(out->texture_count, sizeof(gpu_texture *));
+    out->meshes = mem_calloc(scene->mesh_count, sizeof *out->meshes);
+    out->posed = mem_calloc(scene->node_count, sizeof *out->posed);
+    out->shapes = mem_calloc(scene->mesh_count + 1, sizeof *out->shapes);
+    if (!out->worlds || !out->part_boxes || !out->textures || !out->meshes || !out->posed || !out->shapes)
+        return error_memory(error);
+    out->mesh_count = scene->mesh_count;
+    out->node_count = scene->node_count;
     box3 box = box3_empty();
     for (size_t i = 0; i < scene->part_count; i++)
         box = box3_union(box, scene->parts[i].bounds);
     out->extent = box3_is_empty(box) ? 0 : diagonal(box);
-    size_t *first = mem_calloc(scene->mesh_count + 1, sizeof *first);
-    size_t total = 0;
-    for (size_t i = 0; first && i < scene->mesh_count; i++) {
-        first[i] = total;
-        total += scene->meshes[i].primitive_count;
+    return LMN_OK;
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Moves what still holds. A scene never takes anything out of its arrays, and what is at a place there and has the same revision is the
+ * same; nodes and images do not change at all. */
+static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
+{
+    for (size_t i = 0; i < smaller(u->texture_count, earlier->texture_count); i++) {
+        u->textures[i] = earlier->textures[i];
+        earlier->textures[i] = NULL;
     }
-    gpu_mesh **shared = mem_calloc(total, sizeof *shared);
-    lmn_status status = LMN_OK;
-    if (!out->worlds || !out->part_boxes || !out->textures || !first || !shared)
-        status = error_memory(error);
+    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count); i++) {
+        u->posed[i] = earlier->posed[i];
+        earlier->posed[i] = (upload_mesh){.primitives = NULL};
+    }
+    for (size_t i = 0; i < smaller(u->mesh_count, earlier->mesh_count); i++) {
+        if (earlier->meshes[i].revision == scene->meshes[i].revision) {
+            u->meshes[i] = earlier->meshes[i];
+            earlier->meshes[i] = (upload_mesh){.primitives = NULL};
+        }
+        if (earlier->shapes[i].revision == scene->meshes[i].revision) {
+            u->shapes[i] = earlier->shapes[i];
+            earlier->shapes[i] = (upload_shape){.vertices = NULL};
+        }
+    }
+}
+
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section, upload *earlier,
+                         lmn_progress_fn progress, void *user, lmn_error *error)
+{
+    lmn_status status = open_upload(out, scene, crease_angle, removed, section, error);
+    if (status == LMN_OK && earlier)
+        take_over(out, earlier, scene);
     for (size_t i = 0; i < out->part_count && status == LMN_OK; i++) {
         if (progress && !progress((double)i / (double)out->part_count, "preparing", user))
             status = error_set(error, LMN_CANCELLED, "cancelled");
         if (status == LMN_OK && scene->nodes[scene->parts[i].node].solid != NONE)
-            status = upload_solid_part(out, g, scene, i, error);
+            status = upload_solid_part(out, g, scene, i, earlier, error);
         else if (status == LMN_OK)
-            status = upload_part(out, g, scene, i, &shared[first[scene->nodes[scene->parts[i].node].mesh]], error);
-        out->part_boxes[i] = part_bounds(scene, out->worlds, i);
+            status = upload_part(out, g, scene, i, error);
+        out->part_boxes[i] = scene->parts[i].bounds; /* all is drawn at rest */
     }
     if (status == LMN_OK)
         status = upload_solids_close(out, g, error);
-    mem_free(first);
-    mem_free(shared);
     return status;
+}
+
+static void release_meshes(upload_mesh *meshes, size_t count, gpu *g)
+{
+    for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; k < meshes[i].count; k++)
+            gpu_mesh_destroy(g, &meshes[i].primitives[k]);
+        mem_free(meshes[i].primitives);
+    }
+    mem_free(meshes);
 }
 
 void upload_release(upload *u, gpu *g)
 {
-    for (size_t i = 0; i < u->mesh_count; i++)
-        gpu_mesh_destroy(g, &u->meshes[i]);
+    for (size_t i = 0; i < u->piece_count; i++)
+        gpu_mesh_destroy(g, &u->pieces[i]);
     for (size_t i = 0; i < u->texture_count && u->textures; i++)
         gpu_texture_destroy(g, &u->textures[i]);
+    release_meshes(u->meshes, u->mesh_count, g);
+    release_meshes(u->posed, u->node_count, g);
+    for (size_t i = 0; i <= u->mesh_count && u->shapes; i++)
+        upload_shape_release(&u->shapes[i]);
     gpu_target_release(g, u->part_frames);
     gpu_target_release(g, u->operand_table);
     gpu_buffer_release(g, u->program_buffer);
-    upload_solids_release(u);
+    upload_solids_release(u, g);
     csg_program_release(&u->program);
+    mem_free(u->shapes);
     mem_free(u->planes);
     mem_free(u->operands);
-    mem_free(u->meshes);
+    mem_free(u->pieces);
     mem_free(u->textures);
     mem_free(u->items);
     mem_free(u->worlds);

@@ -5,6 +5,7 @@
 #include "csg/csg.h"
 #include "gpu/gpu.h"
 #include "scene/cut.h"
+#include "scene/mesh.h"
 #include "scene/scene.h"
 #include "scene/solid_products.h"
 
@@ -23,7 +24,28 @@ typedef struct upload_solid {
     bool         ghost;       /* what another one takes away */
     bool         all_convex;  /* there is nothing but these products */
     product_list rest;        /* of the other branches */
+    int32_t      source;      /* in the scene's solids */
+    uint64_t     revision;    /* of that one */
+    gpu_mesh    *mesh;        /* of all operands; NULL: nothing is left to draw */
+    uint64_t     triangles;
+    csg_plane   *planes;
+    size_t       plane_count, planes_found; /* there may have been no room for all */
 } upload_solid;
+
+/* A mesh on the GPU. `revision`: of the scene's mesh, as it was then. */
+typedef struct upload_mesh {
+    uint64_t   revision;
+    gpu_mesh **primitives; /* NULL, as each of them: not made yet */
+    size_t     count;
+} upload_mesh;
+
+/* What solids ask of a mesh. */
+typedef struct upload_shape {
+    uint64_t         revision;
+    render_vertices *vertices; /* per primitive, split at creases; NULL: not made yet */
+    size_t           count;
+    signed char      convex, inside_out; /* 1 yes, −1 no, 0 not asked yet */
+} upload_shape;
 
 /* One draw call: a primitive of a part at one place. */
 typedef struct draw_item {
@@ -49,7 +71,7 @@ typedef struct upload_section {
 } upload_section;
 
 typedef struct upload {
-    uint64_t      revision;
+    uint64_t      revision, identity; /* of the scene */
     double        crease_angle; /* radians */
     upload_section section;
     size_t        open_parts; /* some of whose sections are not closed */
@@ -61,8 +83,12 @@ typedef struct upload {
     bool          has_removed; /* it does */
     draw_item    *items;
     size_t        item_count, item_capacity;
-    gpu_mesh    **meshes;
-    size_t        mesh_count, mesh_capacity;
+    gpu_mesh    **pieces;     /* what sections left */
+    size_t        piece_count, piece_capacity;
+    upload_mesh  *meshes;     /* per mesh of the scene, for parts in no pose */
+    upload_mesh  *posed;      /* per node of the scene */
+    upload_shape *shapes;     /* per mesh of the scene, and behind them that of the half-spaces of sections */
+    size_t        mesh_count, node_count;
     gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
     size_t        texture_count;
     upload_solid *solids;
@@ -77,12 +103,12 @@ typedef struct upload {
     gpu_texture  *part_frames; /* NULL: not asked for yet */
     double        frame_origin[3];
     uint64_t      triangles; /* drawn, instances counted */
-    size_t        bytes;
 } upload;
 
-/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over. `removed`: what
- * solids take away, too. */
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section,
+/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over, and so is what
+ * an earlier upload (may be NULL) of the same scene and crease angle has that still holds: after an edit, meshes, textures and solids that did
+ * not change. Release that one too. `removed`: what solids take away, too. */
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section, upload *earlier,
                          lmn_progress_fn progress, void *user, lmn_error *error);
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */

@@ -139,7 +139,7 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
                               .positions = positions, .normals = normals, .uvs = {uvs[0], uvs[1]}, .colours = colours, .indices = indices};
         draw_item item = upload_item(job, i);
         item.world = *world;
-        status = upload_add_mesh(u, g, &item.mesh, &data, error);
+        status = upload_add_piece(u, g, &item.mesh, &data, error);
         u->triangles += count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);
@@ -173,7 +173,7 @@ static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap
     item.has_uvs = item.has_colours = false;
     item.surface_id = cut_face_bits(&u->section.cut, cap->plane, cap->body, cap->positive);
     if (status == LMN_OK)
-        status = upload_add_mesh(u, g, &item.mesh, &data, error);
+        status = upload_add_piece(u, g, &item.mesh, &data, error);
     u->triangles += cap->count / 3;
     u->has_cut = true;
     if (status == LMN_OK && !upload_add_item(u, &item))

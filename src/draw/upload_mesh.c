@@ -71,18 +71,17 @@ lmn_status posed_make(posed_mesh *out, const upload *u, const primitive *p, cons
     return status == LMN_OK ? pose_vertices(out, p, pose, error) : status;
 }
 
-lmn_status upload_add_mesh(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)
+lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)
 {
     *out = gpu_mesh_create(g, data);
     lmn_status status = gpu_check(g, error);
     if (status != LMN_OK)
         return status;
-    if (!mem_grow((void **)&u->meshes, &u->mesh_capacity, u->mesh_count + 1, sizeof *u->meshes)) {
+    if (!mem_grow((void **)&u->pieces, &u->piece_capacity, u->piece_count + 1, sizeof *u->pieces)) {
         gpu_mesh_destroy(g, out);
         return error_memory(error);
     }
-    u->meshes[u->mesh_count++] = *out;
-    u->bytes += gpu_mesh_bytes(*out);
+    u->pieces[u->piece_count++] = *out;
     return LMN_OK;
 }
 

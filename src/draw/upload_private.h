@@ -1,9 +1,8 @@
-/* What the files that put a scene on the GPU share: upload.c, upload_cut.c and upload_mesh.c. */
+/* What the files that put a scene on the GPU share: upload.c, upload_cut.c, upload_mesh.c and upload_solid.c. */
 #ifndef LIMNER_DRAW_UPLOAD_PRIVATE_H
 #define LIMNER_DRAW_UPLOAD_PRIVATE_H
 
 #include "draw/upload.h"
-#include "scene/mesh.h"
 
 typedef struct part_pose {
     const mat4  *joints; /* NULL: no skin */
@@ -39,13 +38,15 @@ typedef struct upload_part_job {
 /* --- upload_mesh.c --- */
 lmn_status posed_make(posed_mesh *out, const upload *u, const primitive *p, const part_pose *pose, lmn_error *error);
 void       posed_release(posed_mesh *m);
-lmn_status upload_add_mesh(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
+/* A piece, which the upload owns. */
+lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
 bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_solid.c --- */
-lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error);
-void       upload_solids_release(upload *u);
+lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, lmn_error *error);
+void       upload_solids_release(upload *u, gpu *g);
+void       upload_shape_release(upload_shape *s);
 /* What shaders read about all solids; once they are all there. */
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
 

@@ -18,8 +18,7 @@ static const vec4 removed_red = {0.693f, 0.055f, 0.022f, 1};
 typedef struct baker {
     const lmn_scene *scene;
     double           crease_angle;
-    render_vertices **cache; /* per mesh and primitive, made when first needed */
-    signed char     *convex; /* per mesh: 1 yes, −1 no, 0 not asked yet */
+    upload_shape    *shapes; /* per mesh; the upload's, as other solids may ask the same */
     bool             has_lists;
     mesh             half_space; /* what sections take away, numbered behind the scene's meshes */
     vec3            *positions, *normals;
@@ -44,13 +43,6 @@ static const mesh *mesh_of(const baker *b, int32_t index)
 
 static void baker_release(baker *b)
 {
-    for (size_t m = 0; b->cache && m <= b->scene->mesh_count; m++) {
-        for (size_t i = 0; b->cache[m] && i < mesh_of(b, (int32_t)m)->primitive_count; i++)
-            render_vertices_release(&b->cache[m][i]);
-        mem_free(b->cache[m]);
-    }
-    mem_free(b->cache);
-    mem_free(b->convex);
     mem_free(b->positions);
     mem_free(b->normals);
     mem_free(b->keys);
@@ -58,23 +50,33 @@ static void baker_release(baker *b)
     mem_free(b->owners);
 }
 
+void upload_shape_release(upload_shape *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        render_vertices_release(&s->vertices[i]);
+    mem_free(s->vertices);
+}
+
 /* The vertices of a mesh's primitives, split at creases. NULL after an error. */
 static const render_vertices *vertices_of(baker *b, int32_t mesh_index, lmn_error *error)
 {
     const mesh *m = mesh_of(b, mesh_index);
-    if (b->cache[mesh_index])
-        return b->cache[mesh_index];
-    render_vertices *made = b->cache[mesh_index] = mem_calloc(m->primitive_count, sizeof *made);
-    if (!made) {
+    upload_shape *s = &b->shapes[mesh_index];
+    if (s->vertices)
+        return s->vertices;
+    s->vertices = mem_calloc(m->primitive_count, sizeof *s->vertices);
+    if (!s->vertices) {
         error_memory(error);
         return NULL;
     }
+    s->count = m->primitive_count;
+    s->revision = m->revision;
     for (size_t i = 0; i < m->primitive_count; i++) {
-        made[i] = (render_vertices){.vertex_count = m->primitives[i].vertex_count, .index_count = m->primitives[i].index_count};
-        if (!m->primitives[i].normals && mesh_make_normals(&made[i], &m->primitives[i], b->crease_angle, error) != LMN_OK)
+        s->vertices[i] = (render_vertices){.vertex_count = m->primitives[i].vertex_count, .index_count = m->primitives[i].index_count};
+        if (!m->primitives[i].normals && mesh_make_normals(&s->vertices[i], &m->primitives[i], b->crease_angle, error) != LMN_OK)
             return NULL;
     }
-    return made;
+    return s->vertices;
 }
 
 /* Six times the volume inside, positive when triangles run anticlockwise seen from outside. */
@@ -102,9 +104,16 @@ static double signed_volume(const mesh *m)
 /* Asked once a mesh. Points and faces are few or the answer is no: beyond, looking costs more than it saves. */
 static bool is_convex(baker *b, int32_t mesh_index)
 {
-    if (b->convex[mesh_index] == 0)
-        b->convex[mesh_index] = mesh_is_convex(mesh_of(b, mesh_index)) ? 1 : -1;
-    return b->convex[mesh_index] > 0;
+    if (b->shapes[mesh_index].convex == 0)
+        b->shapes[mesh_index].convex = mesh_is_convex(mesh_of(b, mesh_index)) ? 1 : -1;
+    return b->shapes[mesh_index].convex > 0;
+}
+
+static bool is_inside_out(baker *b, int32_t mesh_index)
+{
+    if (b->shapes[mesh_index].inside_out == 0)
+        b->shapes[mesh_index].inside_out = signed_volume(mesh_of(b, mesh_index)) < 0 ? 1 : -1;
+    return b->shapes[mesh_index].inside_out > 0;
 }
 
 /* Transforms normals: the inverse transpose up to a positive scale, turned when the mesh is. */
@@ -171,7 +180,7 @@ static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number
     const render_vertices *v = vertices_of(b, o->mesh, error);
     if (!v)
         return LMN_MEMORY;
-    turning t = turning_of(&o->matrix, signed_volume(m) < 0);
+    turning t = turning_of(&o->matrix, is_inside_out(b, o->mesh));
     for (size_t i = 0; i < m->primitive_count; i++) {
         if (!make_room(b, v[i].vertex_count, v[i].index_count))
             return error_memory(error);
@@ -201,30 +210,34 @@ static lmn_status mark_planes(baker *b, const uint16_t *numbers, lmn_error *erro
     return LMN_OK;
 }
 
-static lmn_status add_planes(upload *u, baker *b, uint32_t *plane_count, lmn_error *error)
+/* All solids together have CSG_PLANES_MAX. */
+static size_t room_for_planes(const upload *u)
+{
+    return CSG_PLANES_MAX - u->plane_count;
+}
+
+static lmn_status find_planes(upload_solid *s, baker *b, size_t room, lmn_error *error)
 {
     csg_soup soup = {b->positions, b->indices, b->owners, b->index_count / 3};
     uint16_t *numbers = NULL;
-    csg_plane *planes = NULL;
-    size_t count = 0;
-    *plane_count = 0;
-    if (!csg_find_planes(&soup, &numbers, &planes, &count))
+    if (!csg_find_planes(&soup, &numbers, &s->planes, &s->planes_found))
         return error_memory(error);
-    size_t room = CSG_PLANES_MAX - u->plane_count;
-    for (size_t i = 0; count > room && i < soup.triangle_count; i++)
+    for (size_t i = 0; s->planes_found > room && i < soup.triangle_count; i++)
         numbers[i] = numbers[i] > room ? 0 : numbers[i];
-    count = count < room ? count : room;
-    lmn_status status = mem_grow((void **)&u->planes, &u->plane_capacity, u->plane_count + count, sizeof *u->planes) ? LMN_OK : error_memory(error);
-    if (status == LMN_OK) {
-        if (count)
-            memcpy(u->planes + u->plane_count, planes, count * sizeof *planes);
-        u->plane_count += count;
-        *plane_count = (uint32_t)count;
-        status = mark_planes(b, numbers, error);
-    }
+    s->plane_count = s->planes_found < room ? s->planes_found : room;
+    lmn_status status = mark_planes(b, numbers, error);
     mem_free(numbers);
-    mem_free(planes);
     return status;
+}
+
+static bool add_planes(upload *u, const upload_solid *s)
+{
+    if (!mem_grow((void **)&u->planes, &u->plane_capacity, u->plane_count + s->plane_count, sizeof *u->planes))
+        return false;
+    if (s->plane_count)
+        memcpy(u->planes + u->plane_count, s->planes, s->plane_count * sizeof *s->planes);
+    u->plane_count += s->plane_count;
+    return true;
 }
 
 /* Colours and part of the operands, and the tree. */
@@ -326,8 +339,10 @@ static lmn_status find_products(upload_solid *s, baker *b, lmn_error *error)
     return status;
 }
 
-static void solid_release_upload(upload_solid *s)
+static void solid_release_upload(upload_solid *s, gpu *g)
 {
+    gpu_mesh_destroy(g, &s->mesh);
+    mem_free(s->planes);
     solid_form_release(&s->form);
     solid_products_release(&s->products);
     solid_products_release(&s->rest);
@@ -340,10 +355,10 @@ static void solid_release_upload(upload_solid *s)
     mem_free(s->meets);
 }
 
-void upload_solids_release(upload *u)
+void upload_solids_release(upload *u, gpu *g)
 {
     for (size_t i = 0; i < u->solid_count; i++)
-        solid_release_upload(&u->solids[i]);
+        solid_release_upload(&u->solids[i], g);
     mem_free(u->solids);
 }
 
@@ -378,61 +393,95 @@ static box3 reach_of(const upload_solid *s, const mat4 *world)
     return reach;
 }
 
-static lmn_status add_items(upload *u, gpu *g, size_t part_index, size_t solid_index, const mat4 *worlds, size_t count, baker *b,
-                            lmn_error *error)
+static lmn_status add_items(upload *u, size_t part_index, size_t solid_index, const mat4 *worlds, size_t count, lmn_error *error)
 {
     upload_solid *s = &u->solids[solid_index];
     draw_item item = {.is_solid = true, .part_index = part_index, .part_id = (uint32_t)part_index + 1, .surface_id = 1, .material = NONE,
-                      .solid = solid_index, .operand_count = (uint32_t)s->count, .first_plane = (uint32_t)u->plane_count};
-    lmn_status status = add_planes(u, b, &item.plane_count, error);
-    gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count, .index_count = (uint32_t)b->index_count, .indices = b->indices,
-                          .positions = (const float *)b->positions, .normals = (const float *)b->normals, .keys = b->keys};
-    if (status == LMN_OK)
-        status = upload_add_mesh(u, g, &item.mesh, &data, error);
+                      .solid = solid_index, .operand_count = (uint32_t)s->count, .first_plane = (uint32_t)u->plane_count,
+                      .plane_count = (uint32_t)s->plane_count, .mesh = s->mesh};
+    lmn_status status = add_planes(u, s) ? LMN_OK : error_memory(error);
     for (size_t k = 0; k < count && status == LMN_OK; k++) {
         item.world = worlds[k];
         item.first_operand = (uint32_t)u->program.operand_count;
         item.reach = reach_of(s, &item.world);
         status = add_program(u, s, part_index, error);
-        u->triangles += b->index_count / 3;
+        u->triangles += s->triangles;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);
     }
     return status;
 }
 
-/* The instances from `first` on share one solid; with a section, which cuts each elsewhere, there is one only. */
-static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, const mat4 *worlds, size_t count, lmn_error *error)
+static lmn_status send(upload_solid *s, gpu *g, const baker *b, lmn_error *error)
 {
-    if (!mem_grow((void **)&u->solids, &u->solid_capacity, u->solid_count + 1, sizeof *u->solids))
-        return error_memory(error);
-    upload_solid *s = &u->solids[u->solid_count];
-    size_t index = u->solid_count++;
-    memset(s, 0, sizeof *s);
+    gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count, .index_count = (uint32_t)b->index_count, .indices = b->indices,
+                          .positions = (const float *)b->positions, .normals = (const float *)b->normals, .keys = b->keys};
+    s->mesh = gpu_mesh_create(g, &data);
+    s->triangles = b->index_count / 3;
+    return gpu_check(g, error);
+}
+
+static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene *scene, size_t part_index, const mat4 *world, lmn_error *error)
+{
     s->ghost = scene->parts[part_index].ghost;
     primitive half_space;
-    baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count + 1, sizeof *b.cache),
-               .convex = mem_calloc(scene->mesh_count + 1, sizeof *b.convex), .has_lists = gpu_facts_of(g)->lists};
+    baker b = {.scene = scene, .crease_angle = u->crease_angle, .shapes = u->shapes, .has_lists = gpu_facts_of(g)->lists};
     make_half_space(&b.half_space, &half_space);
-    lmn_status status = solid_form_create(&s->form, scene, &scene->solids[scene->nodes[scene->parts[part_index].node].solid], true, error);
+    lmn_status status = solid_form_create(&s->form, &scene->solids[s->source], true, error);
     if (status == LMN_OK)
-        status = upload_cut_solid(u, &s->form, part_index, &worlds[0], (int32_t)scene->mesh_count, &s->cut_bits, error);
+        status = upload_cut_solid(u, &s->form, part_index, world, (int32_t)scene->mesh_count, &s->cut_bits, error);
     s->used = mem_alloc((s->form.operand_count + 1) * sizeof *s->used);
-    if (status == LMN_OK && (!b.cache || !b.convex || !s->used))
+    if (status == LMN_OK && !s->used)
         status = error_memory(error);
     if (status == LMN_OK) {
         s->count = solid_form_used(&s->form, s->used);
         status = bake(s, &b, error);
     }
-    if (status == LMN_OK && b.index_count)
+    if (status == LMN_OK && b.index_count) {
         status = find_products(s, &b, error);
-    if (status == LMN_OK && b.index_count)
-        status = add_items(u, g, part_index, index, worlds, count, &b, error);
+        if (status == LMN_OK)
+            status = find_planes(s, &b, room_for_planes(u), error);
+        if (status == LMN_OK)
+            status = send(s, g, &b, error);
+    }
     baker_release(&b);
     return status;
 }
 
-lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
+/* Takes a solid that has not changed from an earlier upload, unless it would have more or fewer planes here. Sections change it too. */
+static bool take_solid(upload *u, upload_solid *s, upload *earlier)
+{
+    if (!earlier || u->section.cut.cell_count || earlier->section.cut.cell_count)
+        return false;
+    for (size_t i = 0; i < earlier->solid_count; i++) {
+        upload_solid *old = &earlier->solids[i];
+        size_t room = room_for_planes(u), planes = old->planes_found < room ? old->planes_found : room;
+        if (old->source != s->source || old->revision != s->revision || old->plane_count != planes)
+            continue;
+        *s = *old;
+        memset(old, 0, sizeof *old);
+        return true;
+    }
+    return false;
+}
+
+/* Instances that share one solid; with a section, which cuts each elsewhere, there is one only. */
+static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, const mat4 *worlds,
+                                   size_t count, lmn_error *error)
+{
+    if (!mem_grow((void **)&u->solids, &u->solid_capacity, u->solid_count + 1, sizeof *u->solids))
+        return error_memory(error);
+    upload_solid *s = &u->solids[u->solid_count];
+    size_t index = u->solid_count++;
+    int32_t source = scene->nodes[scene->parts[part_index].node].solid;
+    memset(s, 0, sizeof *s);
+    s->source = source;
+    s->revision = scene->solids[source].revision;
+    lmn_status status = take_solid(u, s, earlier) ? LMN_OK : make_solid(u, s, g, scene, part_index, &worlds[0], error);
+    return status == LMN_OK && s->mesh ? add_items(u, part_index, index, worlds, count, error) : status;
+}
+
+lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, lmn_error *error)
 {
     const node *n = &scene->nodes[scene->parts[part_index].node];
     size_t count = node_draw_count(n), together = u->section.cut.cell_count ? 1 : count;
@@ -444,7 +493,7 @@ lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t p
             worlds[k] = mat4_multiply(&worlds[k], &n->instances[k]);
     }
     for (size_t first = 0; first < count && status == LMN_OK; first += together)
-        status = upload_instances(u, g, scene, part_index, worlds + first, together, error);
+        status = upload_instances(u, g, scene, part_index, earlier, worlds + first, together, error);
     mem_free(worlds);
     return status;
 }

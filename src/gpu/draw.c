@@ -195,17 +195,16 @@ void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count)
     g->draws++;
 }
 
-static size_t add_attribute(gpu_mesh *m, GLuint index, int components, uint32_t count, const float *data)
+static void add_attribute(gpu_mesh *m, GLuint index, int components, uint32_t count, const float *data)
 {
     if (!data)
-        return 0;
+        return;
     size_t bytes = sizeof(float) * (size_t)components * count;
     glGenBuffers(1, &m->buffers[index]);
     glBindBuffer(GL_ARRAY_BUFFER, m->buffers[index]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, data, GL_STATIC_DRAW);
     glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, NULL);
     glEnableVertexAttribArray(index);
-    return bytes;
 }
 
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
@@ -222,24 +221,22 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     m->has_colours = data->colours != NULL;
     glGenVertexArrays(1, &m->array);
     glBindVertexArray(m->array);
-    m->bytes += add_attribute(m, 0, 3, data->vertex_count, data->positions);
-    m->bytes += add_attribute(m, 1, 3, data->vertex_count, data->normals);
-    m->bytes += add_attribute(m, 2, 2, data->vertex_count, data->uvs[0]);
-    m->bytes += add_attribute(m, 3, 2, data->vertex_count, data->uvs[1]);
-    m->bytes += add_attribute(m, 4, 4, data->vertex_count, data->colours);
+    add_attribute(m, 0, 3, data->vertex_count, data->positions);
+    add_attribute(m, 1, 3, data->vertex_count, data->normals);
+    add_attribute(m, 2, 2, data->vertex_count, data->uvs[0]);
+    add_attribute(m, 3, 2, data->vertex_count, data->uvs[1]);
+    add_attribute(m, 4, 4, data->vertex_count, data->colours);
     if (data->keys) {
         glGenBuffers(1, &m->buffers[5]);
         glBindBuffer(GL_ARRAY_BUFFER, m->buffers[5]);
         glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->vertex_count), data->keys, GL_STATIC_DRAW);
         glVertexAttribIPointer(5, 1, GL_UNSIGNED_INT, 0, NULL);
         glEnableVertexAttribArray(5);
-        m->bytes += sizeof(uint32_t) * (size_t)data->vertex_count;
     }
     glGenBuffers(1, &m->buffers[6]);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[6]);
     size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, data->indices, GL_STATIC_DRAW);
-    m->bytes += index_bytes;
     glBindVertexArray(0);
     if (glGetError() == GL_OUT_OF_MEMORY)
         gpu_fail(g, LMN_MEMORY, "the driver has no memory for a mesh of %u vertices", data->vertex_count);
@@ -255,11 +252,6 @@ void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
     glDeleteBuffers(7, (*m)->buffers);
     mem_free(*m);
     *m = NULL;
-}
-
-size_t gpu_mesh_bytes(const gpu_mesh *m)
-{
-    return m ? m->bytes : 0;
 }
 
 uint32_t gpu_mesh_triangles(const gpu_mesh *m)

@@ -90,7 +90,6 @@ typedef struct gpu_mesh_data {
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
-size_t    gpu_mesh_bytes(const gpu_mesh *m);
 uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
 
 /* --- storage buffers (only where gpu_facts.lists) ------------------------------------------------------------------ */

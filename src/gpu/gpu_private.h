@@ -38,7 +38,6 @@ struct gpu_program {
 struct gpu_mesh {
     GLuint   array, buffers[7]; /* by attribute, the last for indices */
     uint32_t index_count, vertex_count;
-    size_t   bytes;
     bool     has_colours;
 };
 

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "import/build.h"
 #include "import/csg.h"
-#include "scene/mesh.h"
+#include "import/gather.h"
 
 static const char *name_of(const csg_reader *r, int32_t node)
 {
@@ -37,53 +37,10 @@ int csg_file_dimension(const csg_reader *r, int32_t node)
 
 /* --- meshes ------------------------------------------------------------------------------------------------------------ */
 
-static lmn_status append_primitive(csg_reader *r, const primitive *p, const mat4 *place, polyhedron *out)
-{
-    size_t points = out->point_count + p->vertex_count, corners = 3 * out->triangle_count + p->index_count;
-    point3 *grown = mem_realloc(out->points, points * sizeof *grown);
-    if (grown)
-        out->points = grown;
-    uint32_t *triangles = mem_realloc(out->triangles, corners * sizeof *triangles);
-    if (triangles)
-        out->triangles = triangles;
-    if (!grown || !triangles)
-        return error_memory(r->error);
-    for (uint32_t i = 0; i < p->index_count; i++)
-        triangles[3 * out->triangle_count + i] = p->indices[i] + (uint32_t)out->point_count;
-    const double *m = place->m;
-    for (uint32_t i = 0; i < p->vertex_count; i++) {
-        double x = (double)p->positions[i].x, y = (double)p->positions[i].y, z = (double)p->positions[i].z;
-        grown[out->point_count + i] = (point3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
-                                               m[2] * x + m[6] * y + m[10] * z + m[14]};
-    }
-    out->point_count = points;
-    out->triangle_count = corners / 3;
-    return LMN_OK;
-}
-
-static bool has_border(const primitive *p)
-{
-    uint32_t *adjacent = mesh_adjacency(p);
-    bool found = false;
-    for (uint32_t i = 0; adjacent && i < p->index_count && !found; i++)
-        found = adjacent[i] == UINT32_MAX;
-    mem_free(adjacent);
-    return found;
-}
-
 static lmn_status gather_scene(csg_reader *r, int32_t node, const lmn_scene *s, polyhedron *out)
 {
-    mat4 *worlds = scene_world_matrices(s);
     bool open = false;
-    lmn_status status = worlds ? LMN_OK : error_memory(r->error);
-    for (size_t i = 0; i < s->part_count && status == LMN_OK; i++) {
-        int32_t at = s->parts[i].node, m = s->nodes[at].mesh;
-        for (size_t k = 0; m != NONE && k < s->meshes[m].primitive_count && status == LMN_OK; k++) {
-            open = open || has_border(&s->meshes[m].primitives[k]);
-            status = append_primitive(r, &s->meshes[m].primitives[k], &worlds[at], out);
-        }
-    }
-    mem_free(worlds);
+    lmn_status status = import_gather(out, s, &open, r->error);
     if (status == LMN_OK && open)
         csg_warn(r, node, WARNING_BAD_GEOMETRY, "the mesh in \"%.200s\" is not closed", name_of(r, node));
     return status;

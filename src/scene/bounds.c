@@ -1,4 +1,5 @@
 /* World matrices and bounds. */
+#include "base/limits.h"
 #include "base/memory.h"
 #include "scene/mesh.h"
 #include "scene/solid.h"
@@ -39,6 +40,21 @@ mat4 *scene_world_matrices(const lmn_scene *s)
         }
     }
     return worlds;
+}
+
+/* Multiplied from the root on, as above: the same numbers, bit by bit. */
+mat4 scene_world_matrix(const lmn_scene *s, int32_t node_index)
+{
+    int32_t above[LIMIT_NODE_DEPTH + 1];
+    size_t depth = 0;
+    for (int32_t i = node_index; i != NONE && depth <= LIMIT_NODE_DEPTH; i = s->nodes[i].parent)
+        above[depth++] = i;
+    mat4 world = node_local_matrix(&s->nodes[above[--depth]]);
+    while (depth-- > 0) {
+        mat4 local = node_local_matrix(&s->nodes[above[depth]]);
+        world = mat4_multiply(&world, &local);
+    }
+    return world;
 }
 
 /* Does the matrix send boxes to boxes: one entry at most in each row? */
@@ -125,7 +141,7 @@ box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
     const node *n = &s->nodes[node_index];
     box3 box = box3_empty();
     if (n->solid != NONE)
-        return box3_transform(solid_bounds(s, &s->solids[n->solid]), &worlds[node_index]);
+        return box3_transform(solid_bounds(&s->solids[n->solid]), &worlds[node_index]);
     if (n->mesh == NONE)
         return box;
     const mesh *m = &s->meshes[n->mesh];

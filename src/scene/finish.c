@@ -363,6 +363,11 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     if (status != LMN_OK)
         return status;
     tell(&c);
+    for (size_t i = 0; i < s->solid_count; i++) {
+        if (!solid_measure(s, &s->solids[i]))
+            return error_memory(error);
+        s->solids[i].revision = scene_next_revision();
+    }
     part_list list;
     if (!parts_list(s, NULL, 0, NULL, &list))
         return error_memory(error);

@@ -75,7 +75,7 @@ static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
                                   "attributes", attributes_json(n));
         if (entry && n->solid != NONE) {
             const solid *tree = &s->solids[n->solid];
-            json_object_set_new(entry, "solid", solid_info_json(s, tree, bounds_json(solid_bounds(s, tree))));
+            json_object_set_new(entry, "solid", solid_info_json(s, tree, bounds_json(solid_bounds(tree))));
         }
         json_array_append_new(list, entry);
     }
@@ -191,7 +191,7 @@ char *scene_info_json(const lmn_scene *s)
     }
     const char up[2] = {s->up ? s->up : 'y', '\0'};
     json_t *root = json_pack("{s:o,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles", (json_int_t)triangles,
-                             "nodes", (json_int_t)scene_plain_node_count(s), "meshes", (json_int_t)s->mesh_count, "bounds",
+                             "nodes", (json_int_t)scene_plain_node_count(s), "meshes", (json_int_t)(s->mesh_count - s->spare_meshes), "bounds",
                              bounds_json(box), "up", up);
     if (!root)
         return NULL;

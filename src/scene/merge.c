@@ -23,7 +23,7 @@ static bool reserve_all(lmn_scene *into, const lmn_scene *from)
            RESERVE(cameras, camera_count, camera_capacity, from->camera_count) &&
            RESERVE(lights, light_count, light_capacity, from->light_count) &&
            RESERVE(skins, skin_count, skin_capacity, from->skin_count) &&
-           RESERVE(solids, solid_count, solid_capacity, from->solid_count) &&
+           RESERVE(solids, solid_count, solid_capacity, into->solid_count + 2 * from->solid_count) &&
            RESERVE(animations, animation_count, animation_capacity, from->animation_count) &&
            RESERVE(files, file_count, file_capacity, 1);
 #undef RESERVE
@@ -68,8 +68,7 @@ static void shift_references(lmn_scene *s, const offsets *by)
         s->parts[i].node += by->nodes;
 }
 
-/* Brings the up axis `from` to `to`: a quarter turn about x, with exact zeros so that boxes stay boxes. */
-static mat4 up_rotation(char from, char to)
+mat4 scene_up_rotation(char from, char to)
 {
     mat4 m = mat4_identity();
     if (from == to)
@@ -194,7 +193,7 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     lmn_status status = check_room(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4 place = up_rotation(from->up, into->up ? into->up : from->up);
+    mat4 place = scene_up_rotation(from->up, into->up ? into->up : from->up);
     char *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
     part *grown = NULL;

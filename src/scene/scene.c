@@ -30,7 +30,10 @@ void parts_release(part *parts, size_t count)
 
 lmn_scene *scene_new(void)
 {
-    return mem_calloc(1, sizeof(lmn_scene));
+    lmn_scene *scene = mem_calloc(1, sizeof *scene);
+    if (scene)
+        scene->identity = scene_next_revision();
+    return scene;
 }
 
 /* Makes room for one more zeroed element and counts it. */
@@ -99,15 +102,30 @@ skin *scene_append_skin(lmn_scene *s)
     return append((void **)&s->skins, &s->skin_capacity, &s->skin_count, sizeof *s->skins);
 }
 
-solid *scene_append_solid(lmn_scene *s, solid_kind root)
+solid *scene_append_ghost(lmn_scene *s)
 {
     solid *made = append((void **)&s->solids, &s->solid_capacity, &s->solid_count, sizeof *made);
     if (!made)
         return NULL;
-    if (solid_append(made, NONE, root) == 0)
+    made->ghost = true;
+    if (solid_append(made, NONE, SOLID_UNION) == 0)
         return made;
+    solid_release(made);
     s->solid_count--;
     return NULL;
+}
+
+solid *scene_append_solid(lmn_scene *s, solid_kind root)
+{
+    /* With room for a companion of each, so that no edit moves solids. */
+    if (!mem_grow((void **)&s->solids, &s->solid_capacity, 2 * (s->solid_count + 1), sizeof *s->solids))
+        return NULL;
+    solid *made = scene_append_ghost(s);
+    if (made) {
+        made->ghost = false;
+        made->nodes[0].kind = root;
+    }
+    return made;
 }
 
 animation *scene_append_animation(lmn_scene *s)

@@ -49,6 +49,8 @@ typedef struct mesh {
     size_t     primitive_count;
     float     *morph_weights; /* defaults, as many as the first primitive has morphs */
     size_t     morph_weight_count;
+    uint64_t   revision; /* 0 as long as it is what was imported; another one for each content put here later */
+    bool       spare;    /* nothing uses it any longer; empty */
 } mesh;
 
 typedef struct image {
@@ -185,6 +187,8 @@ struct lmn_scene {
     char     **files; /* paths as they were given, one per merged file */
     size_t     file_count, file_capacity;
     uint64_t   revision; /* changes whenever the content does; no two scenes of a process ever share one */
+    uint64_t   identity; /* the same as long as the scene lives; no other scene of the process ever has it */
+    size_t     spare_meshes;
     char       up;       /* 'y', 'z', or 0 while empty */
     bool       may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
     warnings   warnings;
@@ -193,8 +197,6 @@ struct lmn_scene {
 
 /* An empty scene; NULL when memory is gone. */
 lmn_scene *scene_new(void);
-/* A revision that no scene of this process has had. */
-uint64_t scene_next_revision(void);
 /* Frees a scene and all it owns. NULL is accepted. */
 void scene_free(lmn_scene *scene);
 
@@ -229,6 +231,9 @@ uint64_t scene_next_revision(void);
  * may_be_empty set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
 lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
 
+/* Brings the up axis `from` ('y' or 'z') to `to`: a quarter turn about x, with exact zeros so that boxes stay boxes. */
+mat4 scene_up_rotation(char from, char to);
+
 /* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to `into`'s up
  * axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error);
@@ -243,6 +248,8 @@ char *scene_name_of_file(const char *path);
 
 /* World matrices of all nodes in the rest pose, node_count of them; free with mem_free. NULL when memory is gone. */
 mat4 *scene_world_matrices(const lmn_scene *scene);
+/* That of one node. */
+mat4  scene_world_matrix(const lmn_scene *scene, int32_t node_index);
 mat4  node_local_matrix(const node *n);
 
 /* What --camera calls a camera: its name, else that of a node that has it (may be NULL), else "camera-N", counted from 1, in

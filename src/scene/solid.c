@@ -1,17 +1,21 @@
 /* Trees of set operations: building them and what can be said about them without drawing. */
 #include "scene/solid.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 
 int32_t solid_append(solid *s, int32_t parent, solid_kind kind)
 {
-    if (s->node_count >= INT32_MAX - 1 || !mem_grow((void **)&s->nodes, &s->node_capacity, s->node_count + 1, sizeof *s->nodes))
+    if (s->id_count >= INT32_MAX - 1 || !mem_grow((void **)&s->nodes, &s->node_capacity, s->node_count + 1, sizeof *s->nodes) ||
+        !mem_grow((void **)&s->places, &s->place_capacity, s->id_count + 1, sizeof *s->places))
         return NONE;
     int32_t index = (int32_t)s->node_count++;
-    s->nodes[index] = (solid_node){.kind = kind, .parent = parent, .first_child = NONE, .last_child = NONE, .next_sibling = NONE,
-                                   .matrix = mat4_identity(), .mesh = NONE};
+    s->places[s->id_count++] = index;
+    s->operand_count += kind == SOLID_OPERAND;
+    s->nodes[index] = (solid_node){.kind = kind, .id = (uint32_t)s->id_count, .parent = parent, .first_child = NONE, .last_child = NONE,
+                                   .next_sibling = NONE, .matrix = mat4_identity(), .mesh = NONE, .box = box3_empty()};
     if (parent == NONE)
         return index;
     solid_node *above = &s->nodes[parent];
@@ -23,11 +27,29 @@ int32_t solid_append(solid *s, int32_t parent, solid_kind kind)
     return index;
 }
 
+void solid_take_back(solid *s)
+{
+    int32_t index = (int32_t)--s->node_count, before = NONE;
+    s->id_count--;
+    solid_node *above = &s->nodes[s->nodes[index].parent];
+    s->operand_count -= s->nodes[index].kind == SOLID_OPERAND;
+    s->triangles -= s->nodes[index].triangles;
+    mem_free(s->nodes[index].name);
+    for (int32_t c = above->first_child; c != index; c = s->nodes[c].next_sibling)
+        before = c;
+    if (before == NONE)
+        above->first_child = NONE;
+    else
+        s->nodes[before].next_sibling = NONE;
+    above->last_child = before;
+}
+
 void solid_release(solid *s)
 {
     for (size_t i = 0; i < s->node_count; i++)
         mem_free(s->nodes[i].name);
     mem_free(s->nodes);
+    mem_free(s->places);
     memset(s, 0, sizeof *s);
 }
 
@@ -37,11 +59,6 @@ typedef struct inherited {
     bool has_colour;
     vec4 colour;
 } inherited;
-
-static bool has_triangles(const lmn_scene *scene, const solid_node *n)
-{
-    return n->kind == SOLID_OPERAND && n->mesh != NONE && mesh_triangle_count(&scene->meshes[n->mesh]) > 0;
-}
 
 /* Parents come before their children, so that one run hands everything down. NULL when memory is gone. */
 static inherited *hand_down(const solid *s)
@@ -66,41 +83,69 @@ static box3 mesh_box(const mesh *m, const mat4 *place)
     return box;
 }
 
-/* The next node depth first; NONE at the end. Order of the array is that of appending, which may differ. */
-static int32_t next_node(const solid *s, int32_t current)
+int32_t solid_next(const solid *s, int32_t top, int32_t current)
 {
     if (s->nodes[current].first_child != NONE)
         return s->nodes[current].first_child;
-    while (current != NONE && s->nodes[current].next_sibling == NONE)
+    while (current != top && s->nodes[current].next_sibling == NONE)
         current = s->nodes[current].parent;
-    return current == NONE ? NONE : s->nodes[current].next_sibling;
+    return current == top ? NONE : s->nodes[current].next_sibling;
 }
 
-bool solid_operands(const lmn_scene *scene, const solid *s, solid_operand **out, size_t *count)
+static void measure_operand(const lmn_scene *scene, solid *s, solid_node *n, const mat4 *place)
 {
-    size_t room = 0, made = 0;
-    for (size_t i = 0; i < s->node_count; i++)
-        room += has_triangles(scene, &s->nodes[i]);
+    s->triangles -= n->triangles;
+    n->triangles = n->mesh == NONE ? 0 : mesh_triangle_count(&scene->meshes[n->mesh]);
+    s->triangles += n->triangles;
+    n->box = n->triangles ? mesh_box(&scene->meshes[n->mesh], place) : box3_empty();
+}
+
+bool solid_measure(const lmn_scene *scene, solid *s)
+{
     inherited *from = hand_down(s);
-    *out = mem_calloc(room ? room : 1, sizeof **out);
-    *count = 0;
-    if (!from || !*out) {
-        mem_free(from);
-        mem_free(*out);
-        *out = NULL;
-        return false;
-    }
-    for (int32_t i = 0; i != NONE; i = next_node(s, i)) {
-        if (!has_triangles(scene, &s->nodes[i]))
-            continue;
-        solid_operand *o = &(*out)[made++];
-        *o = (solid_operand){.node = i, .mesh = s->nodes[i].mesh, .matrix = from[i].matrix, .has_colour = from[i].has_colour,
-                             .colour = from[i].colour};
-        o->box = mesh_box(&scene->meshes[o->mesh], &o->matrix);
-    }
+    for (size_t i = 0; from && i < s->node_count; i++)
+        if (s->nodes[i].kind == SOLID_OPERAND)
+            measure_operand(scene, s, &s->nodes[i], &from[i].matrix);
+    solid_sum_up(s);
     mem_free(from);
-    *count = made;
+    return from != NULL;
+}
+
+/* Multiplied from the root on, as hand_down does: the same numbers, bit by bit. */
+static mat4 place_of(const solid *s, int32_t index)
+{
+    int32_t above[SOLID_DEPTH_MAX];
+    size_t depth = 0;
+    for (int32_t i = s->nodes[index].parent; i != NONE && depth < SOLID_DEPTH_MAX; i = s->nodes[i].parent)
+        above[depth++] = i;
+    if (depth == 0)
+        return s->nodes[index].matrix;
+    mat4 place = s->nodes[above[--depth]].matrix;
+    while (depth-- > 0)
+        place = mat4_multiply(&place, &s->nodes[above[depth]].matrix);
+    return mat4_multiply(&place, &s->nodes[index].matrix);
+}
+
+static bool is_within_reach(const solid_node *n)
+{
+    const float reach[6] = {n->box.min.x, n->box.min.y, n->box.min.z, n->box.max.x, n->box.max.y, n->box.max.z};
+    for (int i = 0; i < 6; i++)
+        if (!(fabsf(reach[i]) <= SOLID_FARTHEST))
+            return n->triangles == 0;
     return true;
+}
+
+bool solid_measure_below(const lmn_scene *scene, solid *s, int32_t top)
+{
+    bool good = true;
+    for (int32_t i = top; i != NONE; i = solid_next(s, top, i)) {
+        if (s->nodes[i].kind != SOLID_OPERAND)
+            continue;
+        mat4 place = place_of(s, i);
+        measure_operand(scene, s, &s->nodes[i], &place);
+        good = good && is_within_reach(&s->nodes[i]);
+    }
+    return good;
 }
 
 static box3 box3_intersection(box3 a, box3 b)
@@ -110,61 +155,70 @@ static box3 box3_intersection(box3 a, box3 b)
     return out;
 }
 
-/* Children come after their parents: from the back, each box is complete when it is handed up. */
-static void gather_boxes(const solid *s, box3 *boxes, bool *begun)
+static box3 box_of_operation(const solid *s, const solid_node *n)
 {
+    box3 box = n->first_child == NONE ? box3_empty() : s->nodes[n->first_child].box;
+    for (int32_t c = n->first_child; c != NONE && n->kind != SOLID_DIFFERENCE; c = s->nodes[c].next_sibling) {
+        box = n->kind == SOLID_UNION ? box3_union(box, s->nodes[c].box) : box3_intersection(box, s->nodes[c].box);
+        if (box3_is_empty(box))
+            box = box3_empty();
+    }
+    return box;
+}
+
+/* Children come after their parents: from the back, each box is complete when it is asked for. */
+void solid_sum_up(solid *s)
+{
+    s->operand_count = 0;
+    s->triangles = 0;
     for (size_t i = s->node_count; i-- > 0;) {
+        solid_node *n = &s->nodes[i];
+        if (n->kind != SOLID_OPERAND)
+            n->box = box_of_operation(s, n);
+        s->operand_count += n->kind == SOLID_OPERAND;
+        s->triangles += n->triangles;
+    }
+}
+
+void solid_sum_up_above(solid *s, int32_t node)
+{
+    for (int32_t i = s->nodes[node].parent; i != NONE; i = s->nodes[i].parent)
+        s->nodes[i].box = box_of_operation(s, &s->nodes[i]);
+}
+
+bool solid_operands(const solid *s, solid_operand **out, size_t *count)
+{
+    size_t room = s->operand_count, made = 0;
+    inherited *from = hand_down(s);
+    *out = mem_calloc(room ? room : 1, sizeof **out);
+    *count = 0;
+    if (!from || !*out) {
+        mem_free(from);
+        mem_free(*out);
+        *out = NULL;
+        return false;
+    }
+    /* In the order of the tree; that of the array is the order of appending, which may differ. */
+    for (int32_t i = 0; i != NONE; i = solid_next(s, 0, i)) {
         const solid_node *n = &s->nodes[i];
-        if (n->kind == SOLID_OPERAND)
+        if (n->triangles == 0)
             continue;
-        boxes[i] = box3_empty();
-        for (int32_t c = n->first_child; c != NONE; c = s->nodes[c].next_sibling) {
-            if (n->kind == SOLID_UNION)
-                boxes[i] = box3_union(boxes[i], boxes[c]);
-            else if (!begun[i])
-                boxes[i] = boxes[c];
-            else if (n->kind == SOLID_INTERSECTION)
-                boxes[i] = box3_intersection(boxes[i], boxes[c]);
-            begun[i] = true;
-            if (box3_is_empty(boxes[i]))
-                boxes[i] = box3_empty();
-        }
+        (*out)[made++] = (solid_operand){.node = i, .mesh = n->mesh, .matrix = from[i].matrix, .has_colour = from[i].has_colour,
+                                         .colour = from[i].colour, .box = n->box};
     }
+    mem_free(from);
+    *count = made;
+    return true;
 }
 
-box3 solid_bounds(const lmn_scene *scene, const solid *s)
+box3 solid_bounds(const solid *s)
 {
-    box3 *boxes = mem_alloc(sizeof *boxes * s->node_count);
-    bool *begun = mem_calloc(s->node_count, sizeof *begun);
-    solid_operand *operands = NULL;
-    size_t count = 0;
-    box3 out = box3_empty();
-    if (boxes && begun && solid_operands(scene, s, &operands, &count)) {
-        for (size_t i = 0; i < s->node_count; i++)
-            boxes[i] = box3_empty();
-        for (size_t i = 0; i < count; i++)
-            boxes[operands[i].node] = operands[i].box;
-        gather_boxes(s, boxes, begun);
-        out = boxes[0];
-    }
-    mem_free(operands);
-    mem_free(boxes);
-    mem_free(begun);
-    return out;
-}
-
-uint64_t solid_triangle_count(const lmn_scene *scene, const solid *s)
-{
-    uint64_t count = 0;
-    for (size_t i = 0; i < s->node_count; i++)
-        if (has_triangles(scene, &s->nodes[i]))
-            count += mesh_triangle_count(&scene->meshes[s->nodes[i].mesh]);
-    return count;
+    return s->node_count ? s->nodes[0].box : box3_empty();
 }
 
 uint64_t node_triangle_count(const lmn_scene *scene, const node *n)
 {
     if (n->solid != NONE)
-        return solid_triangle_count(scene, &scene->solids[n->solid]);
+        return scene->solids[n->solid].triangles;
     return n->mesh != NONE ? mesh_triangle_count(&scene->meshes[n->mesh]) : 0;
 }

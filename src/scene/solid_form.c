@@ -172,11 +172,11 @@ static int32_t prune(solid_form *f, int32_t index, box3 bound)
     return without_shell(f, index);
 }
 
-lmn_status solid_form_create(solid_form *out, const lmn_scene *scene, const solid *s, bool pruned, lmn_error *error)
+lmn_status solid_form_create(solid_form *out, const solid *s, bool pruned, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->root = EMPTY;
-    if (!solid_operands(scene, s, &out->operands, &out->operand_count))
+    if (!solid_operands(s, &out->operands, &out->operand_count))
         return error_memory(error);
     lmn_status status = make_terms(out, s, error);
     if (status == LMN_OK && pruned)

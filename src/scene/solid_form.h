@@ -27,7 +27,7 @@ typedef struct solid_form {
 } solid_form;
 
 /* Errors: LMN_MEMORY. Without `prune` only what is empty by itself is left out. */
-lmn_status solid_form_create(solid_form *out, const lmn_scene *scene, const solid *s, bool prune, lmn_error *error);
+lmn_status solid_form_create(solid_form *out, const solid *s, bool prune, lmn_error *error);
 /* Takes the common part of `count` more operands away from the whole. They are numbered on from operand_count. Errors: LMN_MEMORY. */
 lmn_status solid_form_take_away(solid_form *f, const solid_operand *operands, size_t count, lmn_error *error);
 /* Leaves out what boxes say cannot matter. */

@@ -68,11 +68,11 @@ static json_t *tree_json(const lmn_scene *scene, const solid *s, const bool *sho
 }
 
 /* How many partial products the normal form has; null when they are too many. */
-static json_t *products_json(const lmn_scene *scene, const solid *s)
+static json_t *products_json(const solid *s)
 {
     solid_form form;
     product_list products = {.too_many = true};
-    if (solid_form_create(&form, scene, s, true, NULL) == LMN_OK && solid_products_create(&products, &form, form.root, true, NULL) != LMN_OK)
+    if (solid_form_create(&form, s, true, NULL) == LMN_OK && solid_products_create(&products, &form, form.root, true, NULL) != LMN_OK)
         products.too_many = true;
     json_t *out = products.too_many ? json_null() : json_integer((json_int_t)products.count);
     solid_products_release(&products);
@@ -91,11 +91,11 @@ json_t *solid_info_json(const lmn_scene *scene, const solid *s, json_t *bounds)
         depth = levels && levels[i] > depth ? levels[i] : depth;
     }
     json_t *out = json_pack("{s:I,s:I,s:I,s:{s:I,s:I,s:I},s:o}", "operands", counts[SOLID_OPERAND], "triangles",
-                            (json_int_t)solid_triangle_count(scene, s), "depth", (json_int_t)depth, "operations", "union",
+                            (json_int_t)s->triangles, "depth", (json_int_t)depth, "operations", "union",
                             counts[SOLID_UNION], "intersection", counts[SOLID_INTERSECTION], "difference", counts[SOLID_DIFFERENCE],
                             "bounds", bounds);
     if (out)
-        json_object_set_new(out, "products", products_json(scene, s));
+        json_object_set_new(out, "products", products_json(s));
     if (out && shown)
         json_object_set_new(out, "tree", tree_json(scene, s, shown, 0));
     mem_free(levels);

@@ -80,13 +80,13 @@ bool scene_append_removed(lmn_scene *scene, int32_t node_index)
     int32_t whole = scene->nodes[node_index].solid;
     if (!takes_away(&scene->solids[whole]))
         return true;
-    solid *into = scene_append_solid(scene, SOLID_UNION);
+    solid *into = scene_append_ghost(scene);
     if (!into)
         return false;
     removal r = {.from = &scene->solids[whole], .into = into};
-    if (!fill(&r))
+    if (!fill(&r) || !solid_measure(scene, into))
         return false;
-    if (solid_triangle_count(scene, into) == 0) {
+    if (into->triangles == 0) {
         solid_release(into);
         scene->solid_count--;
         return true;
@@ -98,5 +98,36 @@ bool scene_append_removed(lmn_scene *scene, int32_t node_index)
     n->solid = (int32_t)scene->solid_count - 1;
     n->ghost = true;
     scene_link_child(scene, node_index, index);
+    return true;
+}
+
+/* The node of the solid's companion, and the one that draws the solid itself; NONE without. */
+static int32_t companion_of(const lmn_scene *scene, size_t index, int32_t *own)
+{
+    *own = NONE;
+    for (size_t i = 0; i < scene->node_count; i++) {
+        const node *n = &scene->nodes[i];
+        if (n->solid == (int32_t)index && !n->ghost)
+            *own = (int32_t)i;
+        if (n->ghost && n->parent != NONE && scene->nodes[n->parent].solid == (int32_t)index)
+            return (int32_t)i;
+    }
+    return NONE;
+}
+
+bool scene_update_removed(lmn_scene *scene, size_t index)
+{
+    int32_t own, companion = companion_of(scene, index, &own);
+    if (companion == NONE || scene->nodes[companion].solid == NONE)
+        return own == NONE || scene_append_removed(scene, own);
+    solid fresh = {.ghost = true}, *kept = &scene->solids[scene->nodes[companion].solid];
+    removal r = {.from = &scene->solids[index], .into = &fresh};
+    if (solid_append(&fresh, NONE, SOLID_UNION) != 0 || (takes_away(r.from) && !fill(&r)) || !solid_measure(scene, &fresh)) {
+        solid_release(&fresh);
+        return false;
+    }
+    solid_release(kept);
+    *kept = fresh;
+    kept->revision = scene_next_revision();
     return true;
 }

@@ -15,7 +15,7 @@ static double operand_volume(const lmn_scene *s)
     solid_operand *o;
     size_t count;
     double volume = 0;
-    assert_true(solid_operands(s, &s->solids[0], &o, &count));
+    assert_true(solid_operands(&s->solids[0], &o, &count));
     for (size_t i = 0; i < count; i++) {
         const primitive *p = &s->meshes[o[i].mesh].primitives[0];
         for (uint32_t k = 0; k < p->index_count; k += 3) {
@@ -101,7 +101,7 @@ static void figures_alone_are_plates(void **state)
     assert_int_equal(warnings_of(s, WARNING_IGNORED), 1); /* the cube: the first object is flat */
     solid_operand *o;
     size_t count;
-    assert_true(solid_operands(s, only_solid(s), &o, &count));
+    assert_true(solid_operands(only_solid(s), &o, &count));
     assert_int_equal(count, 3);
     assert_true(o[0].mesh == o[1].mesh && o[0].colour.x == 1 && o[1].colour.z == 1 && o[2].colour.y == 1);
     mem_free(o);
@@ -421,7 +421,7 @@ static double solid_volume(const lmn_scene *s)
     size_t count;
     double length = 0;
     bool *in = mem_calloc(tree->node_count, sizeof *in);
-    assert_true(in && solid_operands(s, tree, &o, &count));
+    assert_true(in && solid_operands(tree, &o, &count));
     for (size_t i = 0; i < count; i++) {
         const primitive *p = &s->meshes[o[i].mesh].primitives[0];
         for (uint32_t k = 0; k < p->index_count; k += 3) {

@@ -183,7 +183,7 @@ static void equal_leaves_share_a_mesh(void **state)
     const solid *tree = only_solid(s);
     solid_operand *operands;
     size_t count;
-    assert_true(solid_operands(s, tree, &operands, &count));
+    assert_true(solid_operands(tree, &operands, &count));
     assert_int_equal(count, 6);
     assert_int_equal(s->mesh_count, 4);
     assert_int_equal(operands[0].mesh, operands[1].mesh);
@@ -247,7 +247,7 @@ static void the_outermost_colour_decides(void **state)
                              "color(\"red\") {color(\"blue\") {cube();}}");
     solid_operand *o;
     size_t count;
-    assert_true(solid_operands(s, only_solid(s), &o, &count));
+    assert_true(solid_operands(only_solid(s), &o, &count));
     assert_int_equal(count, 5);
     for (int i = 0; i < 2; i++) {
         assert_true(o[i].has_colour);

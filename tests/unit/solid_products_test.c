@@ -116,8 +116,9 @@ static void open_both(both *b, uint32_t seed, size_t most)
     b->scene = scene_with_box();
     b->solid = scene_append_solid(b->scene, SOLID_UNION + (solid_kind)(seed % 3));
     grow(b->solid, 0, &random, 3, &operands, most);
+    assert_true(solid_measure(b->scene, b->solid));
     for (int pruned = 0; pruned < 2; pruned++) {
-        assert_int_equal(solid_form_create(&b->form[pruned], b->scene, b->solid, pruned, &error), LMN_OK);
+        assert_int_equal(solid_form_create(&b->form[pruned], b->solid, pruned, &error), LMN_OK);
         assert_int_equal(solid_products_create(&b->products[pruned], &b->form[pruned], b->form[pruned].root, pruned, &error), LMN_OK);
     }
 }
@@ -193,12 +194,15 @@ static void test_too_many_products(void **state)
     solid *s = scene_append_solid(scene, SOLID_INTERSECTION);
     for (int i = 0; i < 14; i++) {
         int32_t either = solid_append(s, 0, SOLID_UNION);
-        for (int k = 0; k < 2; k++)
-            s->nodes[solid_append(s, either, SOLID_OPERAND)].mesh = 0;
+        for (int k = 0; k < 2; k++) {
+            int32_t at = solid_append(s, either, SOLID_OPERAND); /* moves the nodes */
+            s->nodes[at].mesh = 0;
+        }
     }
+    assert_true(solid_measure(scene, s));
     solid_form f;
     product_list l;
-    assert_int_equal(solid_form_create(&f, scene, s, true, &error), LMN_OK);
+    assert_int_equal(solid_form_create(&f, s, true, &error), LMN_OK);
     assert_int_equal(solid_products_create(&l, &f, f.root, true, &error), LMN_OK);
     assert_true(l.too_many);
     assert_int_equal(l.count, 0);
@@ -217,10 +221,11 @@ static void test_memory(void **state)
         lmn_scene *scene = scene_with_box();
         solid *s = scene_append_solid(scene, SOLID_DIFFERENCE);
         grow(s, 0, &random, 3, &operands, 12);
+        assert_true(solid_measure(scene, s));
         solid_form f;
         product_list l = {.count = 0};
         mem_fail_at(n);
-        lmn_status status = solid_form_create(&f, scene, s, true, &error);
+        lmn_status status = solid_form_create(&f, s, true, &error);
         if (status == LMN_OK)
             status = solid_products_create(&l, &f, f.root, true, &error);
         mem_fail_at(0);

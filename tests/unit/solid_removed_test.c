@@ -33,8 +33,8 @@ static size_t check_operands(const lmn_scene *s)
 {
     solid_operand *whole, *gone;
     size_t whole_count, gone_count;
-    assert_true(solid_operands(s, &s->solids[0], &whole, &whole_count));
-    assert_true(solid_operands(s, removed_of(s), &gone, &gone_count));
+    assert_true(solid_operands(&s->solids[0], &whole, &whole_count));
+    assert_true(solid_operands(removed_of(s), &gone, &gone_count));
     size_t at = 0;
     for (size_t i = 0; i < gone_count; i++) {
         while (at < whole_count && (whole[at].mesh != gone[i].mesh || memcmp(&whole[at].matrix, &gone[i].matrix, sizeof gone[i].matrix) != 0))
@@ -139,7 +139,7 @@ static void colours_are_handed_down(void **state)
         solid_operand *o;
         size_t count;
         check_operands(s);
-        assert_true(solid_operands(s, removed_of(s), &o, &count));
+        assert_true(solid_operands(removed_of(s), &o, &count));
         for (size_t k = 0; k < count; k++) {
             assert_int_equal(o[k].has_colour, cases[i].has);
             if (o[k].has_colour && (o[k].colour.x != cases[i].red || o[k].colour.z != cases[i].blue))
