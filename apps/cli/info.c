@@ -111,6 +111,18 @@ static void print_part(const json_t *part)
         print_solid(json_object_get(part, "solid"));
 }
 
+/* What solids take away: one line each, since most of it stands in their trees. */
+static void print_removed(const json_t *removed)
+{
+    const json_t *item;
+    size_t i;
+    if (json_array_size(removed) > 0)
+        printf("\nremoved (drawn where a look selects @removed)\n");
+    json_array_foreach ((json_t *)removed, i, item)
+        printf("%5.0f  %9.0f  %9.0f  %s\n", number_at(item, "id", 0), number_at(item, "triangles", 0), number_at(item, "instances", 1),
+               text_at(item, "path", ""));
+}
+
 static void print_table(const json_t *root)
 {
     const json_t *parts = json_object_get(root, "parts"), *item;
@@ -128,6 +140,7 @@ static void print_table(const json_t *root)
     printf("\n   id  triangles  instances  part\n");
     json_array_foreach ((json_t *)parts, i, item)
         print_part(item);
+    print_removed(json_object_get(root, "removed"));
     json_array_foreach (json_object_get(root, "warnings"), i, item)
         message_warning(text_at(item, "text", ""), (size_t)number_at(item, "count", 1));
 }

@@ -77,7 +77,7 @@ lmn_scene_info lmn_scene_info_of(const lmn_scene *scene)
     if (!scene)
         return info;
     info.parts = scene->part_count;
-    info.nodes = scene->node_count;
+    info.nodes = scene_plain_node_count(scene);
     info.meshes = scene->mesh_count;
     info.materials = scene->material_count;
     info.textures = scene->image_count;

@@ -9,6 +9,7 @@ layout(location = 0) out vec4 out_0;
 uniform int   u_layer; /* 0 = visible */
 uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
 uniform bool  u_filled; /* with the fill, not only the lines */
+uniform float u_forward; /* window depth by which the figure is in front of what it lies on */
 #ifdef SHARED_LAYERS
 uniform int   u_figure;
 #endif
@@ -116,5 +117,5 @@ void main()
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour * u_rear;
-    gl_FragDepth = depth;
+    gl_FragDepth = max(depth - u_forward, 0.0);
 }

@@ -39,7 +39,7 @@ static void set_part_frames(frame *f, const figure_state *s)
     gpu_set_mat4(f->g, "u_world_from_eye", world);
     gpu_set_texture(f->g, "t_part_frames", frames, false);
     int only = 0; /* where there are no ids there is one part */
-    for (size_t i = 0; i < f->plan->scene->part_count; i++)
+    for (size_t i = 0; i < f->up->part_count; i++)
         if (s->figure->designated[i])
             only = (int)i;
     gpu_set_int(f->g, "u_only_part", only);
@@ -62,6 +62,14 @@ static void set_field(frame *f, const figure_state *s)
         set_part_frames(f, s);
 }
 
+/* The walls of a hole are where what was taken away ends. Both are found apart, so their depths differ by rounding, of places as shares of
+ * the distance and of window depth: the ghost shall be in front, rather than in speckles. */
+static float forward_of(const frame *f, const figure *fig)
+{
+    double far = f->camera.far, range = far - f->camera.near;
+    return fig->ghostly && range > 0 ? (float)fmin(2e-6 + 5e-7 * far / range, 1e-3) : 0;
+}
+
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
@@ -76,6 +84,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_int(g, "u_layer", s->layer);
     gpu_set_int(g, "u_figure", s->index);
     gpu_set_float(g, "u_rear", s->rear);
+    gpu_set_float(g, "u_forward", forward_of(f, s->figure));
     gpu_set_int(g, "u_filled", s->filled);
     if (rule_use(s->figure->rule, KIND_PERTURB))
         set_field(f, s);

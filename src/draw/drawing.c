@@ -36,16 +36,20 @@ void renderer_destroy(lmn_renderer **renderer)
     *renderer = NULL;
 }
 
-/* The parts that a selector matches; NULL text or an empty one: `otherwise`. */
+/* The parts that a selector matches; NULL text or an empty one: `otherwise`. Ghosts go with their parts. */
 static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *text, bool otherwise, lmn_error *error)
 {
     selector *wanted = NULL;
     lmn_status status = text && text[0] ? selector_parse(&wanted, text, error) : LMN_OK;
-    *out = status == LMN_OK ? mem_calloc(scene->part_count, sizeof **out) : NULL;
+    *out = status == LMN_OK ? mem_calloc(scene->part_count + scene->ghost_count, sizeof **out) : NULL;
     if (status == LMN_OK && !*out)
         status = error_memory(error);
     for (size_t i = 0; i < scene->part_count && *out; i++)
         (*out)[i] = wanted ? selector_matches(wanted, scene, i) : otherwise;
+    for (size_t i = scene->part_count; i < scene->part_count + scene->ghost_count && *out; i++) {
+        size_t owner = scene_part_of_ghost(scene, i);
+        (*out)[i] = (wanted && selector_matches(wanted, scene, i)) || (owner != SIZE_MAX && (*out)[owner]);
+    }
     selector_destroy(&wanted);
     return status;
 }
@@ -78,6 +82,14 @@ static bool same_section(const upload_section *a, const upload_section *b, size_
            (!a->spared || memcmp(a->spared, b->spared, part_count * sizeof *a->spared) == 0);
 }
 
+static bool asks_for_removed(const lmn_look *look)
+{
+    for (size_t i = 0; i < look->rule_count; i++)
+        if (look->rules[i].selector && selector_names_removed(look->rules[i].selector))
+            return true;
+    return false;
+}
+
 /* Puts the scene on the GPU unless it is there already. */
 static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
 {
@@ -85,14 +97,15 @@ static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn
     double crease = (double)v->crease_angle * (3.14159265358979323846 / 180);
     upload_section section;
     lmn_status status = find_section(&section, scene, look, desc, error);
-    bool there = r->up_valid && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease;
-    if (status != LMN_OK || (there && same_section(&r->up.section, &section, scene->part_count))) {
+    bool removed = scene->ghost_count > 0 && asks_for_removed(look);
+    bool there = r->up_valid && r->up.has_removed == removed && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease;
+    if (status != LMN_OK || (there && same_section(&r->up.section, &section, scene->part_count + scene->ghost_count))) {
         mem_free(section.spared);
         return status;
     }
     r->up_valid = false;
     upload_release(&r->up, r->g);
-    status = upload_create(&r->up, r->g, scene, crease, &section, desc->progress, desc->progress_user, error);
+    status = upload_create(&r->up, r->g, scene, crease, removed, &section, desc->progress, desc->progress_user, error);
     r->scene = scene;
     r->up_valid = status == LMN_OK;
     return status;
@@ -113,7 +126,7 @@ static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_dra
     if (status != LMN_OK)
         return status;
     double nearest = INFINITY, farthest = -INFINITY;
-    for (size_t i = 0; i < scene->part_count; i++)
+    for (size_t i = 0; i < s->plan.part_count; i++)
         if (s->plan.selected[i] && !box3_is_empty(s->renderer->up.part_boxes[i]))
             camera_depth_range(c, s->renderer->up.part_boxes[i], &nearest, &farthest);
     if (!(farthest >= nearest))
@@ -221,7 +234,7 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     if (up->open_parts)
         warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", up->open_parts,
                      scene->part_count);
-    for (size_t i = 0; up->section.spared && i < scene->part_count; i++)
+    for (size_t i = 0; up->section.spared && i < up->part_count; i++)
         spares = spares || up->section.spared[i];
     if (up->section.spared && v->cut_keep.text[0] && !spares)
         warnings_add(&d->warnings, WARNING_NO_MATCH, "scene.cut_keep '%s' selects no part", v->cut_keep.text);
@@ -240,11 +253,12 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     d->triangles = r->up.triangles;
     d->bounds = s->plan.box;
     d->load_ms = scene->load_ms;
-    d->part_names = mem_calloc(scene->part_count, sizeof *d->part_names);
+    size_t part_count = r->up.part_count;
+    d->part_names = mem_calloc(part_count, sizeof *d->part_names);
     if (!d->part_names || !d->look || !d->vendor || !d->renderer || !d->version)
         return error_memory(error);
-    d->part_count = scene->part_count;
-    for (size_t i = 0; i < scene->part_count; i++)
+    d->part_count = part_count;
+    for (size_t i = 0; i < part_count; i++)
         if (!(d->part_names[i] = mem_copy_text(scene->parts[i].name)))
             return error_memory(error);
     warnings_append(&d->warnings, &scene->warnings);
@@ -275,7 +289,7 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
     warnings_release(&ignored);
     if (status != LMN_OK)
         return status;
-    d->part_pixels = mem_calloc(scene->part_count, sizeof *d->part_pixels);
+    d->part_pixels = mem_calloc(d->part_count, sizeof *d->part_pixels);
     if (!d->part_pixels)
         return error_memory(error);
     for (size_t i = 0, count = (size_t)desc->width * (size_t)desc->height; i < count; i++)

@@ -394,7 +394,7 @@ static void draw_bands(frame *f, layer_stack *stack)
 /* The depth of all that is to be uncovered, by whatever figure. */
 static void draw_mask(frame *f, layer_stack *stack)
 {
-    size_t count = f->plan->scene->part_count;
+    size_t count = f->up->part_count;
     bool any = false, *parts = mem_calloc(count, sizeof *parts);
     if (!parts) {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");

@@ -124,7 +124,7 @@ static void write_frame(const upload *u, const mover *m, int32_t mover_index, co
 
 static void write_frames(const upload *u, const lmn_scene *scene, mover *movers, const bool *animated, float *values)
 {
-    for (size_t i = 0; i < scene->part_count; i++) {
+    for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
         mover  *m = &movers[index];
         if (!m->ready) {
@@ -135,7 +135,7 @@ static void write_frames(const upload *u, const lmn_scene *scene, mover *movers,
         vec3 middle = middle_in(u, scene, m, index, i);
         m->box = box3_union(m->box, (box3){middle, middle});
     }
-    for (size_t i = 0; i < scene->part_count; i++) {
+    for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
         write_frame(u, &movers[index], index, u->frame_origin, &values[4 * TEXELS_A_PART * i]);
     }
@@ -145,12 +145,12 @@ gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene)
 {
     if (u->part_frames || gpu_failed(g))
         return u->part_frames;
-    int rows = (int)((scene->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
+    int rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
     float *values = mem_calloc((size_t)rows * (size_t)width, 4 * sizeof *values);
     mover *movers = mem_calloc(scene->node_count, sizeof *movers);
     bool  *animated = mem_calloc(scene->node_count, sizeof *animated);
     box3 box = box3_empty();
-    for (size_t i = 0; i < scene->part_count; i++)
+    for (size_t i = 0; i < u->part_count; i++)
         box = box3_union(box, u->part_boxes[i]);
     if (!box3_is_empty(box)) {
         u->frame_origin[0] = ((double)box.min.x + (double)box.max.x) / 2;

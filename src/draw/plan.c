@@ -103,7 +103,7 @@ static unsigned channels_of(const rule *r, bool several_parts)
 /* Operands of a solid have borders as parts have. */
 static bool has_solid(const plan *p, const figure *f)
 {
-    for (size_t i = 0; i < p->scene->part_count; i++)
+    for (size_t i = 0; i < p->part_count; i++)
         if (f->designated[i] && p->scene->nodes[p->scene->parts[i].node].solid != NONE)
             return true;
     return false;
@@ -136,11 +136,19 @@ static bool is_seen_through(const rule *r)
 static void find_opaque_parts(plan *p)
 {
     for (size_t i = 0; i < p->figure_count; i++)
-        for (size_t part = 0; part < p->scene->part_count && !is_seen_through(p->figures[i].rule); part++)
+        for (size_t part = 0; part < p->part_count && !is_seen_through(p->figures[i].rule); part++)
             if (p->figures[i].designated[part]) {
                 p->opaque[part] = true;
                 p->opaque_count++;
             }
+}
+
+static bool has_ghosts_alone(const plan *p, const figure *f)
+{
+    for (size_t i = 0; i < p->part_count; i++)
+        if (f->designated[i] && !p->scene->parts[i].ghost)
+            return false;
+    return true;
 }
 
 static void settle_layers(figure *f, const plan *p, bool as_sprites)
@@ -148,6 +156,7 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
     const rule *r = f->rule;
     const technique_use *layers = rule_use(r, KIND_LAYERS);
     const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
+    f->ghostly = has_ghosts_alone(p, f);
     f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
     f->channels = channels_of(r, f->part_count > 1 || p->has_cut || has_solid(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))
@@ -199,12 +208,21 @@ static void order_figures(plan *p)
     }
 }
 
+/* A ghost belongs to the part that it was taken away from, and can be selected by itself. */
+static bool is_selected(const plan *p, const selector *wanted, size_t part_index)
+{
+    if (!wanted || selector_matches(wanted, p->scene, part_index))
+        return true;
+    size_t owner = scene_part_of_ghost(p->scene, part_index);
+    return owner != SIZE_MAX && p->selected[owner];
+}
+
 static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
 {
     selector *wanted = NULL;
     lmn_status status = select ? selector_parse(&wanted, select, error) : LMN_OK;
-    for (size_t i = 0; status == LMN_OK && i < p->scene->part_count; i++) {
-        p->selected[i] = !wanted || selector_matches(wanted, p->scene, i);
+    for (size_t i = 0; status == LMN_OK && i < p->part_count; i++) {
+        p->selected[i] = is_selected(p, wanted, i);
         p->selected_count += p->selected[i];
     }
     selector_destroy(&wanted);
@@ -217,18 +235,36 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
     return status;
 }
 
+/* What the picture is fitted to of a part. Cutters may stick out far: of a ghost, what lies within a quarter of its solid's diagonal. */
+static box3 fitted_box(const plan *p, const upload *up, size_t part_index)
+{
+    box3 box = up->part_boxes[part_index];
+    size_t owner = scene_part_of_ghost(p->scene, part_index);
+    if (owner == SIZE_MAX || box3_is_empty(up->part_boxes[owner]))
+        return box;
+    box3 near = up->part_boxes[owner];
+    float x = near.max.x - near.min.x, y = near.max.y - near.min.y, z = near.max.z - near.min.z;
+    float margin = sqrtf(x * x + y * y + z * z) / 4;
+    box.min = (vec3){fmaxf(box.min.x, near.min.x - margin), fmaxf(box.min.y, near.min.y - margin), fmaxf(box.min.z, near.min.z - margin)};
+    box.max = (vec3){fminf(box.max.x, near.max.x + margin), fminf(box.max.y, near.max.y + margin), fminf(box.max.z, near.max.z + margin)};
+    return box3_is_empty(box) ? box3_empty() : box;
+}
+
 /* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides nothing and
- * has no lines; the picture is fitted to it all the same, so that looks of one scene can be compared. */
+ * has no lines; the picture is fitted to it all the same, so that looks of one scene can be compared, but not to a ghost. */
 static void share_parts(plan *p, const upload *up, warnings *notes)
 {
     const lmn_look *look = p->look;
-    for (size_t i = 0; i < p->scene->part_count; i++) {
+    for (size_t i = 0; i < p->part_count; i++) {
         if (!p->selected[i])
             continue;
-        p->box = box3_union(p->box, up->part_boxes[i]);
+        bool ghost = p->scene->parts[i].ghost;
+        if (!ghost)
+            p->box = box3_union(p->box, up->part_boxes[i]);
         bool taken = false;
         for (size_t r = look->rule_count; r-- > 0 && !taken;) {
-            if (look->rules[r].selector && !selector_matches(look->rules[r].selector, p->scene, i))
+            const selector *s = look->rules[r].selector;
+            if (s ? !selector_matches(s, p->scene, i) : ghost)
                 continue;
             figure *f = &p->figures[r];
             f->designated[i] = true;
@@ -236,6 +272,8 @@ static void share_parts(plan *p, const upload *up, warnings *notes)
             f->box = box3_union(f->box, up->part_boxes[i]);
             taken = true;
         }
+        if (ghost && taken)
+            p->box = box3_union(p->box, fitted_box(p, up, i));
         p->selected[i] = taken;
         p->selected_count -= !taken;
     }
@@ -256,7 +294,7 @@ static void share_parts(plan *p, const upload *up, warnings *notes)
 /* Each mirror has a plane of its own, so each part of a mirror rule becomes a figure. */
 static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
 {
-    size_t before = p->figure_count, capacity = before + p->scene->part_count;
+    size_t before = p->figure_count, capacity = before + p->part_count;
     figure *grown = mem_realloc(p->figures, capacity * sizeof *grown);
     if (!grown)
         return error_memory(error);
@@ -265,11 +303,11 @@ static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
         const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
         if (!surface || !surface->technique->reflects || is_seen_through(p->figures[i].rule))
             continue;
-        for (size_t part = 0; part < p->scene->part_count && p->figures[i].part_count > 1; part++) {
+        for (size_t part = 0; part < p->part_count && p->figures[i].part_count > 1; part++) {
             if (!p->figures[i].designated[part])
                 continue;
             figure single = {.rule = p->figures[i].rule, .part_count = 1, .box = up->part_boxes[part]};
-            single.designated = mem_calloc(p->scene->part_count, sizeof *single.designated);
+            single.designated = mem_calloc(p->part_count, sizeof *single.designated);
             if (!single.designated)
                 return error_memory(error);
             single.designated[part] = true;
@@ -278,7 +316,7 @@ static lmn_status split_mirrors(plan *p, const upload *up, lmn_error *error)
             p->figures[i].part_count--;
         }
         p->figures[i].box = box3_empty();
-        for (size_t part = 0; part < p->scene->part_count; part++)
+        for (size_t part = 0; part < p->part_count; part++)
             if (p->figures[i].designated[part])
                 p->figures[i].box = up->part_boxes[part];
     }
@@ -317,7 +355,7 @@ static lmn_status split_focus(plan *p, size_t index, const upload *up, const pee
 {
     figure *f = &p->figures[index];
     figure opaque = {.box = box3_empty(), .highlight = peel->focus_colour.a > 0 ? &peel->focus_colour : NULL};
-    opaque.designated = mem_calloc(p->scene->part_count, sizeof *opaque.designated);
+    opaque.designated = mem_calloc(p->part_count, sizeof *opaque.designated);
     rule *r = opaque.designated ? add_rule(p, f->rule) : NULL;
     if (!r) {
         mem_free(opaque.designated);
@@ -338,7 +376,7 @@ static lmn_status split_focus(plan *p, size_t index, const upload *up, const pee
         *use = fresh;
     }
     box3 left = box3_empty();
-    for (size_t i = 0; i < p->scene->part_count; i++) {
+    for (size_t i = 0; i < p->part_count; i++) {
         if (f->designated[i] && f->focus[i]) {
             f->designated[i] = false;
             opaque.designated[i] = true;
@@ -371,9 +409,9 @@ static lmn_status find_focus(plan *p, size_t index, const upload *up, warnings *
     lmn_status status = selector_parse(&wanted, peel->focus.text, error);
     if (status != LMN_OK)
         return status;
-    f->focus = mem_calloc(p->scene->part_count, sizeof *f->focus);
+    f->focus = mem_calloc(p->part_count, sizeof *f->focus);
     size_t found = 0, own = 0;
-    for (size_t i = 0; f->focus && i < p->scene->part_count; i++) {
+    for (size_t i = 0; f->focus && i < p->part_count; i++) {
         f->focus[i] = p->selected[i] && selector_matches(wanted, p->scene, i);
         found += f->focus[i];
         own += f->focus[i] && f->designated[i];
@@ -409,11 +447,12 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
 {
     memset(out, 0, sizeof *out);
     out->scene = scene;
+    out->part_count = up->part_count;
     out->look = look;
     out->box = box3_empty();
     out->has_cut = up->has_cut;
-    out->selected = mem_calloc(scene->part_count, sizeof *out->selected);
-    out->opaque = mem_calloc(scene->part_count, sizeof *out->opaque);
+    out->selected = mem_calloc(up->part_count, sizeof *out->selected);
+    out->opaque = mem_calloc(up->part_count, sizeof *out->opaque);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
     bool good = out->selected && out->opaque && out->figures && out->rules;
@@ -425,7 +464,7 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
         settle_grounds(&out->rules[r], wishes->ground);
         figure *f = &out->figures[out->figure_count++];
         *f = (figure){.rule = &out->rules[r], .box = box3_empty()};
-        f->designated = mem_calloc(scene->part_count, sizeof *f->designated);
+        f->designated = mem_calloc(up->part_count, sizeof *f->designated);
         good = f->designated != NULL;
     }
     if (!good)

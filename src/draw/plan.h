@@ -20,12 +20,14 @@ typedef struct figure {
     bool        direct;     /* drawn straight onto the page */
     bool        reflects;
     bool        layered;    /* composed layer by layer */
+    bool        ghostly;    /* of ghosts alone */
     int         layer_count; /* layers at most */
 } figure;
 
 typedef struct plan {
     const lmn_scene *scene;
     const lmn_look  *look;
+    size_t           part_count; /* of the upload: ghosts too when the look asks for them */
     rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t           rule_count;
     bool            *selected; /* per part: drawn by some figure */

@@ -97,7 +97,7 @@ static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t 
     return status;
 }
 
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, upload_section *section,
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section,
                          lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
@@ -106,8 +106,9 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
     out->section = *section;
     *section = (upload_section){.spared = NULL};
     out->worlds = scene_world_matrices(scene);
-    out->part_count = scene->part_count;
-    out->part_boxes = mem_calloc(scene->part_count, sizeof *out->part_boxes);
+    out->has_removed = removed;
+    out->part_count = scene->part_count + (removed ? scene->ghost_count : 0);
+    out->part_boxes = mem_calloc(out->part_count, sizeof *out->part_boxes);
     out->texture_count = scene->image_count * 2;
     out->textures = mem_calloc(out->texture_count, sizeof(gpu_texture *));
     box3 box = box3_empty();
@@ -124,8 +125,8 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
     lmn_status status = LMN_OK;
     if (!out->worlds || !out->part_boxes || !out->textures || !first || !shared)
         status = error_memory(error);
-    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
-        if (progress && !progress((double)i / (double)scene->part_count, "preparing", user))
+    for (size_t i = 0; i < out->part_count && status == LMN_OK; i++) {
+        if (progress && !progress((double)i / (double)out->part_count, "preparing", user))
             status = error_set(error, LMN_CANCELLED, "cancelled");
         if (status == LMN_OK && scene->nodes[scene->parts[i].node].solid != NONE)
             status = upload_solid_part(out, g, scene, i, error);

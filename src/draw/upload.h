@@ -20,6 +20,7 @@ typedef struct upload_solid {
     bool        *in_products; /* per operand: belongs to a branch of the tree that is given by products of convex operands */
     product_list products;    /* of those branches; of operands as they are numbered here */
     bool        *meets;       /* per operand: is taken away from where another one is taken away too */
+    bool         ghost;       /* what another one takes away */
     bool         all_convex;  /* there is nothing but these products */
     product_list rest;        /* of the other branches */
 } upload_solid;
@@ -56,7 +57,8 @@ typedef struct upload {
     double        extent;     /* of the scene at rest */
     mat4         *worlds;
     box3         *part_boxes; /* world axes */
-    size_t        part_count;
+    size_t        part_count; /* with the ghosts when the look asks for them */
+    bool          has_removed; /* it does */
     draw_item    *items;
     size_t        item_count, item_capacity;
     gpu_mesh    **meshes;
@@ -78,8 +80,9 @@ typedef struct upload {
     size_t        bytes;
 } upload;
 
-/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over. */
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, upload_section *section,
+/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over. `removed`: what
+ * solids take away, too. */
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section,
                          lmn_progress_fn progress, void *user, lmn_error *error);
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */

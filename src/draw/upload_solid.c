@@ -10,7 +10,9 @@
 #include "scene/solid_form.h"
 
 /* Light grey, sRGB 0.8, as formats without colours have it. */
-static const float plain_grey = 0.6038f;
+static const vec4 plain_grey = {0.6038f, 0.6038f, 0.6038f, 1};
+/* Of what is taken away, where the file says no colour: a warm red, sRGB 0.85 0.26 0.16. */
+static const vec4 removed_red = {0.693f, 0.055f, 0.022f, 1};
 
 /* One solid while it is put together. */
 typedef struct baker {
@@ -238,8 +240,9 @@ static lmn_status add_program(upload *u, const upload_solid *s, size_t part_inde
         /* Cut faces have the colour of what the solid begins with. */
         if (s->cut_bits[s->used[i]])
             o = &s->form.operands[s->used[0]];
-        vec4 c = o->has_colour ? o->colour : (vec4){plain_grey, plain_grey, plain_grey, 1};
-        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(s->cut_bits[s->used[i]] & ~SURFACE_CUT), s->cut_bits[s->used[i]] ? 1 : 0, 0}, sizeof u->operands[0]);
+        vec4 c = o->has_colour ? o->colour : s->ghost ? removed_red : plain_grey;
+        uint32_t bits = s->ghost ? 0 : s->cut_bits[s->used[i]]; /* nothing is hatched that is not there */
+        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(bits & ~SURFACE_CUT), bits ? 1 : 0, 0}, sizeof u->operands[0]);
     }
     return LMN_OK;
 }
@@ -406,6 +409,7 @@ static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, si
     upload_solid *s = &u->solids[u->solid_count];
     size_t index = u->solid_count++;
     memset(s, 0, sizeof *s);
+    s->ghost = scene->parts[part_index].ghost;
     primitive half_space;
     baker b = {.scene = scene, .crease_angle = u->crease_angle, .cache = mem_calloc(scene->mesh_count + 1, sizeof *b.cache),
                .convex = mem_calloc(scene->mesh_count + 1, sizeof *b.convex), .has_lists = gpu_facts_of(g)->lists};

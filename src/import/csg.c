@@ -72,17 +72,19 @@ static lmn_status emit(emission *e, int32_t parent, int32_t shape)
     return index == NONE ? error_memory(e->reader->error) : fill(e, index, shape);
 }
 
-/* The root is a union, that of the shape or one around it. */
+/* The root is a union, that of the shape or one around it. What it takes away is kept beside it, for looks that show that. */
 static lmn_status fill_scene(csg_reader *r, int32_t shape)
 {
     lmn_scene *scene = r->job->scene;
+    int32_t index = (int32_t)scene->node_count;
     node *n = scene_append_node(scene);
     solid *s = scene_append_solid(scene, SOLID_UNION);
     if (!n || !s)
         return error_memory(r->error);
     n->solid = (int32_t)scene->solid_count - 1;
     emission e = {.reader = r, .solid = s};
-    return r->shapes[shape].kind == SOLID_UNION ? fill(&e, 0, shape) : emit(&e, 0, shape);
+    lmn_status status = r->shapes[shape].kind == SOLID_UNION ? fill(&e, 0, shape) : emit(&e, 0, shape);
+    return status != LMN_OK || scene_append_removed(scene, index) ? status : error_memory(r->error);
 }
 
 static void release_reader(csg_reader *r)

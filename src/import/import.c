@@ -73,7 +73,7 @@ static lmn_status choose(const import_format **out, const char *path, const file
 /* A file with one unnamed part is called like the file. */
 static lmn_status name_single_node(lmn_scene *scene, const char *path, lmn_error *error)
 {
-    if (scene->node_count != 1 || scene->nodes[0].name ||
+    if (scene_plain_node_count(scene) != 1 || scene->nodes[0].name ||
         (scene->nodes[0].mesh == NONE ? scene->nodes[0].solid == NONE : scene->meshes[scene->nodes[0].mesh].name != NULL))
         return LMN_OK;
     scene->nodes[0].name = scene_name_of_file(path);

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-typedef enum condition_type { CONDITION_NAME, CONDITION_PATH, CONDITION_ATTRIBUTE } condition_type;
+typedef enum condition_type { CONDITION_NAME, CONDITION_PATH, CONDITION_ATTRIBUTE, CONDITION_REMOVED } condition_type;
 
 /* One condition. Those of one alternative follow each other; all of them must hold. */
 typedef struct condition {
@@ -96,8 +96,13 @@ static lmn_status read_condition(reader *r, condition *c)
     lmn_status status = read_word(r, " \t,[", &c->pattern);
     if (status == LMN_OK && r->at == start)
         return wrong(r, "a name, a path or [attribute] is missing");
+    bool keyword = *start == '@'; /* in quotes it is a name */
+    if (status == LMN_OK && keyword && strcmp(c->pattern, "@removed") != 0) {
+        r->at = start;
+        return wrong(r, "after '@' only 'removed' is known; put names that begin with '@' into quotes");
+    }
     if (status == LMN_OK)
-        c->type = strchr(c->pattern, '/') ? CONDITION_PATH : CONDITION_NAME;
+        c->type = keyword ? CONDITION_REMOVED : strchr(c->pattern, '/') ? CONDITION_PATH : CONDITION_NAME;
     return status;
 }
 
@@ -190,6 +195,7 @@ static bool condition_holds(const condition *c, const lmn_scene *scene, size_t p
     switch (c->type) {
     case CONDITION_NAME: return text_glob(c->pattern, p->name ? p->name : "");
     case CONDITION_PATH: return text_glob(c->pattern, p->path ? p->path : "");
+    case CONDITION_REMOVED: return p->ghost;
     case CONDITION_ATTRIBUTE: break;
     }
     if (strcmp(c->key, "id") == 0) {
@@ -201,16 +207,31 @@ static bool condition_holds(const condition *c, const lmn_scene *scene, size_t p
     return attribute_matches(c, scene, p->node);
 }
 
+static bool asks_for_removed(const condition *c)
+{
+    return c->type == CONDITION_REMOVED && !c->negated;
+}
+
+bool selector_names_removed(const selector *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (asks_for_removed(&s->items[i]))
+            return true;
+    return false;
+}
+
 bool selector_matches(const selector *s, const lmn_scene *scene, size_t part_index)
 {
-    if (part_index >= scene->part_count)
+    if (part_index >= scene->part_count + scene->ghost_count)
         return false;
+    bool ghost = scene->parts[part_index].ghost;
     for (size_t i = 0; i < s->count;) {
-        bool all = true;
-        do
+        bool all = true, asked = false;
+        do {
             all = all && condition_holds(&s->items[i], scene, part_index) != s->items[i].negated;
-        while (++i < s->count && !s->items[i].starts_alternative);
-        if (all)
+            asked = asked || asks_for_removed(&s->items[i]);
+        } while (++i < s->count && !s->items[i].starts_alternative);
+        if (all && (asked || !ghost))
             return true;
     }
     return false;

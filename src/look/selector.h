@@ -3,6 +3,7 @@
  *   Truck/\*\/Axle glob on the path (it contains '/')
  *   [key]        has the attribute      [key=glob]    and its value matches; [material=glob] and [id=N] are built in
  *   a, b         either                 a [key=x]     both          !a   not
+ *   @removed         what a solid's differences take away (ghosts); only selectors that say so match it, '*' does not
  * Quotes keep blanks and commas: "Front Axle", [material="a, b"]. '*' and '?' work inside quotes too, and '*' also runs
  * over '/'. An attribute of a node holds for what is below it.
  */
@@ -17,5 +18,7 @@ typedef struct selector selector;
 lmn_status selector_parse(selector **out, const char *text, lmn_error *error);
 void       selector_destroy(selector **s);
 bool       selector_matches(const selector *s, const lmn_scene *scene, size_t part_index);
+/* May it match ghosts? */
+bool       selector_names_removed(const selector *s);
 
 #endif

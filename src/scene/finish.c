@@ -304,22 +304,44 @@ static lmn_status nothing_to_draw(const check *c)
 /* Single-precision sums of squares overflow beyond this. */
 static const float FARTHEST = 1e18f;
 
+static bool is_far(box3 b)
+{
+    float reach[6] = {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z};
+    bool far = false;
+    for (int k = 0; k < 6; k++)
+        far = far || !(fabsf(reach[k]) <= FARTHEST);
+    return far && !box3_is_empty(b);
+}
+
 /* Transforms may be finite and still put a part where no camera can look. */
 static lmn_status check_places(const check *c, const part *parts, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        box3 b = parts[i].bounds;
-        float reach[6] = {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z};
-        for (int k = 0; k < 6; k++) {
-            if (fabsf(reach[k]) <= FARTHEST || box3_is_empty(b))
-                continue;
-            lmn_status status = error_in_file(c->error, LMN_FORMAT, c->file, 0,
-                                              "part '%.100s' lies farther than 1e18 from the origin", parts[i].name);
-            error_hint(c->error, "check the transforms above it");
-            return status;
-        }
+        if (!is_far(parts[i].bounds))
+            continue;
+        lmn_status status = error_in_file(c->error, LMN_FORMAT, c->file, 0,
+                                          "part '%.100s' lies farther than 1e18 from the origin", parts[i].name);
+        error_hint(c->error, "check the transforms above it");
+        return status;
     }
     return LMN_OK;
+}
+
+/* A ghost that lies there is nobody's mistake, a cutter may be as long as it likes; it cannot be shown. Before the list is the scene's. */
+static void leave_out_far_ghosts(lmn_scene *s, part_list *l)
+{
+    size_t kept = l->part_count;
+    for (size_t i = l->part_count; i < l->part_count + l->ghost_count; i++) {
+        part *p = &l->parts[i];
+        if (!is_far(p->bounds)) {
+            l->parts[kept++] = *p;
+            continue;
+        }
+        s->nodes[p->node].solid = NONE;
+        mem_free(p->name);
+        mem_free(p->path);
+    }
+    l->ghost_count = kept - l->part_count;
 }
 
 lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
@@ -341,18 +363,19 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     if (status != LMN_OK)
         return status;
     tell(&c);
-    part *parts;
-    size_t count;
-    if (!parts_list(s, NULL, 0, NULL, &parts, &count))
+    part_list list;
+    if (!parts_list(s, NULL, 0, NULL, &list))
         return error_memory(error);
-    parts_release(s->parts, s->part_count);
-    s->parts = parts;
-    s->part_count = count;
-    status = check_places(&c, parts, count);
+    leave_out_far_ghosts(s, &list);
+    parts_release(s->parts, s->part_count + s->ghost_count);
+    s->parts = list.parts;
+    s->part_count = list.part_count;
+    s->ghost_count = list.ghost_count;
+    status = check_places(&c, s->parts, s->part_count);
     if (status != LMN_OK)
         return status;
     s->revision = scene_next_revision();
-    if (count > 0)
+    if (s->part_count > 0)
         return LMN_OK;
     if (!s->may_be_empty)
         return nothing_to_draw(&c);

@@ -61,10 +61,10 @@ static json_t *part_materials(const lmn_scene *s, const mesh *m)
     return list;
 }
 
-static json_t *parts_json(const lmn_scene *s)
+static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < s->part_count; i++) {
+    for (size_t i = first; i < first + count; i++) {
         const part *p = &s->parts[i];
         const node *n = &s->nodes[p->node];
         size_t instances = node_draw_count(n);
@@ -191,12 +191,13 @@ char *scene_info_json(const lmn_scene *s)
     }
     const char up[2] = {s->up ? s->up : 'y', '\0'};
     json_t *root = json_pack("{s:o,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles", (json_int_t)triangles,
-                             "nodes", (json_int_t)s->node_count, "meshes", (json_int_t)s->mesh_count, "bounds",
+                             "nodes", (json_int_t)scene_plain_node_count(s), "meshes", (json_int_t)s->mesh_count, "bounds",
                              bounds_json(box), "up", up);
     if (!root)
         return NULL;
     json_object_set_new(root, "load_ms", real(s->load_ms));
-    json_object_set_new(root, "parts", parts_json(s));
+    json_object_set_new(root, "parts", parts_json(s, 0, s->part_count));
+    json_object_set_new(root, "removed", parts_json(s, s->part_count, s->ghost_count));
     json_object_set_new(root, "animations", animations_json(s));
     json_object_set_new(root, "materials", materials_json(s));
     json_object_set_new(root, "textures", textures_json(s));

@@ -64,7 +64,7 @@ static void shift_references(lmn_scene *s, const offsets *by)
     for (size_t i = 0; i < s->animation_count; i++)
         for (size_t k = 0; k < s->animations[i].channel_count; k++)
             shift(&s->animations[i].channels[k].node, by->nodes);
-    for (size_t i = 0; i < s->part_count; i++)
+    for (size_t i = 0; i < s->part_count + s->ghost_count; i++)
         s->parts[i].node += by->nodes;
 }
 
@@ -146,8 +146,23 @@ static void move_elements(lmn_scene *into, lmn_scene *from)
     MOVE(skins, skin_count);
     MOVE(animations, animation_count);
     MOVE(solids, solid_count);
-    MOVE(parts, part_count);
 #undef MOVE
+}
+
+/* Ghosts stay behind the ordinary parts of all files; room was reserved. */
+static void move_parts(lmn_scene *into, lmn_scene *from)
+{
+    part *behind = into->parts + into->part_count;
+    if (into->ghost_count)
+        memmove(behind + from->part_count, behind, into->ghost_count * sizeof *behind);
+    if (from->part_count)
+        memcpy(behind, from->parts, from->part_count * sizeof *behind);
+    behind += from->part_count + into->ghost_count;
+    if (from->ghost_count)
+        memcpy(behind, from->parts + from->part_count, from->ghost_count * sizeof *behind);
+    into->part_count += from->part_count;
+    into->ghost_count += from->ghost_count;
+    from->part_count = from->ghost_count = 0;
 }
 
 /* Behind this nothing can fail. */
@@ -163,6 +178,7 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
     n->has_matrix = true;
     n->matrix = *place;
     move_elements(into, from);
+    move_parts(into, from);
     for (size_t i = (size_t)by.nodes; i < into->node_count; i++)
         if (into->nodes[i].parent == NONE)
             scene_link_child(into, root, (int32_t)i);
@@ -180,24 +196,25 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
         return status;
     mat4 place = up_rotation(from->up, into->up ? into->up : from->up);
     char *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
-    part *parts = NULL, *grown = NULL;
-    size_t part_count = 0;
-    bool good = name && path && reserve_all(into, from) &&
-                parts_list(from, name, (uint32_t)into->part_count, &place, &parts, &part_count);
+    part_list list = {.parts = NULL};
+    part *grown = NULL;
+    bool good = name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &place, &list);
     if (good) {
-        grown = mem_realloc(into->parts, (into->part_count + part_count) * sizeof *grown);
+        size_t total = into->part_count + into->ghost_count + list.part_count + list.ghost_count;
+        grown = mem_realloc(into->parts, total * sizeof *grown);
         good = grown != NULL;
     }
     if (!good) {
         mem_free(name);
         mem_free(path);
-        parts_release(parts, part_count);
+        parts_release(list.parts, list.part_count + list.ghost_count);
         return error_memory(error);
     }
     into->parts = grown;
-    parts_release(from->parts, from->part_count);
-    from->parts = parts;
-    from->part_count = part_count;
+    parts_release(from->parts, from->part_count + from->ghost_count);
+    from->parts = list.parts;
+    from->part_count = list.part_count;
+    from->ghost_count = list.ghost_count;
     if (!into->up)
         into->up = from->up;
     commit(into, from, name, path, &place);

@@ -118,9 +118,9 @@ static char *make_unique(path_set *set, char *path)
     }
 }
 
-static bool is_part(const lmn_scene *s, int32_t index)
+static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
 {
-    return node_triangle_count(s, &s->nodes[index]) > 0;
+    return s->nodes[index].ghost == ghost && node_triangle_count(s, &s->nodes[index]) > 0;
 }
 
 static bool add_part(listing *l, int32_t index)
@@ -132,7 +132,7 @@ static bool add_part(listing *l, int32_t index)
         name = fallback;
     }
     part *p = &l->parts[l->count];
-    *p = (part){.node = index, .name = mem_copy_text(name)};
+    *p = (part){.node = index, .name = mem_copy_text(name), .ghost = l->scene->nodes[index].ghost};
     l->count++;
     if (!p->name)
         return false;
@@ -145,20 +145,29 @@ static bool add_part(listing *l, int32_t index)
     return true;
 }
 
-static bool add_tree(listing *l, int32_t root)
+static bool add_tree(listing *l, int32_t root, bool ghosts)
 {
     for (int32_t n = root; n != NONE; n = scene_next_node(l->scene, root, n))
-        if (is_part(l->scene, n) && !add_part(l, n))
+        if (is_part(l->scene, n, ghosts) && !add_part(l, n))
             return false;
     return true;
 }
 
-bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const mat4 *place, part **out,
-                size_t *out_count)
+static bool add_trees(listing *l, bool ghosts)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < s->node_count; i++)
-        count += is_part(s, (int32_t)i);
+    for (size_t i = 0; i < l->scene->node_count; i++)
+        if (l->scene->nodes[i].parent == NONE && !add_tree(l, (int32_t)i, ghosts))
+            return false;
+    return true;
+}
+
+bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const mat4 *place, part_list *out)
+{
+    size_t count = 0, ghosts = 0;
+    for (size_t i = 0; i < s->node_count; i++) {
+        ghosts += is_part(s, (int32_t)i, true);
+        count += is_part(s, (int32_t)i, s->nodes[i].ghost);
+    }
     listing l = {.scene = s, .prefix = prefix, .first_id = first_id};
     l.seen.capacity = 16;
     while (l.seen.capacity < count * 3)
@@ -169,16 +178,30 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
     bool good = l.seen.entries && l.parts && l.worlds;
     for (size_t i = 0; good && place && i < s->node_count; i++)
         l.worlds[i] = mat4_multiply(place, &l.worlds[i]);
-    for (size_t i = 0; good && i < s->node_count; i++)
-        if (s->nodes[i].parent == NONE)
-            good = add_tree(&l, (int32_t)i);
+    good = good && add_trees(&l, false) && (ghosts == 0 || add_trees(&l, true));
     mem_free(l.seen.entries);
     mem_free(l.worlds);
     if (!good) {
         parts_release(l.parts, l.count);
         return false;
     }
-    *out = l.parts;
-    *out_count = l.count;
+    *out = (part_list){l.parts, l.count - ghosts, ghosts};
     return true;
+}
+
+size_t scene_plain_node_count(const lmn_scene *s)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->node_count; i++)
+        count += !s->nodes[i].ghost;
+    return count;
+}
+
+size_t scene_part_of_ghost(const lmn_scene *s, size_t ghost_index)
+{
+    int32_t above = s->parts[ghost_index].ghost ? s->nodes[s->parts[ghost_index].node].parent : NONE;
+    for (size_t i = 0; above != NONE && i < s->part_count; i++)
+        if (s->parts[i].node == above)
+            return i;
+    return SIZE_MAX;
 }

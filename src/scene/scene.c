@@ -196,7 +196,7 @@ static void release_drawables(lmn_scene *s)
         mesh_release(&s->meshes[i]);
     for (size_t i = 0; i < s->solid_count; i++)
         solid_release(&s->solids[i]);
-    parts_release(s->parts, s->part_count);
+    parts_release(s->parts, s->part_count + s->ghost_count);
     mem_free(s->nodes);
     mem_free(s->meshes);
     mem_free(s->solids);

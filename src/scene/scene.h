@@ -116,6 +116,7 @@ typedef struct node {
     double     translation[3], rotation[4] /* x y z w */, scale[3];
     int32_t    mesh, skin, camera, light;
     int32_t    solid; /* a node has a mesh or a solid */
+    bool       ghost; /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
     mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
     size_t     instance_count; /* 0: the node itself is the one instance */
     float     *morph_weights; /* NULL: the mesh's */
@@ -157,6 +158,7 @@ typedef struct part {
     char    *name, *path; /* paths are unique */
     uint64_t triangles;   /* of one instance */
     box3     bounds;      /* rest pose, all instances */
+    bool     ghost;       /* its node is one */
 } part;
 
 struct lmn_scene {
@@ -178,8 +180,8 @@ struct lmn_scene {
     size_t     animation_count, animation_capacity;
     struct solid *solids; /* scene/solid.h */
     size_t     solid_count, solid_capacity;
-    part      *parts;
-    size_t     part_count;
+    part      *parts;  /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
+    size_t     part_count, ghost_count;
     char     **files; /* paths as they were given, one per merged file */
     size_t     file_count, file_capacity;
     uint64_t   revision; /* changes whenever the content does; no two scenes of a process ever share one */
@@ -256,6 +258,11 @@ box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
 box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index);
 /* The node after this one, depth first, within the tree below `root`; NONE at the end. */
 int32_t scene_next_node(const lmn_scene *scene, int32_t root, int32_t current);
+
+/* Nodes that are no ghosts. */
+size_t scene_plain_node_count(const lmn_scene *scene);
+/* The ordinary part that a ghost was taken away from; SIZE_MAX when it is none. */
+size_t scene_part_of_ghost(const lmn_scene *scene, size_t ghost_index);
 
 /* The scene as JSON text (docs/reference/info.md); free with mem_free. NULL when memory is gone. */
 char *scene_info_json(const lmn_scene *scene);

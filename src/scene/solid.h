@@ -34,6 +34,10 @@ solid *scene_append_solid(lmn_scene *scene, solid_kind root);
  * nodes are valid until the next append. */
 int32_t solid_append(solid *s, int32_t parent, solid_kind kind);
 void    solid_release(solid *s);
+/* Gives the solid of a node a companion, where it takes something away: below it a node "removed", marked as a ghost, whose solid is the
+ * union of all that differences take away, whole subtrees, in the same places and colours. Meshes are shared. What is taken away
+ * from something that is taken away itself was never there and is none of it. Once the solid is whole; false when memory is gone. */
+bool scene_append_removed(lmn_scene *scene, int32_t node_index);
 
 /* An operand with all that stands above it in the tree folded in. */
 typedef struct solid_operand {

@@ -319,9 +319,14 @@ group_looks() {
     row 1 "did you mean 'edges'" '' looks edgs
     row 1 '--markdown goes with neither' '' looks edges --markdown
     for name in $("$limner" looks | sed -n 's/^\([a-z][a-z-]*\) .*/\1/p'); do
-        row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png
+        case $name in
+            ghost) row 0 "'@removed'" 'x.png' draw "$gear" $small --look "$name" -o x.png ;; # nothing was taken away from it
+            *) row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png ;;
+        esac
         row 0 '' '' looks "$name"; out "^$name: "
     done
+    row 0 '' 'x.png' draw "$examples/csg/widget.csg" $small --look ghost -o x.png
+    row 0 '' '' info "$examples/csg/widget.csg"; out 'widget/removed$'
 }
 
 group_sketch() {

@@ -17,14 +17,17 @@ static node nodes[] = {
     {.parent = 0, .mesh = 0},
     {.parent = 0, .mesh = 1},
     {.parent = 0, .mesh = 1, .attributes = spare, .attribute_count = 2},
+    {.parent = 1, .mesh = NONE, .ghost = true},
 };
 static primitive painted = {.material = 0}, rubber = {.material = 1};
 static mesh meshes[] = {{.primitives = &painted, .primitive_count = 1}, {.primitives = &rubber, .primitive_count = 1}};
 static material materials[] = {{.name = "Red Paint"}, {.name = "Rubber"}};
-static part parts[] = {{1, "Body", "Truck/Body"}, {2, "Wheel Front", "Truck/Axle/Wheel Front"}, {3, "Wheel Rear", "Truck/Axle/Wheel Rear"}};
+static part parts[] = {{1, "Body", "Truck/Body"}, {2, "Wheel Front", "Truck/Axle/Wheel Front"}, {3, "Wheel Rear", "Truck/Axle/Wheel Rear"},
+                       {4, "removed", "Truck/Body/removed", .ghost = true}};
+enum { PARTS = COUNT(parts) - 1 }; /* and a ghost */
 static const lmn_scene scene = {.nodes = nodes, .node_count = COUNT(nodes), .meshes = meshes, .mesh_count = COUNT(meshes),
                                 .materials = materials, .material_count = COUNT(materials), .parts = parts,
-                                .part_count = COUNT(parts)};
+                                .part_count = PARTS, .ghost_count = 1};
 
 static void test_matches(void **state)
 {
@@ -41,13 +44,20 @@ static void test_matches(void **state)
         {"[material=Rub*]", "011"},      {"[material='Red Paint']", "100"}, {"![material]", "000"},
         {"[id=2]", "010"},               {"[id=1], [id=3]", "101"},      {"Wheel*[kind=vehicle]", "010"},
         {"  Body  ", "100"},             {"[missing]", "000"},           {"! [id=1]", "011"},
+        /* The last one is the ghost: only who says @removed gets it. */
+        {"*", "1110"},                   {"removed", "0000"},            {"[id=4]", "0000"},
+        {"!Body", "0110"},               {"Truck/*", "1110"},            {"[kind]", "1110"},
+        {"@removed", "0001"},            {"!@removed", "1110"},          {"!!@removed", "0001"},
+        {"*, @removed", "1111"},         {"Wheel* @removed", "0000"},    {"@removed Truck/Body/*", "0001"},
+        {"@removed !Truck/Body/*", "0000"}, {"@removed[kind=vehicle]", "0001"}, {"Body, @removed removed", "1001"},
+        {"\"@removed\"", "0000"},        {"@removed !removed, *", "1110"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         selector *s = NULL;
         lmn_error error = {0};
         if (selector_parse(&s, cases[i].text, &error) != LMN_OK)
             fail_msg("%s", error.message);
-        for (size_t p = 0; p < COUNT(parts); p++)
+        for (size_t p = 0; p < COUNT(parts) && cases[i].parts[p]; p++)
             if (selector_matches(s, &scene, p) != (cases[i].parts[p] == '1'))
                 fail_msg("'%s' on %s", cases[i].text, parts[p].name);
         assert_false(selector_matches(s, &scene, COUNT(parts)));
@@ -56,10 +66,25 @@ static void test_matches(void **state)
     }
 }
 
+static void test_names_removed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        bool        names;
+    } cases[] = {{"*", false}, {"@removed", true}, {"a, b @removed", true}, {"!@removed", false}, {"'@removed'", false}, {"removed", false}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        selector *s = NULL;
+        assert_int_equal(selector_parse(&s, cases[i].text, NULL), LMN_OK);
+        assert_int_equal(selector_names_removed(s), cases[i].names);
+        selector_destroy(&s);
+    }
+}
+
 static void test_refused(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"", "  ", ",", "a,", ",a", "a,,b", "[", "[a", "[]", "[=x]", "]", "\"a", "!", "a !"};
+    static const char *const wrong[] = {"", "  ", ",", "a,", ",a", "a,,b", "[", "[a", "[]", "[=x]", "]", "\"a", "!", "a !", "@", "@Removed", "@removed2", "a @x"};
     for (size_t i = 0; i < COUNT(wrong); i++) {
         selector *s = NULL;
         lmn_error error = {0};
@@ -89,6 +114,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_matches),
+        cmocka_unit_test(test_names_removed),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_memory),
     };
