@@ -759,6 +759,31 @@ static void failing_edits_change_nothing(void **state)
     }
 }
 
+/* What is taken away is a companion that no function shows, and it follows the edits. */
+static void ghosts_follow_edits(void **state)
+{
+    (void)state;
+    uint32_t solid;
+    lmn_scene *s = with_solid(&solid, LMN_DIFFERENCE);
+    add(s, solid, ROOT, box(4));
+    assert_int_equal(s->ghost_count, 0);
+    uint32_t bore = add(s, solid, ROOT, box(2));
+    assert_int_equal(s->ghost_count, 1);
+    assert_int_equal(s->parts[1].triangles, 12);
+    move_to(s, solid, bore, 1, 0, 0);
+    assert_true(s->parts[1].bounds.max.x > s->parts[1].bounds.max.y);
+    assert_int_equal(lmn_scene_solid_count(s), 1);
+    assert_int_equal(lmn_scene_info_of(s).parts, 1);
+    assert_int_equal(lmn_solid_set_operation(s, solid, ROOT, LMN_UNION, &error), LMN_OK);
+    assert_int_equal(s->ghost_count, 0);
+    assert_int_equal(lmn_solid_set_operation(s, solid, ROOT, LMN_DIFFERENCE, &error), LMN_OK);
+    assert_int_equal(s->ghost_count, 1);
+    assert_int_equal(lmn_solid_remove(s, solid, ROOT, &error), LMN_OK);
+    assert_int_equal(s->ghost_count, 0);
+    assert_int_equal(s->part_count, 0);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -776,6 +801,7 @@ int main(void)
         cmocka_unit_test(files_become_nodes),
         cmocka_unit_test(solids_of_files_are_edited),
         cmocka_unit_test(failing_edits_change_nothing),
+        cmocka_unit_test(ghosts_follow_edits),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
