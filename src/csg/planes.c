@@ -1,5 +1,5 @@
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "base/memory.h"
 #include "csg/csg.h"
@@ -154,15 +154,83 @@ static bool sort_into_groups(finder *f, uint32_t *group_of)
     return true;
 }
 
+/* An operand that has triangles in a group. */
+typedef struct member {
+    uint32_t group, owner;
+    bool     meets; /* another member's box touches its own, so that their triangles may lie on each other */
+} member;
+
+typedef struct member_list {
+    member *items;
+    size_t  count;
+    box3   *boxes; /* per operand */
+} member_list;
+
+static int by_group(const void *a, const void *b)
+{
+    const member *x = a, *y = b;
+    if (x->group != y->group)
+        return x->group < y->group ? -1 : 1;
+    return (x->owner > y->owner) - (x->owner < y->owner);
+}
+
+/* Boxes that lie apart by less than what counts as coincident touch. */
+static bool boxes_meet(const finder *f, box3 a, box3 b)
+{
+    float room = (float)(2 * COINCIDENT * f->extent);
+    return a.min.x <= b.max.x + room && b.min.x <= a.max.x + room && a.min.y <= b.max.y + room && b.min.y <= a.max.y + room &&
+           a.min.z <= b.max.z + room && b.min.z <= a.max.z + room;
+}
+
+static bool measure_owners(const finder *f, member_list *l)
+{
+    uint32_t most = 0;
+    for (size_t i = 0; i < f->soup->triangle_count; i++)
+        most = f->soup->owners[i] > most ? f->soup->owners[i] : most;
+    l->boxes = mem_alloc(((size_t)most + 1) * sizeof *l->boxes);
+    for (size_t i = 0; l->boxes && i <= most; i++)
+        l->boxes[i] = box3_empty();
+    for (size_t i = 0; l->boxes && i < 3 * f->soup->triangle_count; i++) {
+        box3 *box = &l->boxes[f->soup->owners[i / 3]];
+        *box = box3_with_point(*box, f->soup->positions[f->soup->indices[i]]);
+    }
+    return l->boxes != NULL;
+}
+
+/* The operands of groups that have several, and which of them may lie on each other: most faces that share a plane are far apart. */
+static bool find_members(const finder *f, const uint32_t *group_of, member_list *l)
+{
+    size_t room = 0, unique = 0;
+    for (size_t i = 0; i < f->soup->triangle_count; i++)
+        room += group_of[i] != UINT32_MAX && f->groups[group_of[i]].shared;
+    l->items = mem_alloc((room + 1) * sizeof *l->items);
+    if (!l->items || !measure_owners(f, l))
+        return false;
+    for (size_t i = 0; i < f->soup->triangle_count; i++)
+        if (group_of[i] != UINT32_MAX && f->groups[group_of[i]].shared)
+            l->items[l->count++] = (member){group_of[i], f->soup->owners[i], false};
+    qsort(l->items, l->count, sizeof *l->items, by_group);
+    for (size_t i = 0; i < l->count; i++)
+        if (unique == 0 || by_group(&l->items[unique - 1], &l->items[i]) != 0)
+            l->items[unique++] = l->items[i];
+    l->count = unique;
+    for (size_t i = 0; i < l->count; i++)
+        for (size_t k = i + 1; k < l->count && l->items[k].group == l->items[i].group; k++)
+            if (!(l->items[i].meets && l->items[k].meets) && boxes_meet(f, l->boxes[l->items[i].owner], l->boxes[l->items[k].owner]))
+                l->items[i].meets = l->items[k].meets = true;
+    return true;
+}
+
 static bool number_planes(const finder *f, const uint32_t *group_of, uint16_t *numbers, csg_plane **planes, size_t *plane_count)
 {
-    uint16_t *given = mem_calloc(f->group_count ? f->group_count : 1, sizeof *given);
-    size_t count = 0, room = 0;
-    for (size_t g = 0; given && g < f->group_count; g++)
-        if (f->groups[g].shared && count < CSG_PLANES_MAX)
-            given[g] = (uint16_t)++count;
-    room = count ? count : 1;
-    *planes = given ? mem_calloc(room, sizeof **planes) : NULL;
+    member_list l = {.count = 0};
+    uint16_t *given = mem_calloc(f->group_count + 1, sizeof *given);
+    bool good = given && find_members(f, group_of, &l);
+    size_t count = 0;
+    for (size_t i = 0; good && i < l.count; i++)
+        if (l.items[i].meets && !given[l.items[i].group] && count < CSG_PLANES_MAX)
+            given[l.items[i].group] = (uint16_t)++count;
+    *planes = good ? mem_calloc(count + 1, sizeof **planes) : NULL;
     *plane_count = count;
     for (size_t g = 0; *planes && g < f->group_count; g++)
         if (given[g]) {
@@ -170,9 +238,14 @@ static bool number_planes(const finder *f, const uint32_t *group_of, uint16_t *n
             *p = f->groups[g].plane;
             p->distance += dot3(p->normal, f->middle);
         }
-    for (size_t i = 0; *planes && i < f->soup->triangle_count; i++)
-        numbers[i] = group_of[i] == UINT32_MAX ? 0 : given[group_of[i]];
+    for (size_t i = 0; *planes && i < f->soup->triangle_count; i++) {
+        member own = {group_of[i], f->soup->owners[i], false};
+        const member *at = own.group != UINT32_MAX && given[own.group] ? bsearch(&own, l.items, l.count, sizeof own, by_group) : NULL;
+        numbers[i] = at && at->meets ? given[own.group] : 0;
+    }
     mem_free(given);
+    mem_free(l.items);
+    mem_free(l.boxes);
     return *planes != NULL;
 }
 
