@@ -255,24 +255,13 @@ static size_t choose_level(convex_job *job, int batch, int level, bool meeting_o
 
 static const gpu_state write_depth = {.depth_test = true, .depth_write = true, .depth_compare = GPU_ALWAYS};
 
-/* The farthest front of what is intersected, where all of it is; 1 elsewhere. */
+/* The farthest front of what is intersected. */
 static void intersect(convex_job *job, int batch, size_t kept)
 {
     gpu_state state = {.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS_EQUAL};
-    draw_chosen(job, choose_kept(job, batch, 0), FACES_FRONT, "csg/depth.frag", state);
-    state.depth_compare = GPU_GREATER;
-    state.stencil = (gpu_stencil){true, GPU_ALWAYS, 0, GPU_STENCIL_KEEP, GPU_STENCIL_COUNT, GPU_STENCIL_COUNT};
-    for (size_t i = 1, counted = 0; i < kept; i++) {
+    for (size_t i = 0; i < kept; i++) {
         draw_chosen(job, choose_kept(job, batch, i), FACES_FRONT, "csg/depth.frag", state);
-        counted++;
-        if (counted < COUNT_MAX && i + 1 < kept)
-            continue;
-        gpu_state miss = write_depth, forget = {.depth_test = true, .depth_compare = GPU_ALWAYS};
-        miss.stencil = (gpu_stencil){true, GPU_NOT_EQUAL, (int)counted, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP};
-        forget.stencil = (gpu_stencil){true, GPU_ALWAYS, 0, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO};
-        draw_rectangles(job, batch, 1, miss);
-        draw_rectangles(job, batch, 1, forget);
-        counted = 0;
+        state.depth_compare = GPU_GREATER;
     }
 }
 
@@ -322,16 +311,23 @@ static void take_all_away(convex_job *job, int batch)
         meets = take_away_again(job, batch, levels);
 }
 
-/* What moved out of the back of an intersected operand is nowhere. */
+/* Only where the backs of all that is intersected lie behind is there anything. */
 static void clip(convex_job *job, int batch, size_t kept)
 {
-    gpu_state mark = {.depth_test = true, .depth_compare = GPU_LESS_EQUAL,
-                      .stencil = {true, GPU_ALWAYS, 1, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_REPLACE}};
-    gpu_state drop = write_depth;
-    drop.stencil = (gpu_stencil){true, GPU_EQUAL, 1, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO};
-    for (size_t i = 0; i < kept; i++)
-        draw_chosen(job, choose_kept(job, batch, i), FACES_BACK, "csg/depth.frag", mark);
-    draw_rectangles(job, batch, 1, drop);
+    gpu_state count = {.depth_test = true, .depth_compare = GPU_GREATER,
+                       .stencil = {true, GPU_ALWAYS, 0, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_COUNT}};
+    for (size_t i = 0, counted = 0; i < kept; i++) {
+        draw_chosen(job, choose_kept(job, batch, i), FACES_BACK, "csg/depth.frag", count);
+        counted++;
+        if (counted < COUNT_MAX && i + 1 < kept)
+            continue;
+        gpu_state drop = write_depth, forget = {.depth_test = true, .depth_compare = GPU_ALWAYS};
+        drop.stencil = (gpu_stencil){true, GPU_NOT_EQUAL, (int)counted, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP};
+        forget.stencil = (gpu_stencil){true, GPU_ALWAYS, 0, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO};
+        draw_rectangles(job, batch, 1, drop);
+        draw_rectangles(job, batch, 1, forget);
+        counted = 0;
+    }
 }
 
 /* The batch's depth into that of all. */
