@@ -35,6 +35,7 @@ typedef struct csg_soup {
     const uint32_t *indices;   /* 3 a triangle */
     const uint32_t *owners;    /* operand of each triangle */
     size_t          triangle_count;
+    double          extent;    /* of the solid, whatever the operands' */
 } csg_soup;
 
 /* A plane: normal · x = distance. */

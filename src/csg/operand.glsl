@@ -11,6 +11,7 @@ uniform sampler2D t_planes; /* eye space, 256 a row */
 uniform vec2 u_unproject;
 uniform vec2 u_size;
 uniform float u_perspective;
+uniform float u_solid_step; /* planes of different solids never coincide: each lies a rounding farther than the one before */
 #endif
 
 /* Does the solid begin here, seen from the front, operand, plane: src/csg/csg.h. */
@@ -40,7 +41,7 @@ float fragment_depth()
     uint plane = v_key & 0xFFFFu;
     int shared_plane = plane != 0u ? 1 : 0;
     for (int once = 0; once < shared_plane; once++)
-        depth = depth_on(texelFetch(t_planes, ivec2(int(plane - 1u) & 255, int(plane - 1u) >> 8), 0), depth);
+        depth = depth_on(texelFetch(t_planes, ivec2(int(plane - 1u) & 255, int(plane - 1u) >> 8), 0), depth) * u_solid_step;
 #endif
     return depth;
 }

@@ -126,20 +126,77 @@ static void measure(finder *f)
     for (size_t i = 0; i < 3 * f->soup->triangle_count; i++)
         box = box3_with_point(box, f->soup->positions[f->soup->indices[i]]);
     double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z}, high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         f->middle[k] = (low[k] + high[k]) / 2;
-        f->extent += (high[k] - low[k]) * (high[k] - low[k]);
+    f->extent = f->soup->extent;
+}
+
+/* Boxes of operands, and for each those of others that meet it, one list after the other. */
+typedef struct neighbours {
+    box3   *boxes;
+    size_t *first; /* per operand, and one more */
+    uint32_t *others;
+    size_t  capacity;
+} neighbours;
+
+/* Boxes that lie apart by less than what counts as coincident touch. */
+static bool boxes_meet(const finder *f, box3 a, box3 b)
+{
+    float room = (float)(2 * COINCIDENT * f->extent);
+    return a.min.x <= b.max.x + room && b.min.x <= a.max.x + room && a.min.y <= b.max.y + room && b.min.y <= a.max.y + room &&
+           a.min.z <= b.max.z + room && b.min.z <= a.max.z + room;
+}
+
+static bool find_neighbours(const finder *f, neighbours *n)
+{
+    uint32_t most = 0;
+    for (size_t i = 0; i < f->soup->triangle_count; i++)
+        most = f->soup->owners[i] > most ? f->soup->owners[i] : most;
+    n->boxes = mem_alloc(((size_t)most + 1) * sizeof *n->boxes);
+    n->first = mem_calloc((size_t)most + 2, sizeof *n->first);
+    if (!n->boxes || !n->first)
+        return false;
+    for (size_t i = 0; i <= most; i++)
+        n->boxes[i] = box3_empty();
+    for (size_t i = 0; i < 3 * f->soup->triangle_count; i++) {
+        box3 *box = &n->boxes[f->soup->owners[i / 3]];
+        *box = box3_with_point(*box, f->soup->positions[f->soup->indices[i]]);
     }
-    f->extent = sqrt(f->extent);
+    size_t count = 0;
+    for (uint32_t a = 0; a <= most; a++) {
+        n->first[a] = count;
+        for (uint32_t b = 0; b <= most; b++) {
+            if (a == b || !boxes_meet(f, n->boxes[a], n->boxes[b]))
+                continue;
+            if (!mem_grow((void **)&n->others, &n->capacity, count + 1, sizeof *n->others))
+                return false;
+            n->others[count++] = b;
+        }
+    }
+    n->first[most + 1] = count;
+    return true;
+}
+
+/* Does the triangle reach into another operand's box? */
+static bool meets_another(const finder *f, const neighbours *n, size_t triangle)
+{
+    uint32_t owner = f->soup->owners[triangle];
+    box3 box = box3_empty();
+    for (size_t k = 0; k < 3; k++)
+        box = box3_with_point(box, f->soup->positions[f->soup->indices[3 * triangle + k]]);
+    for (size_t i = n->first[owner]; i < n->first[owner + 1]; i++)
+        if (boxes_meet(f, box, n->boxes[n->others[i]]))
+            return true;
+    return false;
 }
 
 /* The group of each triangle, UINT32_MAX without one. */
-static bool sort_into_groups(finder *f, uint32_t *group_of)
+static bool sort_into_groups(finder *f, const neighbours *n, uint32_t *group_of)
 {
     for (size_t i = 0; i < f->soup->triangle_count; i++) {
         csg_plane plane;
         group_of[i] = UINT32_MAX;
-        if (!plane_of(f, i, &plane))
+        if (!meets_another(f, n, i) || !plane_of(f, i, &plane))
             continue;
         uint32_t g = find_group(f, i, &plane);
         if (g == UINT32_MAX) {
@@ -163,7 +220,6 @@ typedef struct member {
 typedef struct member_list {
     member *items;
     size_t  count;
-    box3   *boxes; /* per operand */
 } member_list;
 
 static int by_group(const void *a, const void *b)
@@ -174,37 +230,14 @@ static int by_group(const void *a, const void *b)
     return (x->owner > y->owner) - (x->owner < y->owner);
 }
 
-/* Boxes that lie apart by less than what counts as coincident touch. */
-static bool boxes_meet(const finder *f, box3 a, box3 b)
-{
-    float room = (float)(2 * COINCIDENT * f->extent);
-    return a.min.x <= b.max.x + room && b.min.x <= a.max.x + room && a.min.y <= b.max.y + room && b.min.y <= a.max.y + room &&
-           a.min.z <= b.max.z + room && b.min.z <= a.max.z + room;
-}
-
-static bool measure_owners(const finder *f, member_list *l)
-{
-    uint32_t most = 0;
-    for (size_t i = 0; i < f->soup->triangle_count; i++)
-        most = f->soup->owners[i] > most ? f->soup->owners[i] : most;
-    l->boxes = mem_alloc(((size_t)most + 1) * sizeof *l->boxes);
-    for (size_t i = 0; l->boxes && i <= most; i++)
-        l->boxes[i] = box3_empty();
-    for (size_t i = 0; l->boxes && i < 3 * f->soup->triangle_count; i++) {
-        box3 *box = &l->boxes[f->soup->owners[i / 3]];
-        *box = box3_with_point(*box, f->soup->positions[f->soup->indices[i]]);
-    }
-    return l->boxes != NULL;
-}
-
 /* The operands of groups that have several, and which of them may lie on each other: most faces that share a plane are far apart. */
-static bool find_members(const finder *f, const uint32_t *group_of, member_list *l)
+static bool find_members(const finder *f, const neighbours *n, const uint32_t *group_of, member_list *l)
 {
     size_t room = 0, unique = 0;
     for (size_t i = 0; i < f->soup->triangle_count; i++)
         room += group_of[i] != UINT32_MAX && f->groups[group_of[i]].shared;
     l->items = mem_alloc((room + 1) * sizeof *l->items);
-    if (!l->items || !measure_owners(f, l))
+    if (!l->items)
         return false;
     for (size_t i = 0; i < f->soup->triangle_count; i++)
         if (group_of[i] != UINT32_MAX && f->groups[group_of[i]].shared)
@@ -216,16 +249,16 @@ static bool find_members(const finder *f, const uint32_t *group_of, member_list 
     l->count = unique;
     for (size_t i = 0; i < l->count; i++)
         for (size_t k = i + 1; k < l->count && l->items[k].group == l->items[i].group; k++)
-            if (!(l->items[i].meets && l->items[k].meets) && boxes_meet(f, l->boxes[l->items[i].owner], l->boxes[l->items[k].owner]))
+            if (!(l->items[i].meets && l->items[k].meets) && boxes_meet(f, n->boxes[l->items[i].owner], n->boxes[l->items[k].owner]))
                 l->items[i].meets = l->items[k].meets = true;
     return true;
 }
 
-static bool number_planes(const finder *f, const uint32_t *group_of, uint16_t *numbers, csg_plane **planes, size_t *plane_count)
+static bool number_planes(const finder *f, const neighbours *n, const uint32_t *group_of, uint16_t *numbers, csg_plane **planes, size_t *plane_count)
 {
     member_list l = {.count = 0};
     uint16_t *given = mem_calloc(f->group_count + 1, sizeof *given);
-    bool good = given && find_members(f, group_of, &l);
+    bool good = given && find_members(f, n, group_of, &l);
     size_t count = 0;
     for (size_t i = 0; good && i < l.count; i++)
         if (l.items[i].meets && !given[l.items[i].group] && count < CSG_PLANES_MAX)
@@ -245,7 +278,6 @@ static bool number_planes(const finder *f, const uint32_t *group_of, uint16_t *n
     }
     mem_free(given);
     mem_free(l.items);
-    mem_free(l.boxes);
     return *planes != NULL;
 }
 
@@ -261,9 +293,13 @@ bool csg_find_planes(const csg_soup *soup, uint16_t **numbers, csg_plane **plane
     *numbers = mem_calloc(room, sizeof **numbers);
     *planes = NULL;
     *plane_count = 0;
-    bool good = group_of && f.cells && *numbers && (!(f.extent > 0) || sort_into_groups(&f, group_of));
+    neighbours n = {.boxes = NULL};
+    bool good = group_of && f.cells && *numbers;
     if (good && f.extent > 0)
-        good = number_planes(&f, group_of, *numbers, planes, plane_count);
+        good = find_neighbours(&f, &n) && sort_into_groups(&f, &n, group_of) && number_planes(&f, &n, group_of, *numbers, planes, plane_count);
+    mem_free(n.boxes);
+    mem_free(n.first);
+    mem_free(n.others);
     mem_free(group_of);
     mem_free(f.cells);
     mem_free(f.groups);

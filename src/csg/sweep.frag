@@ -10,10 +10,11 @@ layout(location = 0) out uvec4 out_fragment;
 void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    float share = max(fragment_depth() - u_solid_near, 0.0) / u_solid_range;
 #ifdef AROUND_EYE
-    share = min(share, 1.0);
+    /* From the eye to infinity, and none like another: every fragment counts. */
+    float depth_here = max(fragment_depth(), 0.0), share = depth_here / (depth_here + u_solid_range);
 #else
+    float share = max(fragment_depth() - u_solid_near, 0.0) / u_solid_range;
     if (share >= 1.0)
         discard;
 #endif

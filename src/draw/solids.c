@@ -54,6 +54,10 @@ static void open_planes(frame *f, solid_layers *s, const bool *wanted)
     for (size_t i = 0; i < u->item_count; i++) {
         if (!wanted[i])
             continue;
+        if (made + u->items[i].plane_count > CSG_PLANES_MAX) {
+            gpu_fail(f->g, LMN_LIMIT, "instances of solids have more than %d planes in which faces of several operands lie", CSG_PLANES_MAX);
+            break;
+        }
         s->first_planes[i] = (uint32_t)made;
         mat4 to_eye = mat4_multiply(&f->camera.view, &u->items[i].world);
         for (size_t k = 0; k < u->items[i].plane_count && made < count; k++)
@@ -122,6 +126,7 @@ void solids_set_operands(frame *f, const solid_layers *s, const draw_item *item)
     solids_set_depth(f, s);
     gpu_set_texture(f->g, "t_planes", s->planes, false);
     raster_set_transform(f, &item->world);
+    gpu_set_float(f->g, "u_solid_step", 1 + (float)((item - f->up->items) % 16) * 2.4e-7f);
     gpu_set_uint(f->g, "u_first_operand", item->first_operand);
     gpu_set_uint(f->g, "u_first_plane", s->first_planes[item - f->up->items]);
 }

@@ -216,9 +216,17 @@ static size_t room_for_planes(const upload *u)
     return CSG_PLANES_MAX - u->plane_count;
 }
 
+/* Of what can be left of the solid: cutters may be far longer. */
+static double extent_of(const upload_solid *s)
+{
+    box3 box = s->form.root == NONE ? box3_empty() : s->form.terms[s->form.root].box;
+    double x = (double)box.max.x - (double)box.min.x, y = (double)box.max.y - (double)box.min.y, z = (double)box.max.z - (double)box.min.z;
+    return box3_is_empty(box) ? 0 : sqrt(x * x + y * y + z * z);
+}
+
 static lmn_status find_planes(upload_solid *s, baker *b, size_t room, lmn_error *error)
 {
-    csg_soup soup = {b->positions, b->indices, b->owners, b->index_count / 3};
+    csg_soup soup = {b->positions, b->indices, b->owners, b->index_count / 3, extent_of(s)};
     uint16_t *numbers = NULL;
     if (!csg_find_planes(&soup, &numbers, &s->planes, &s->planes_found))
         return error_memory(error);
@@ -277,20 +285,22 @@ static size_t find_meetings(upload_solid *s, const product *p)
     return count;
 }
 
-/* Convex operands alone, and few that have to be taken away again and again: beyond, lists are faster where there are any. */
+/* Convex operands alone; and, since lists are faster where there are any, few that have to be taken away again and again, and not many times
+ * more in products than in the tree. */
 static bool suits(upload_solid *s, baker *b, const product_list *own)
 {
-    enum { MEETINGS_MAX = 64 };
+    enum { MEETINGS_MAX = 64, REPEATED_MAX = 4 };
+    size_t together = 0;
     for (size_t i = 0; i < own->count; i++) {
-        product *p = &own->items[i];
-        for (size_t k = 0; k < p->count; k++) {
+        const product *p = &own->items[i];
+        together += p->count;
+        for (size_t k = 0; k < p->count; k++)
             if (!is_convex(b, s->form.operands[s->used[p->operands[k]]].mesh))
                 return false;
-        }
         if (find_meetings(s, p) > MEETINGS_MAX && b->has_lists)
             return false;
     }
-    return true;
+    return !b->has_lists || together <= REPEATED_MAX * s->count + MEETINGS_MAX;
 }
 
 /* Sorts the products of one branch: where they suit, or among the rest. `numbers`: from the form's operands to the
