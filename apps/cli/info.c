@@ -88,9 +88,13 @@ static void print_tree(const json_t *node, int level, size_t count)
 static void print_solid(const json_t *solid)
 {
     const json_t *operations = json_object_get(solid, "operations");
-    printf("%29ssolid: %.0f operands, %.0f unions, %.0f intersections, %.0f differences, %.0f levels\n", "",
+    printf("%29ssolid: %.0f operands, %.0f unions, %.0f intersections, %.0f differences, %.0f levels, ", "",
            number_at(solid, "operands", 0), number_at(operations, "union", 0), number_at(operations, "intersection", 0),
            number_at(operations, "difference", 0), number_at(solid, "depth", 0));
+    if (json_is_integer(json_object_get(solid, "products")))
+        printf("%.0f products\n", number_at(solid, "products", 0));
+    else
+        printf("more than 4096 products\n");
     print_tree(json_object_get(solid, "tree"), 1, 1);
 }
 

@@ -227,8 +227,13 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
     }
     selector_destroy(&wanted);
     if (status == LMN_OK && p->selected_count == 0) {
-        if (!select)
-            return error_set(error, LMN_FORMAT, "the scene has no parts to draw");
+        if (!select) {
+            error_set(error, LMN_FORMAT, "the scene has no parts to draw");
+            /* What was left out while loading is why. */
+            if (p->scene->warnings.count > 0)
+                error_hint(error, "%s", p->scene->warnings.items[0].text);
+            return LMN_FORMAT;
+        }
         status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
         error_hint(error, "`limner info` lists the parts with their names and paths");
     }

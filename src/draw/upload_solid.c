@@ -268,18 +268,13 @@ static lmn_status add_program(upload *u, const upload_solid *s, size_t part_inde
     return LMN_OK;
 }
 
-static bool boxes_touch(box3 a, box3 b)
-{
-    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
-}
-
 /* Marks what is taken away from where something else is taken away too. Returns how many there are. */
 static size_t find_meetings(upload_solid *s, const product *p)
 {
     size_t count = 0;
     for (size_t a = p->kept; a < p->count; a++)
         for (size_t b = p->kept; b < p->count && !s->meets[p->operands[a]]; b++)
-            s->meets[p->operands[a]] = a != b && boxes_touch(s->boxes[p->operands[a]], s->boxes[p->operands[b]]);
+            s->meets[p->operands[a]] = a != b && box3_overlap(s->boxes[p->operands[a]], s->boxes[p->operands[b]]);
     for (size_t a = p->kept; a < p->count; a++)
         count += s->meets[p->operands[a]];
     return count;

@@ -148,13 +148,6 @@ bool solid_measure_below(const lmn_scene *scene, solid *s, int32_t top)
     return good;
 }
 
-static box3 box3_intersection(box3 a, box3 b)
-{
-    box3 out = {{a.min.x > b.min.x ? a.min.x : b.min.x, a.min.y > b.min.y ? a.min.y : b.min.y, a.min.z > b.min.z ? a.min.z : b.min.z},
-                {a.max.x < b.max.x ? a.max.x : b.max.x, a.max.y < b.max.y ? a.max.y : b.max.y, a.max.z < b.max.z ? a.max.z : b.max.z}};
-    return out;
-}
-
 static box3 box_of_operation(const solid *s, const solid_node *n)
 {
     box3 box = n->first_child == NONE ? box3_empty() : s->nodes[n->first_child].box;

@@ -7,19 +7,6 @@
 /* A term that is empty. */
 enum { EMPTY = NONE };
 
-static bool touches(box3 a, box3 b)
-{
-    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
-}
-
-static box3 shared_box(box3 a, box3 b)
-{
-    if (!touches(a, b))
-        return box3_empty();
-    return (box3){{a.min.x > b.min.x ? a.min.x : b.min.x, a.min.y > b.min.y ? a.min.y : b.min.y, a.min.z > b.min.z ? a.min.z : b.min.z},
-                  {a.max.x < b.max.x ? a.max.x : b.max.x, a.max.y < b.max.y ? a.max.y : b.max.y, a.max.z < b.max.z ? a.max.z : b.max.z}};
-}
-
 /* NONE − 1 when memory is gone, since NONE is a term of its own here. */
 enum { NO_MEMORY = NONE - 1 };
 
@@ -68,7 +55,7 @@ static void set_box(solid_form *f, int32_t index)
         if (t->kind == TERM_OR)
             t->box = box3_union(t->box, box);
         else if (!f->terms[c].negated)
-            t->box = begun ? shared_box(t->box, box) : box;
+            t->box = begun ? box3_intersection(t->box, box) : box;
         begun = true;
     }
 }
@@ -147,7 +134,7 @@ static lmn_status make_terms(solid_form *f, const solid *s, lmn_error *error)
 /* The first operand of an intersection that is no longer there takes all with it. Returns what is left of a term inside `bound`. */
 static int32_t prune(solid_form *f, int32_t index, box3 bound)
 {
-    box3 box = shared_box(f->terms[index].box, bound);
+    box3 box = box3_intersection(f->terms[index].box, bound);
     if (box3_is_empty(box))
         return EMPTY;
     if (f->terms[index].kind == TERM_OPERAND)

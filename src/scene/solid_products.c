@@ -30,17 +30,6 @@ static void give_up(product_list *l)
     l->too_many = true;
 }
 
-static bool touch(box3 a, box3 b)
-{
-    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
-}
-
-static box3 common(box3 a, box3 b)
-{
-    return (box3){{fmaxf(a.min.x, b.min.x), fmaxf(a.min.y, b.min.y), fmaxf(a.min.z, b.min.z)},
-                  {fminf(a.max.x, b.max.x), fminf(a.max.y, b.max.y), fminf(a.max.z, b.max.z)}};
-}
-
 /* Takes the product over. */
 static void append(expansion *e, product_list *l, product p)
 {
@@ -81,7 +70,7 @@ static size_t join(const expansion *e, int32_t *out, size_t count, const int32_t
 {
     size_t before = count;
     for (size_t i = 0; i < more_count; i++)
-        if (!contains(out, before, more[i]) && (!bound || touch(e->form->operands[more[i]].box, *bound)))
+        if (!contains(out, before, more[i]) && (!bound || box3_overlap(e->form->operands[more[i]].box, *bound)))
             out[count++] = more[i];
     return count;
 }
@@ -89,9 +78,9 @@ static size_t join(const expansion *e, int32_t *out, size_t count, const int32_t
 /* The intersection of two products; nothing when it is empty. */
 static void multiply_pair(expansion *e, product_list *out, const product *a, const product *b)
 {
-    product p = {.box = common(a->box, b->box)};
+    product p = {.box = box3_intersection(a->box, b->box)};
     bool bounded = a->kept + b->kept > 0;
-    if (e->prune && bounded && !touch(p.box, p.box))
+    if (e->prune && bounded && box3_is_empty(p.box))
         return;
     p.operands = mem_alloc((a->count + b->count) * sizeof *p.operands);
     if (!p.operands) {

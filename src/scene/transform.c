@@ -85,6 +85,19 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
+bool box3_overlap(box3 a, box3 b)
+{
+    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
+}
+
+box3 box3_intersection(box3 a, box3 b)
+{
+    if (!box3_overlap(a, b))
+        return box3_empty();
+    return (box3){{fmaxf(a.min.x, b.min.x), fmaxf(a.min.y, b.min.y), fmaxf(a.min.z, b.min.z)},
+                  {fminf(a.max.x, b.max.x), fminf(a.max.y, b.max.y), fminf(a.max.z, b.max.z)}};
+}
+
 box3 box3_union(box3 a, box3 b)
 {
     return (box3){{smaller(a.min.x, b.min.x), smaller(a.min.y, b.min.y), smaller(a.min.z, b.min.z)},
