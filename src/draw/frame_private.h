@@ -107,6 +107,11 @@ gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t
 bool                 target_is_coarse(target t);
 void                 coarse_size(const frame *f, const figure_state *s, int out[2]); /* the rule perturbs */
 void                 frame_set_common(frame *f, const figure_state *s);
+/* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
+void frame_set_transform(frame *f, const mat4 *world);
+void frame_set_projection(frame *f);
+/* Can layers, and solids, be gathered in lists? */
+bool lists_possible(const frame *f);
 /* The program of these files with this prelude, which is used up; NULL after an error. */
 gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
 param_set            use_own_set(kind_id id, const technique_use *use);
@@ -122,9 +127,6 @@ bool                 pass_applies(kind_id id, const pass *p, const technique_use
 gpu_texture         *target_of(const frame *f, const figure_state *s, target t);
 
 /* --- raster.c: the geometry pass --- */
-/* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
-void raster_set_transform(frame *f, const mat4 *world);
-void raster_set_projection(frame *f);
 void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless deferred */
 void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
@@ -151,6 +153,7 @@ void solids_open(frame *f, solid_layers *s, const bool *wanted, const solid_wish
 /* Makes layer `index` current; layers are asked for in order, from any number to the next or from 0. */
 void solids_select(frame *f, solid_layers *s, int index);
 void solids_release(frame *f, solid_layers *s);
+/* --- solids_bind.c --- */
 /* Uniforms of csg/depth.glsl. */
 void solids_set_depth(frame *f, const solid_layers *s);
 /* Uniforms of csg/operand.vert and csg/operand.glsl for one item. */
@@ -171,8 +174,6 @@ gpu_texture *solids_draw_convex(frame *f, solid_layers *s, const bool *wanted);
 /* Draws `count` figures whose layers interleave. */
 void layered_draw(frame *f, const figure *figures, int count);
 
-/* --- lists.c: all layers from one geometry pass --- */
-bool lists_possible(const frame *f);
 /* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room is needed: 1 when
  * everything is there; otherwise the lists are not whole. */
 int  lists_build(frame *f, layer_stack *stack, size_t room);

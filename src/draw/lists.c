@@ -6,11 +6,6 @@
 
 enum { KEPT_MAX = 8, NODE_VECTORS_BARE = 2, NODE_VECTORS_COLOURED = 3 };
 
-bool lists_possible(const frame *f)
-{
-    return gpu_facts_of(f->g)->lists && gpu_facts_of(f->g)->max_storage_mib >= 16;
-}
-
 static void bind_buffers(frame *f, const layer_stack *stack)
 {
     gpu_buffer_bind(f->g, stack->heads, 0);

@@ -85,36 +85,6 @@ static void set_material(gpu *g, const material *m, item_textures t, bool layere
     }
 }
 
-void raster_set_transform(frame *f, const mat4 *world)
-{
-    mat4 both = mat4_multiply(&f->camera.view, world);
-    float model_view[16], normal[9];
-    for (int i = 0; i < 16; i++)
-        model_view[i] = (float)both.m[i];
-    const double *m = both.m;
-    double cofactor[9] = {
-        m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-        m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
-        m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4],
-    };
-    double determinant = m[0] * cofactor[0] + m[1] * cofactor[1] + m[2] * cofactor[2], largest = 0;
-    for (int i = 0; i < 9; i++)
-        largest = fmax(largest, fabs(cofactor[i]));
-    double scale = (determinant < 0 ? -1 : 1) / (largest > 0 ? largest : 1);
-    for (int i = 0; i < 9; i++)
-        normal[i] = (float)(cofactor[i] * scale);
-    gpu_set_mat4(f->g, "u_model_view", model_view);
-    gpu_set_mat3(f->g, "u_normal_matrix", normal);
-}
-
-void raster_set_projection(frame *f)
-{
-    float projection[16];
-    for (int i = 0; i < 16; i++)
-        projection[i] = (float)f->camera.projection.m[i];
-    gpu_set_mat4(f->g, "u_projection", projection);
-}
-
 /* What the geometry pass writes and where. */
 typedef struct outputs {
     int normal_depth, id, albedo, shade; /* attachment, −1 = not */
@@ -255,7 +225,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     if (gpu_failed(f->g))
         return;
     set_pass(f, job, s);
-    raster_set_projection(f);
+    frame_set_projection(f);
     set_material(f->g, m, t, job->stack != NULL);
     *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, true, last->triangles};
 }
@@ -299,7 +269,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     set_up(f, job, s, item, last);
     if (gpu_failed(f->g))
         return;
-    raster_set_transform(f, &item->world);
+    frame_set_transform(f, &item->world);
     set_ids(f, job, s, item, last->triangles);
     if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
         gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);

@@ -298,14 +298,6 @@ size_t node_draw_count(const node *n)
     return n->instance_count ? n->instance_count : 1;
 }
 
-uint64_t mesh_triangle_count(const mesh *m)
-{
-    uint64_t count = 0;
-    for (size_t i = 0; i < m->primitive_count; i++)
-        count += m->primitives[i].index_count / 3;
-    return count;
-}
-
 const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name, char numbered[CAMERA_NAME_ROOM])
 {
     if (scene->cameras[index].name)
