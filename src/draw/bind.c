@@ -94,19 +94,14 @@ void frame_set_common(frame *f, const figure_state *s)
         set_cut(f);
 }
 
+/* The normal matrix in single precision is scaled so that it neither over- nor underflows. */
 void frame_set_transform(frame *f, const mat4 *world)
 {
     mat4 both = mat4_multiply(&f->camera.view, world);
     float model_view[16], normal[9];
     for (int i = 0; i < 16; i++)
         model_view[i] = (float)both.m[i];
-    const double *m = both.m;
-    double cofactor[9] = {
-        m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-        m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
-        m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4],
-    };
-    double determinant = m[0] * cofactor[0] + m[1] * cofactor[1] + m[2] * cofactor[2], largest = 0;
+    double cofactor[9], determinant = mat4_cofactors(&both, cofactor), largest = 0;
     for (int i = 0; i < 9; i++)
         largest = fmax(largest, fabs(cofactor[i]));
     double scale = (determinant < 0 ? -1 : 1) / (largest > 0 ? largest : 1);

@@ -15,10 +15,8 @@ enum { KEPT = 8, NODE_BYTES = 16, PLANES_A_ROW = 256, BANDS_MAX = 4096 };
 static void eye_plane(const mat4 *to_eye, const csg_plane *p, float out[4])
 {
     const double *m = to_eye->m;
-    double c[9] = {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-                   m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
-                   m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
-    double n[3], place[3], length = 0, distance = 0;
+    double c[9], n[3], place[3], length = 0, distance = 0;
+    mat4_cofactors(to_eye, c);
     for (int k = 0; k < 3; k++) {
         n[k] = c[k] * p->normal[0] + c[3 + k] * p->normal[1] + c[6 + k] * p->normal[2];
         place[k] = m[12 + k];

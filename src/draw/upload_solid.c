@@ -124,11 +124,8 @@ typedef struct turning {
 
 static turning turning_of(const mat4 *matrix, bool inside_out)
 {
-    const double *m = matrix->m;
-    turning t = {{m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-                  m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
-                  m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]}, false};
-    double determinant = m[0] * t.cofactor[0] + m[1] * t.cofactor[1] + m[2] * t.cofactor[2];
+    turning t;
+    double determinant = mat4_cofactors(matrix, t.cofactor);
     t.flips = (determinant < 0) != inside_out;
     if (t.flips)
         for (int i = 0; i < 9; i++)

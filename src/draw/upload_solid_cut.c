@@ -10,10 +10,7 @@
 static bool inverse_of(const mat4 *matrix, mat4 *out)
 {
     const double *m = matrix->m;
-    double c[9] = {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-                   m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
-                   m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
-    double determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
+    double c[9], determinant = mat4_cofactors(matrix, c);
     *out = mat4_identity();
     if (!(fabs(determinant) > 0))
         return false;

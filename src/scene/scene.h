@@ -280,6 +280,8 @@ uint64_t mesh_triangle_count(const mesh *m);
 mat4 mat4_identity(void);
 mat4 mat4_multiply(const mat4 *a, const mat4 *b); /* a · b */
 vec3 mat4_transform_point(const mat4 *m, vec3 p);
+/* Cofactors of the upper left 3 by 3, column-major: what normals are turned by, up to the sign. Returns its determinant. */
+double mat4_cofactors(const mat4 *m, double out[9]);
 mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3]);
 box3 box3_empty(void);
 bool box3_is_empty(box3 b);

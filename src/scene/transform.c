@@ -23,6 +23,17 @@ mat4 mat4_multiply(const mat4 *a, const mat4 *b)
     return out;
 }
 
+double mat4_cofactors(const mat4 *matrix, double out[9])
+{
+    const double *m = matrix->m;
+    const double cofactors[9] = {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+                                 m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
+                                 m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
+    for (int i = 0; i < 9; i++)
+        out[i] = cofactors[i];
+    return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
+}
+
 vec3 mat4_transform_point(const mat4 *m, vec3 p)
 {
     const double *e = m->m;
