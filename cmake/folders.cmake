@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base scene sheet technique light gpu construct csg import export layer lines surface perturb compose finish look draw api)
+set(LIMNER_FOLDERS base scene sheet technique light gpu construct csg halftone import export layer lines surface perturb compose finish look draw api)
 
 set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 
@@ -14,6 +14,10 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     target_include_directories(limner_${folder} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(limner_${folder} PRIVATE PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG
                                                    PkgConfig::WEBP PkgConfig::DEFLATE PkgConfig::ASSIMP PkgConfig::GLU)
+    # Only what reads drawings sees the XML library.
+    if(folder STREQUAL halftone)
+      target_link_libraries(limner_${folder} PRIVATE PkgConfig::XML)
+    endif()
     # Only what makes shapes sees the libraries for them.
     if(folder STREQUAL construct)
       target_link_libraries(limner_${folder} PRIVATE ${LIMNER_SHAPE_LIBRARIES})
@@ -50,7 +54,7 @@ target_link_libraries(limner PRIVATE limner_embedded)
 list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 
 set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
-    PkgConfig::ASSIMP PkgConfig::GLU ${LIMNER_SHAPE_LIBRARIES} ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
+    PkgConfig::ASSIMP PkgConfig::GLU PkgConfig::XML ${LIMNER_SHAPE_LIBRARIES} ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)
 set_target_properties(limner PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)

@@ -8,6 +8,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
           libpng-dev libjpeg-dev libwebp-dev libdeflate-dev libglu1-mesa-dev
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
+          libxml2-dev
           libcmocka-dev)
 
 if ! command -v dpkg-query > /dev/null; then

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image_read.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "import/build.h"
@@ -148,8 +149,8 @@ static lmn_status read_heights(csg_reader *r, const file_data *file, height_fiel
 /* Brightness from 0 to 100; the picture's last row lies at y = 0. The way an inverted one is counted is OpenSCAD's. */
 static lmn_status heights_of_image(csg_reader *r, const file_data *file, bool invert, height_field *f)
 {
-    image picture = {0};
-    lmn_status status = import_image(&picture, file->data, file->size, r->error);
+    image_pixels picture;
+    lmn_status status = image_read(&picture, file->data, file->size, r->error);
     if (status != LMN_OK)
         return status;
     f->columns = picture.width;
@@ -157,12 +158,11 @@ static lmn_status heights_of_image(csg_reader *r, const file_data *file, bool in
     f->count = f->columns * f->rows;
     f->values = mem_alloc(f->count * sizeof *f->values);
     for (size_t i = 0; f->values && i < f->count; i++) {
-        const uint8_t *pixel = picture.pixels + 4 * i;
+        const uint8_t *pixel = picture.rgba + 4 * i;
         double bright = 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
         f->values[(f->rows - 1 - i / f->columns) * f->columns + i % f->columns] = 100.0 / 255 * (invert ? 1 - bright : bright);
     }
-    mem_free(picture.pixels);
-    mem_free(picture.name);
+    mem_free(picture.rgba);
     return f->values ? LMN_OK : error_memory(r->error);
 }
 

@@ -31,7 +31,4 @@ lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *d
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error);
 
-/* Decodes PNG, JPEG or WebP bytes to RGBA8. Errors: LMN_FORMAT, LMN_LIMIT, LMN_UNSUPPORTED, LMN_MEMORY. */
-lmn_status import_image(image *out, const unsigned char *bytes, size_t size, lmn_error *error);
-
 #endif

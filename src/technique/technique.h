@@ -3,6 +3,8 @@
 #ifndef LIMNER_TECHNIQUE_TECHNIQUE_H
 #define LIMNER_TECHNIQUE_TECHNIQUE_H
 
+#include "base/mip_chain.h"
+#include "base/text.h"
 #include "technique/param.h"
 
 /* What the geometry pass can write for each pixel. Only what some technique needs is drawn. */
@@ -87,6 +89,17 @@ typedef struct perturbation {
     const struct pass *map; /* writes TARGET_FIELD */
 } perturbation;
 
+/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, with NAME_SIZE-like facts in the uniform
+ * vec4 u_NAME: width, height, layers, levels. */
+typedef struct texture_source {
+    const char *name;
+    const char *when; /* condition on the parameters; NULL: always. While it is made, HAS_NAME is defined, in capitals */
+    /* Appends all that decides the content; equal text, equal texture. */
+    void      (*describe)(text *out, const void *values);
+    lmn_status (*make)(mip_chain *out, const void *values, lmn_error *error);
+    bool        kept; /* takes long: it is kept on disk */
+} texture_source;
+
 typedef struct technique {
     const char  *name, *doc;  /* doc: one line that ends in a full stop */
     const char  *example;     /* JSON of a rule that shows it: test input and documentation */
@@ -106,6 +119,9 @@ typedef struct technique {
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
+    const char  *forward_when; /* surface: the same under this condition on its parameters; NULL: never */
+    const texture_source *textures; /* surface: what it makes on the CPU */
+    size_t       texture_count;
     const perturbation *perturbs; /* perturb: how lookups are moved */
 } technique;
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/image_read.h"
 #include "import/assimp_stream.h"
 #include "import/csg.h"
 #include "import/import.h"
@@ -31,9 +32,9 @@ static lmn_status read_format(const import_job *job, lmn_error *error)
 #elif defined(FUZZ_stream)
     return assimp_stream_read(job, job->file->data, job->file->size, error);
 #else
-    image decoded = {0};
-    lmn_status status = import_image(&decoded, job->file->data, job->file->size, error);
-    mem_free(decoded.pixels);
+    image_pixels decoded;
+    lmn_status status = image_read(&decoded, job->file->data, job->file->size, error);
+    mem_free(decoded.rgba);
     return status == LMN_OK ? LMN_CANCELLED : status;
 #endif
 }

@@ -1,0 +1,14 @@
+/* A place on disk for textures that take long to make, by a hash of what they are made from. */
+#ifndef LIMNER_HALFTONE_STORE_H
+#define LIMNER_HALFTONE_STORE_H
+
+#include "base/mip_chain.h"
+
+/* Reads what was kept under this description (any text, all that decides the content, with a version). False when there is nothing, or when it is damaged, of another
+ * description with the same hash, or unreadable: then it is made again. The folder is LIMNER_CACHE, else XDG_CACHE_HOME/limner, else HOME/.cache/limner; LIMNER_CACHE
+ * set and empty: nothing is kept. */
+bool store_find(mip_chain *out, const char *description);
+/* Keeps it, whole or not at all; what cannot be written is left out silently, since it can be made again. At most 256 MiB are kept, the oldest go first. */
+void store_keep(const mip_chain *chain, const char *description);
+
+#endif

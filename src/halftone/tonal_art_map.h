@@ -1,0 +1,30 @@
+/* Tonal art maps: strokes of a lighter tone are all in every darker one, and strokes of a coarser mip level in every finer one. Notes: seed-grossmann rows
+ * 3 to 5, seed-pencil-city P16 to P20, P39; after Praun 2001. */
+#ifndef LIMNER_HALFTONE_TONAL_ART_MAP_H
+#define LIMNER_HALFTONE_TONAL_ART_MAP_H
+
+#include "base/mip_chain.h"
+#include "halftone/strokes.h"
+
+typedef enum tam_placement { TAM_BEST_FIT, TAM_STRIPS, TAM_PLACEMENT_COUNT } tam_placement;
+extern const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1];
+
+typedef struct tam_wishes {
+    int           side;      /* of level 0, a power of two, at most 1024; 256 */
+    int           tones;     /* 2 … 16; 6. Tone i of n inks (i + 1) / (n + 1) of the surface, times `darkest` × (n + 1) / n */
+    double        darkest;   /* ink of the last tone, 0.05 … 0.98 */
+    double        width;     /* texels, the same on all levels */
+    double        length;    /* longest stroke in the square; lengths are 30 … 100 % of it */
+    double        opacity;   /* 1: hatching; below: gradation, where strokes cover each other and darken by it, less each time (P20, P32) */
+    bool          cross;     /* from the middle tone on also across */
+    float         uneven;    /* wobble of direction, 0 … 1 */
+    tam_placement placement;
+    const strokes *drawn;    /* not NULL: these are placed in the order of their priorities instead (P39: dots and other shapes) */
+    uint32_t      seed;
+} tam_wishes;
+
+/* R8, one layer a tone, lightest first; 255 is paper; levels with fewer than 8 texels a side are of the tone's grey. Errors: LMN_USAGE, LMN_MEMORY. `kept`
+ * may be NULL; else it gets per stroke what was placed: light = tone it appears in first as 1 − tone index / tones, perspective = by coarsest level. */
+lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_wishes *wishes, lmn_error *error);
+
+#endif
