@@ -21,21 +21,47 @@ static void set_cut(frame *f)
     gpu_set_vec4(f->g, "u_cut_fill", fill);
 }
 
-/* From eye space to places in the world, measured from where the frames of parts are measured from. */
+/* From eye space to places in the world, measured from where the frames of parts are measured from: columns. */
+static void world_from_eye(const frame *f, double out[16])
+{
+    const double *view = f->camera.view.m;
+    memset(out, 0, 16 * sizeof *out);
+    for (int row = 0; row < 3; row++) {
+        out[12 + row] = -f->up->frame_origin[row];
+        for (int k = 0; k < 3; k++) {
+            out[4 * k + row] = view[4 * row + k];
+            out[12 + row] -= view[4 * row + k] * view[12 + k];
+        }
+    }
+    out[15] = 1;
+}
+
+void frame_set_rest(frame *f, size_t part_index)
+{
+    if (!gpu_has_uniform(f->g, "u_rest") || !upload_part_frames(f->up, f->g, f->plan->scene))
+        return;
+    const float *rows = &f->up->part_frame_values[PART_FRAME_FLOATS * part_index];
+    double world[16];
+    float out[12];
+    world_from_eye(f, world);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++) {
+            double sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += (double)rows[4 * row + k] * world[4 * column + k];
+            out[4 * row + column] = (float)sum;
+        }
+    gpu_set_vec4_array(f->g, "u_rest", out, 3);
+}
+
 static void set_part_frames(frame *f, const figure_state *s)
 {
     gpu_texture *frames = upload_part_frames(f->up, f->g, f->plan->scene);
-    const double *view = f->camera.view.m;
-    float world[16] = {0};
-    for (int row = 0; row < 3; row++) {
-        double moved = -f->up->frame_origin[row];
-        for (int k = 0; k < 3; k++) {
-            world[4 * k + row] = (float)view[4 * row + k];
-            moved -= view[4 * row + k] * view[12 + k];
-        }
-        world[12 + row] = (float)moved;
-    }
-    world[15] = 1;
+    double exact[16];
+    float world[16];
+    world_from_eye(f, exact);
+    for (int i = 0; i < 16; i++)
+        world[i] = (float)exact[i];
     gpu_set_mat4(f->g, "u_world_from_eye", world);
     gpu_set_texture(f->g, "t_part_frames", frames, false);
     int only = 0; /* where there are no ids there is one part */
@@ -58,8 +84,6 @@ static void set_field(frame *f, const figure_state *s)
     gpu_set_uint(f->g, "u_seed", p->seed(use->values, f->seed, f->time_s));
     /* What the pictures of normals and depth were cleared to. */
     gpu_set_float(f->g, "u_empty", (float)(s->figure->layered ? f->camera.far : s->far));
-    if (gpu_has_uniform(f->g, "u_world_from_eye"))
-        set_part_frames(f, s);
 }
 
 /* The walls of a hole are where what was taken away ends. Both are found apart, so their depths differ by rounding, of places as shares of
@@ -86,8 +110,11 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_float(g, "u_rear", s->rear);
     gpu_set_float(g, "u_forward", forward_of(f, s->figure));
     gpu_set_int(g, "u_filled", s->filled);
+    gpu_set_float(g, "u_time", (float)f->time_s);
     if (rule_use(s->figure->rule, KIND_PERTURB))
         set_field(f, s);
+    if (gpu_has_uniform(g, "u_world_from_eye"))
+        set_part_frames(f, s);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);
     if (gpu_has_uniform(g, "u_cut_lines"))

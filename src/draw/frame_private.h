@@ -110,6 +110,8 @@ void                 frame_set_common(frame *f, const figure_state *s);
 /* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
 void frame_set_transform(frame *f, const mat4 *world);
 void frame_set_projection(frame *f);
+/* For programs that tie something to parts: from eye space to the part's frame (upload_part_frames). */
+void frame_set_rest(frame *f, size_t part_index);
 /* Can layers, and solids, be gathered in lists? */
 bool lists_possible(const frame *f);
 /* The program of these files with this prelude, which is used up; NULL after an error. */

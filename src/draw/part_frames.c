@@ -165,7 +165,8 @@ gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene)
     } else {
         gpu_fail(g, LMN_MEMORY, "out of memory");
     }
-    mem_free(values);
+    mem_free(u->part_frame_values);
+    u->part_frame_values = values;
     mem_free(movers);
     mem_free(animated);
     return u->part_frames;

@@ -165,6 +165,12 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID;
 }
 
+bool shades_with_geometry(const technique_use *surface)
+{
+    const technique *t = surface->technique;
+    return t->forward || (t->forward_when && params_condition(t->forward_when, t->params, t->param_count, surface->values));
+}
+
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
@@ -176,7 +182,7 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     }
     bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
-    f->deferred = front && front->shading == SHADING_DEFERRED && surface && !surface->technique->forward;
+    f->deferred = front && front->shading == SHADING_DEFERRED && surface && !shades_with_geometry(surface);
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
     f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
     f->reflects = surface && surface->technique->reflects;

@@ -53,6 +53,9 @@ lmn_status plan_create(plan *out, const lmn_scene *scene, const lmn_look *look, 
                        warnings *notes, lmn_error *error);
 void       plan_release(plan *p);
 
+/* Must the surface be shaded while the geometry is drawn? */
+bool shades_with_geometry(const technique_use *surface);
+
 /* The use of a kind that holds one technique; NULL when the rule has none. */
 const technique_use *rule_use(const rule *r, kind_id id);
 

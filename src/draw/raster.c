@@ -45,9 +45,10 @@ static item_textures textures_of(frame *f, const draw_item *item, const material
     return t;
 }
 
-static void declare_material(text *prelude, const draw_item *item, const material *m, item_textures t)
+static void declare_material(text *prelude, const figure_state *s, const draw_item *item, const material *m, item_textures t)
 {
-    if (t.base || t.normal)
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    if (t.base || t.normal || (item->has_uvs && surface && shades_with_geometry(surface)))
         text_append(prelude, "#define HAS_UV\n");
     if (item->has_colours)
         text_append(prelude, "#define HAS_COLOURS\n");
@@ -220,7 +221,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     const material *m = material_of(f, s->figure, item, &tinted);
     item_textures t = textures_of(f, item, m);
     text prelude = {0};
-    declare_material(&prelude, item, m, t);
+    declare_material(&prelude, s, item, m, t);
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
@@ -270,6 +271,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     if (gpu_failed(f->g))
         return;
     frame_set_transform(f, &item->world);
+    frame_set_rest(f, item->part_index);
     set_ids(f, job, s, item, last->triangles);
     if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
         gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
@@ -299,6 +301,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     gpu_set_vec4(f->g, "u_solid_highlight", highlight);
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);
+    frame_set_rest(f, item->part_index);
     set_ids(f, job, s, item, 0);
     int box[1][4];
     camera_pixels(&f->camera, f->up->part_boxes[item->part_index], f->width, f->height, 2, box[0]);
@@ -455,6 +458,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
     text prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+    text_append(&prelude, "#define SHADED_LATER\n");
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
     if (f->plan->has_cut)

@@ -101,6 +101,7 @@ typedef struct upload {
     gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
     gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */
     gpu_texture  *part_frames; /* NULL: not asked for yet */
+    float        *part_frame_values; /* what is in it */
     double        frame_origin[3];
     uint64_t      triangles; /* drawn, instances counted */
 } upload;
@@ -113,6 +114,8 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
 gpu_texture *upload_texture(upload *u, gpu *g, const lmn_scene *scene, const texture_use *use, bool linear);
+
+enum { PART_FRAME_FLOATS = 16 };
 
 /* Four texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from `frame_origin`, to where it is
  * when nothing has moved, in the scene's unit; and a number in the fourth one's first component. Parts of one file without animated nodes between

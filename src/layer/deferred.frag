@@ -23,7 +23,7 @@ void main()
     vec3 eye = vec3(ndc * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
     vec3 normal = (id.g & SURFACE_TURNED) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
-    out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false));
+    out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false, id.r));
 #ifdef HAS_CUT
     if ((id.g & SURFACE_CUT) != 0u)
         out_shade = cut_colour(pixel, id, albedo.rgb);

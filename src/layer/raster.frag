@@ -143,7 +143,15 @@ void main()
 #ifdef CUT_FACE
     out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, surface_id), albedo.rgb);
 #else
-    out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0));
+#ifdef HAS_UV
+#ifdef HAS_BASE_TEXTURE
+    s_uv = moved_uv(u_base_matrix, u_base_offset);
+#else
+    s_uv = v_uv0;
+#endif
+    s_uv_unique = v_uv1;
+#endif
+    out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0, 0u));
 #if defined(SOLID) && defined(HAS_CUT)
     if (surface_is_cut)
         out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, surface_id), albedo.rgb);

@@ -4,7 +4,15 @@ struct surface_point {
     vec3 normal;  /* unit, towards the viewer's side */
     vec4 albedo;  /* unlit colour of the model, straight alpha */
     bool unlit;   /* the file asks for no light here */
+    uint part;    /* its number, where shading comes after the geometry; else 0 */
 };
+
+#ifdef HAS_UV
+/* Texture coordinates of the place, for surfaces that are shaded with their geometry: as the material's own picture has them, and the second set, which is meant
+ * to be used once. */
+vec2 s_uv;
+vec2 s_uv_unique;
+#endif
 
 uniform float u_perspective; /* 1, or 0 for parallel rays */
 uniform vec2  u_unproject;   /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */

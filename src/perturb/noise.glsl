@@ -1,5 +1,5 @@
 /* Gradient noise (Perlin's): three independent values at once. Seed 000, section 6.2. */
-#include "perturb/hash.glsl"
+#include "gpu/hash.glsl"
 
 vec3 fade_of(vec3 t)
 {

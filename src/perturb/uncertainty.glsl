@@ -1,6 +1,6 @@
 /* Where lines and fill are looked up. Seed 000, section 6.3 and listing 6-1; seed 003, section 4. */
 #include "perturb/field.glsl"
-#include "perturb/hash.glsl"
+#include "gpu/hash.glsl"
 
 #define LINE_COPIES REPEAT
 

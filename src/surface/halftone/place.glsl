@@ -1,0 +1,114 @@
+/* Where strokes lie: plane coordinates on the surface with their rates of change in the picture. They are worked out from normal and depth alone, so that surfaces
+ * may be shaded with their geometry or later, with the same result. */
+#include "light/light.glsl"
+
+/* A place is measured where the part is when nothing has moved, so that strokes go with it. */
+#ifdef SHADED_LATER
+uniform sampler2D t_part_frames; /* src/draw/upload.h */
+uniform mat4 u_world_from_eye;
+#else
+uniform vec4 u_rest[3]; /* rows: from eye space to the part's frame */
+#endif
+
+/* One way of laying a plane on a surface. A place may have several; their weights add up to 1. */
+struct stroke_plane {
+    vec2  at;      /* coordinates, x along strokes */
+    vec2  right;   /* how they change from this pixel to the next one to the right, */
+    vec2  up;      /* and to the one above */
+    float weight;
+    uint  key;     /* tells planes apart */
+};
+
+/* A place and its rates in a part's frame. */
+struct rest_place {
+    vec3 at, right, up;
+    vec3 normal;
+};
+
+/* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
+const float STEEPEST = 0.12;
+
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
+
+/* The tangent plane's point moves by this much in eye space when the ray moves by a pixel in one direction (x or y of `pixel`). */
+vec3 rate_of(vec3 eye, vec3 normal, vec3 pixel)
+{
+    vec3 ray = u_perspective > 0.5 ? eye / -eye.z : vec3(0.0, 0.0, -1.0);
+    float facing = dot(normal, ray);
+    float least = STEEPEST * length(ray);
+    facing = facing > 0.0 ? max(facing, least) : min(facing, -least);
+    vec3 moved = pixel * (u_perspective > 0.5 ? -eye.z : 1.0);
+    return moved - ray * (dot(normal, moved) / facing);
+}
+
+rest_place place_at_rest(surface_point p)
+{
+    vec2 pixel = 2.0 * u_unproject / u_size;
+    vec3 right = rate_of(p.eye, p.normal, vec3(pixel.x, 0.0, 0.0)), up = rate_of(p.eye, p.normal, vec3(0.0, pixel.y, 0.0));
+#ifdef SHADED_LATER
+    int part = max(int(p.part) - 1, 0);
+    ivec2 texel = ivec2(4 * (part & 1023), part >> 10);
+    mat4 rows = transpose(mat4(texelFetch(t_part_frames, texel, 0), texelFetch(t_part_frames, texel + ivec2(1, 0), 0),
+                               texelFetch(t_part_frames, texel + ivec2(2, 0), 0), vec4(0.0, 0.0, 0.0, 1.0))) * u_world_from_eye;
+#else
+    mat4 rows = transpose(mat4(u_rest[0], u_rest[1], u_rest[2], vec4(0.0, 0.0, 0.0, 1.0)));
+#endif
+    mat3 turn = mat3(rows);
+    return rest_place((rows * vec4(p.eye, 1.0)).xyz, turn * right, turn * up, turn * p.normal);
+}
+
+stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, uint key)
+{
+    return stroke_plane(vec2(dot(r.at, along), dot(r.at, across)), vec2(dot(r.right, along), dot(r.right, across)),
+                        vec2(dot(r.up, along), dot(r.up, across)), weight, key);
+}
+
+/* Coordinates turned by an angle. */
+stroke_plane turned_plane(stroke_plane s, float angle)
+{
+    mat2 turn = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
+    return stroke_plane(turn * s.at, turn * s.right, turn * s.up, s.weight, s.key);
+}
+
+#if COORDINATES == 0
+/* Strokes are where planes through the model cut its surface: they run on over everything without seams. Around the two places where the surface is a plane's own,
+ * another set of planes takes over. */
+#define PLANES 2
+const mat3 ASKEW = mat3(0.8138, 0.2962, -0.5, 0.0443, 0.8252, 0.5630, 0.5794, -0.4803, 0.6582);
+stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+{
+    vec3 first = ASKEW[series % 3], second = ASKEW[(series + 1) % 3], third = ASKEW[(series + 2) % 3];
+    float own = smoothstep(0.25, 0.55, length(cross(r.normal, first)));
+    return i == 0 ? plane_along(r, abs(dot(second, r.normal)) < abs(dot(third, r.normal)) ? second : third, first, own, uint(series))
+                  : plane_along(r, first, second, 1.0 - own, uint(series) + 4u);
+}
+#elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV))
+#define PLANES 3
+stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+{
+    vec3 share = abs(r.normal);
+    share *= share;
+    share *= share;
+    share *= share;
+    share /= share.x + share.y + share.z;
+    return i == 0 ? plane_along(r, vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0), share.x, 0u)
+         : i == 1 ? plane_along(r, vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), share.y, 1u)
+                  : plane_along(r, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), share.z, 2u);
+}
+#elif COORDINATES == 3
+#define PLANES 1
+stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+{
+    return stroke_plane(s_uv, dFdx(s_uv), dFdy(s_uv), 1.0, 0u);
+}
+#else
+#define PLANES 1
+stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+{
+    vec2 pixel = gl_FragCoord.xy;
+    return stroke_plane(pixel, vec2(1.0, 0.0), vec2(0.0, 1.0), 1.0, 0u);
+}
+#endif

@@ -1,0 +1,22 @@
+/* Which tone a place shall have, 0 … 1: from light, the model's own brightness, and what the look makes of both. Seed 001, sections 5.4.4 and 6.2. */
+#include "light/light.glsl"
+
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+/* Brightness as the eye counts it: what looks half as bright shall get half the ink. */
+float seen_brightness(vec3 linear)
+{
+    return pow(clamp(dot(linear, LUMINANCE), 0.0, 1.0), 1.0 / 2.2);
+}
+
+float tone_of_light(surface_point p, float light)
+{
+    float bent = pow(clamp(light, 0.0, 1.0), u_contrast);
+    float own = mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
+    return mix(u_shadow, u_light, bent) * own;
+}
+
+float light_of(surface_point p)
+{
+    return p.unlit ? 1.0 : dot(diffuse_light(p), LUMINANCE);
+}

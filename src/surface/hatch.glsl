@@ -1,0 +1,160 @@
+/* Lines at every half, quarter, eighth … of a coordinate, as many of them as the picture has room for. */
+#include "gpu/hash.glsl"
+#include "surface/halftone/place.glsl"
+#include "surface/halftone/tone.glsl"
+
+uniform float u_time;
+
+surface_point s_point;
+rest_place    s_rest;
+
+float number_of(uint hash)
+{
+    return float(hash >> 8u) / 16777215.0;
+}
+
+float cell_noise(ivec2 cell, uint seed)
+{
+    return number_of(hash_of(uvec3(uvec2(cell), 0u), seed)) * 2.0 - 1.0;
+}
+
+/* Smooth noise in the plane, −1 … 1. */
+float plane_noise(vec2 at, uint seed)
+{
+    vec2 low = floor(at), t = at - low;
+    t = t * t * (3.0 - 2.0 * t);
+    ivec2 cell = ivec2(low);
+    return mix(mix(cell_noise(cell, seed), cell_noise(cell + ivec2(1, 0), seed), t.x),
+               mix(cell_noise(cell + ivec2(0, 1), seed), cell_noise(cell + 1, seed), t.x), t.y);
+}
+
+/* Noise of as many waves on the page at any zoom: two octaves that hand over to each other. */
+float zoomed_noise(vec2 at, float octave, uint seed)
+{
+    float low = floor(octave), share = octave - low;
+    float scale = exp2(low);
+    return mix(plane_noise(at * scale, seed), plane_noise(at * scale * 2.0, seed), share);
+}
+
+/* What a line keeps at any zoom: where it is as a fraction without common factors, and the octave that brings it. */
+uint line_key(float index, float octave, uint set)
+{
+    int at = int(index), low = at & -at;
+    int birth = int(octave);
+    if (low != 0) {
+        birth -= int(log2(float(abs(low))) + 0.5);
+        at /= low;
+    } else {
+        birth = 0;
+    }
+    return hash_of(uvec3(uint(at), uint(birth), set), 0x51ed27u);
+}
+
+/* Share of a stroke's width that is left at this place along its line: strokes end in tips, and are cut in two when they get too long. `along`: pixels a
+ * unit; `grown`: share of its length that a stroke has yet. */
+float stroke_share(float at, float along, uint key, float grown)
+{
+    float scale = 0.7 + 0.6 * number_of(key ^ 0x5bd1e995u);
+    float pixels = along / scale;
+    float octave = log2(pixels / u_length) + number_of(key * 2654435761u);
+    float low = floor(octave), share = octave - low, cells = exp2(low);
+    /* A shift that halves of strokes inherit: its binary digits repeat after 32 octaves. */
+    int turns = int(low) & 31;
+    uint digits = key << turns | key >> (32 - turns & 31);
+    float inside = fract(at * scale * cells + number_of(digits)), size = pixels / cells;
+    float to_old = min(inside, 1.0 - inside) * size, to_new = abs(inside - 0.5) * size;
+    float to_end = min(to_old - 0.5 * u_gap, mix(size, to_new - 0.5 * u_gap, smoothstep(0.0, 0.5, share)));
+    to_end -= (1.0 - grown) * size * mix(0.5, 0.25, share);
+    return clamp(to_end / max(u_taper, 0.75), 0.0, 1.0);
+}
+
+/* Share of the ink that gaps and tips leave. */
+float stroke_ink()
+{
+    return u_length > 0.0 ? max(1.0 - (u_gap + u_taper) / u_length, 0.25) : 1.0;
+}
+
+/* Share of the pixel that a line of this width covers whose middle is this far away. */
+float covered(float width, float away)
+{
+    return clamp(0.5 * width + 0.5 - away, 0.0, min(width, 1.0));
+}
+
+/* The lines of one set around a place, of this darkness. */
+float lines_at(stroke_plane s, float darkness, uint set)
+{
+    darkness = min(darkness / stroke_ink(), 1.0);
+    vec2 rate = vec2(s.right.y, s.up.y);
+    float g = max(length(rate), 1e-20);
+    /* Pixels along the line for a unit of x. */
+    float along = g / max(abs(s.right.x * s.up.y - s.up.x * s.right.y), 1e-20);
+    float basis = log2(1.0 / (u_scale * g));
+    float waver = u_wobble > 0.0 ? zoomed_noise(s.at * vec2(0.07, 0.13), basis, set + uint(u_time * u_change)) : 0.0;
+#if TONE_BY == 0
+    float octave = log2(darkness / (u_width * g));
+#else
+    float octave = basis + 0.5;
+#endif
+    float low = floor(octave), share = octave - low;
+    float cells = exp2(low), period = 1.0 / (cells * g); /* pixels between old lines */
+    float cell = (s.at.y + waver * u_wobble * u_scale * g) * cells, inside = fract(cell);
+#if TONE_BY == 0
+    float old_part = exp2(-share);
+#else
+    float old_part = 1.0 / (1.0 + share);
+#endif
+    float old_width = darkness * period * old_part, new_width = darkness * period * (1.0 - old_part);
+    uint key_old = line_key(floor(cell + 0.5) * 2.0, low + 1.0, set), key_new = line_key(floor(cell) * 2.0 + 1.0, low + 1.0, set);
+    float away_old = min(inside, 1.0 - inside) * period, away_new = abs(inside - 0.5) * period;
+    if (u_loose > 0.0) {
+        old_width *= 1.0 + u_loose * (number_of(key_old) - 0.5);
+        new_width *= 1.0 + u_loose * (number_of(key_new) - 0.5);
+    }
+    if (u_length > 0.0) {
+        float grown = sqrt(new_width / max(old_width, 1e-6)); /* strokes that come grow both ways */
+        old_width *= stroke_share(s.at.x, along, key_old, 1.0);
+        new_width *= stroke_share(s.at.x, along, key_new, grown) / max(grown, 1e-3);
+    }
+    return min(covered(old_width, away_old) + covered(new_width, away_new), 1.0);
+}
+
+/* Sets of lines share what is dark: each as far as its own lines may come together, and beyond that all alike. */
+float set_darkness(float darkness, int set)
+{
+#if TONE_BY == 0
+    float most = min(u_width / u_scale, 0.9);
+#else
+    float most = SERIES > 1 ? 0.5 : 1.0;
+#endif
+    float left = 1.0 - darkness;
+    if (left <= pow(1.0 - most, float(SERIES)))
+        return 1.0 - pow(max(left, 0.0), 1.0 / float(SERIES));
+    float before = pow(1.0 - most, float(set));
+    return clamp(1.0 - left / before, 0.0, most);
+}
+
+float cover_of(float darkness, int ink)
+{
+    float bare = 1.0;
+    for (int set = 0; set < SERIES; set++) {
+        float part = set_darkness(darkness, set);
+        int some = part > 0.002 ? PLANES : 0;
+        for (int i = 0; i < some; i++) {
+            stroke_plane s = plane_of(s_point, s_rest, i, set);
+            int wanted = part * s.weight > 0.002 ? 1 : 0;
+            for (int once = 0; once < wanted; once++)
+                bare *= 1.0 - lines_at(turned_plane(s, radians(u_angle + u_turn * float(set) + 30.0 * float(ink))), part * s.weight, s.key + 16u * uint(set));
+        }
+    }
+    return 1.0 - bare;
+}
+
+#include "surface/halftone/inks.glsl"
+
+vec4 surface_colour(surface_point p)
+{
+    s_point = p;
+    s_rest = place_at_rest(p);
+    float tone = tone_of_light(p, light_of(p));
+    return inked(p, tone);
+}
