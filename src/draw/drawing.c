@@ -31,6 +31,7 @@ void renderer_destroy(lmn_renderer **renderer)
     lmn_renderer *r = *renderer;
     gpu_make_current(r->g);
     upload_release(&r->up, r->g);
+    made_textures_release(&r->made, r->g);
     gpu_destroy(&r->g);
     mem_free(r);
     *renderer = NULL;
@@ -148,6 +149,16 @@ static lmn_status find_ground(colour *out, const lmn_look *look, const lmn_draw_
     return status;
 }
 
+/* What surface techniques make on the CPU. */
+static lmn_status bring_textures(lmn_renderer *r, plan *p, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    made_textures_trim(&r->made, r->g);
+    for (size_t i = 0; i < p->figure_count && status == LMN_OK; i++)
+        status = made_textures_find(&r->made, r->g, rule_use(p->figures[i].rule, KIND_SURFACE), &p->figures[i].textures, error);
+    return status;
+}
+
 lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                         bool maps, warnings *notes, lmn_error *error)
 {
@@ -161,6 +172,8 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
         status = find_ground(&wishes.ground, look, desc, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
+    if (status == LMN_OK)
+        status = bring_textures(r, &s->plan, error);
     if (status == LMN_OK)
         status = place_camera(s, scene, desc, error);
     if (status != LMN_OK)

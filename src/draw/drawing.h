@@ -3,6 +3,7 @@
 #define LIMNER_DRAW_DRAWING_H
 
 #include "draw/frame.h"
+#include "draw/made_textures.h"
 #include "limner/draw.h"
 
 struct lmn_renderer {
@@ -10,6 +11,7 @@ struct lmn_renderer {
     upload          up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
     bool            up_valid;
+    made_textures   made;
     int             width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
 };
 

@@ -2,6 +2,7 @@
 #ifndef LIMNER_DRAW_PLAN_H
 #define LIMNER_DRAW_PLAN_H
 
+#include "draw/made_textures.h"
 #include "draw/upload.h"
 #include "look/look.h"
 
@@ -22,6 +23,7 @@ typedef struct figure {
     bool        layered;    /* composed layer by layer */
     bool        ghostly;    /* of ghosts alone */
     int         layer_count; /* layers at most */
+    used_textures textures;  /* of the surface technique; found by who draws */
 } figure;
 
 typedef struct plan {

@@ -156,6 +156,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const char *
     if (job->at.shade >= 0) {
         lights_declare(&prelude, f);
         uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+        used_textures_declare(&prelude, surface, &s->figure->textures);
         snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface);
     }
     if (job->inking)
@@ -196,8 +197,11 @@ typedef struct raster_setup {
 static void set_pass(frame *f, const raster_job *job, const figure_state *s)
 {
     frame_set_common(f, s);
-    if (job->at.shade >= 0)
-        uniforms_set(f->g, use_own_set(KIND_SURFACE, rule_use(s->figure->rule, KIND_SURFACE)));
+    if (job->at.shade >= 0) {
+        const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+        uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+        used_textures_set(f->g, surface, &s->figure->textures);
+    }
     if (job->inking)
         set_ink(f, s, job->inking);
     set_layers(f, job);
@@ -458,6 +462,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
     text prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+    used_textures_declare(&prelude, surface, &s->figure->textures);
     text_append(&prelude, "#define SHADED_LATER\n");
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
@@ -470,6 +475,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
         gpu_use(f->g, p, (gpu_state){0});
         frame_set_common(f, s);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+        used_textures_set(f->g, surface, &s->figure->textures);
         gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
         gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
         gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);

@@ -17,7 +17,7 @@ typedef struct gpu_mesh    gpu_mesh;
 typedef struct gpu_buffer  gpu_buffer;
 
 typedef enum gpu_format {
-    GPU_R8, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_DEPTH32F_STENCIL8, GPU_FORMAT_COUNT
+    GPU_R8, GPU_RG8, GPU_RG16F, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_DEPTH32F_STENCIL8, GPU_FORMAT_COUNT
 } gpu_format;
 /* The source is premultiplied. UNDER: the picture's alpha is what still shows through, 1 at first, which 16-bit floats hold better
  * than what does not. */
@@ -55,6 +55,15 @@ const gpu_facts *gpu_facts_of(const gpu *g);
 /* A texture from pixels (RGBA8 or SRGB8), with mip levels. NULL after an error. */
 gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest, gpu_wrap wrap_u,
                                 gpu_wrap wrap_v);
+/* Several pictures of one size, for samplers of arrays, with levels made by hand: level k holds all of them one after the other in half the size of level k − 1. R8 and
+ * RG8 take bytes, RG16F floats. `nearest`: texels are not mixed. Trilinear otherwise. NULL after an error. */
+typedef struct gpu_levels {
+    int               width, height, layers, levels;
+    gpu_format        format;
+    bool              nearest, clamped;
+    const void *const *data;
+} gpu_levels;
+gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *levels);
 void         gpu_texture_destroy(gpu *g, gpu_texture **t);
 /* A picture to draw into, from a pool; nearest sampling, clamped. Its content is undefined. */
 gpu_texture *gpu_target_acquire(gpu *g, int width, int height, gpu_format format);

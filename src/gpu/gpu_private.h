@@ -11,6 +11,7 @@ enum { FRAMEBUFFERS_MAX = 64, UNIFORMS_MAX = 96 };
 
 struct gpu_texture {
     GLuint     name;
+    GLenum     target;
     int        width, height;
     gpu_format format;
     bool       mipmapped, nearest, in_use;

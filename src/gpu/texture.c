@@ -12,6 +12,8 @@ typedef struct format_row {
 
 static const format_row formats[GPU_FORMAT_COUNT] = {
     [GPU_R8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1},
+    [GPU_RG8] = {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2},
+    [GPU_RG16F] = {GL_RG16F, GL_RG, GL_FLOAT, 8},
     [GPU_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     [GPU_SRGB8] = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
@@ -42,7 +44,8 @@ static GLint wrap_of(gpu_wrap wrap)
     return wrap == GPU_REPEAT ? GL_REPEAT : wrap == GPU_MIRROR ? GL_MIRRORED_REPEAT : GL_CLAMP_TO_EDGE;
 }
 
-static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const void *pixels, gpu_wrap wrap_u, gpu_wrap wrap_v)
+/* A texture without content, bound. */
+static gpu_texture *make_empty(gpu *g, GLenum target, int width, int height, gpu_format format)
 {
     if (g->failed)
         return NULL;
@@ -56,12 +59,18 @@ static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const
         gpu_fail(g, LMN_MEMORY, "out of memory");
         return NULL;
     }
-    t->width = width;
-    t->height = height;
-    t->format = format;
-    const format_row *row = &formats[format];
+    *t = (gpu_texture){.target = target, .width = width, .height = height, .format = format};
     glGenTextures(1, &t->name);
-    glBindTexture(GL_TEXTURE_2D, t->name);
+    glBindTexture(target, t->name);
+    return t;
+}
+
+static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const void *pixels, gpu_wrap wrap_u, gpu_wrap wrap_v)
+{
+    gpu_texture *t = make_empty(g, GL_TEXTURE_2D, width, height, format);
+    if (!t)
+        return NULL;
+    const format_row *row = &formats[format];
     glTexImage2D(GL_TEXTURE_2D, 0, (GLint)row->internal, width, height, 0, row->format, row->type, pixels);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap_of(wrap_u));
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap_of(wrap_v));
@@ -81,6 +90,30 @@ gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
     if (!nearest && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
         glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8.0f);
+    return t;
+}
+
+gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *l)
+{
+    const GLenum target = GL_TEXTURE_2D_ARRAY;
+    gpu_texture *t = make_empty(g, target, l->width, l->height, l->format);
+    if (!t)
+        return NULL;
+    t->mipmapped = true;
+    t->nearest = l->nearest;
+    const format_row *row = &formats[l->format];
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int k = 0; k < l->levels; k++) {
+        int width = l->width >> k > 1 ? l->width >> k : 1, height = l->height >> k > 1 ? l->height >> k : 1;
+        glTexImage3D(target, k, (GLint)row->internal, width, height, l->layers, 0, row->format, row->type, l->data[k]);
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, l->levels - 1);
+    GLint wrap = l->clamped ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, l->nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, l->nearest ? GL_NEAREST : GL_LINEAR);
     return t;
 }
 
@@ -149,7 +182,7 @@ void gpu_set_texture(gpu *g, const char *name, gpu_texture *t, bool linear)
         return;
     int unit = g->next_unit++;
     glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
-    glBindTexture(GL_TEXTURE_2D, t->name);
+    glBindTexture(t->target, t->name);
     if (!t->mipmapped && t->linear != linear) {
         GLint filter = linear ? GL_LINEAR : GL_NEAREST;
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -145,6 +146,18 @@ static lmn_status find_technique_of(reader *r, const kind *k, const json_t *obje
     return status;
 }
 
+/* A file's path counts from the look's folder; words that name no file stay what they are. */
+static lmn_status read_path(const reader *r, const param *p, void *values, const json_t *json, lmn_error *error)
+{
+    const char *given = json_string_value(json);
+    if (!given || (!strchr(given, '.') && !strchr(given, '/')))
+        return value_set_json(p, values, json, error);
+    char *path = file_beside(r->file, given);
+    lmn_status status = path ? value_set_text(p, values, path, error) : error_memory(error);
+    mem_free(path);
+    return status;
+}
+
 /* One technique: its name, or an object with the name and values. */
 static lmn_status read_use(reader *r, const kind *k, json_t *json, technique_use *out)
 {
@@ -168,7 +181,7 @@ static lmn_status read_use(reader *r, const kind *k, json_t *json, technique_use
             continue;
         const param *p = kind_find_param(k, t, key);
         if (p)
-            status = value_set_json(p, out->values, value, &inner);
+            status = p->is_file ? read_path(r, p, out->values, value, &inner) : value_set_json(p, out->values, value, &inner);
         else
             status = kind_missing_param(k, t, key, &inner);
         if (status != LMN_OK)

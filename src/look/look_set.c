@@ -103,7 +103,7 @@ static bool exchange(technique_use *use, const kind *k, const technique *t)
         return false;
     for (size_t i = 0; use->technique && i < kind_param_count(k, t); i++) {
         const param *to = kind_param_at(k, t, i), *from = kind_find_param(k, use->technique, to->key);
-        char printed[128];
+        char printed[PARAM_TEXT_MAX];
         if (!from || from->type != to->type || param_is_default(from, use->values))
             continue;
         param_print(from, use->values, printed, sizeof printed);

@@ -159,7 +159,7 @@ static json_t *array_of_text(const char *printed, bool numbers)
 
 json_t *value_json(const param *p, const void *values)
 {
-    char printed[128];
+    char printed[PARAM_TEXT_MAX];
     param_print(p, values, printed, sizeof printed);
     if (param_is_auto(p, values))
         return json_string(printed);

@@ -1,40 +1,10 @@
 /* Lines at every half, quarter, eighth … of a coordinate, as many of them as the picture has room for. */
-#include "gpu/hash.glsl"
 #include "surface/halftone/place.glsl"
 #include "surface/halftone/tone.glsl"
-
-uniform float u_time;
+#include "surface/halftone/noise.glsl"
 
 surface_point s_point;
 rest_place    s_rest;
-
-float number_of(uint hash)
-{
-    return float(hash >> 8u) / 16777215.0;
-}
-
-float cell_noise(ivec2 cell, uint seed)
-{
-    return number_of(hash_of(uvec3(uvec2(cell), 0u), seed)) * 2.0 - 1.0;
-}
-
-/* Smooth noise in the plane, −1 … 1. */
-float plane_noise(vec2 at, uint seed)
-{
-    vec2 low = floor(at), t = at - low;
-    t = t * t * (3.0 - 2.0 * t);
-    ivec2 cell = ivec2(low);
-    return mix(mix(cell_noise(cell, seed), cell_noise(cell + ivec2(1, 0), seed), t.x),
-               mix(cell_noise(cell + ivec2(0, 1), seed), cell_noise(cell + 1, seed), t.x), t.y);
-}
-
-/* Noise of as many waves on the page at any zoom: two octaves that hand over to each other. */
-float zoomed_noise(vec2 at, float octave, uint seed)
-{
-    float low = floor(octave), share = octave - low;
-    float scale = exp2(low);
-    return mix(plane_noise(at * scale, seed), plane_noise(at * scale * 2.0, seed), share);
-}
 
 /* What a line keeps at any zoom: where it is as a fraction without common factors, and the octave that brings it. */
 uint line_key(float index, float octave, uint set)
@@ -89,7 +59,7 @@ float lines_at(stroke_plane s, float darkness, uint set)
     /* Pixels along the line for a unit of x. */
     float along = g / max(abs(s.right.x * s.up.y - s.up.x * s.right.y), 1e-20);
     float basis = log2(1.0 / (u_scale * g));
-    float waver = u_wobble > 0.0 ? zoomed_noise(s.at * vec2(0.07, 0.13), basis, set + uint(u_time * u_change)) : 0.0;
+    float waver = u_wobble > 0.0 ? living_noise(s.at * vec2(0.07, 0.13), basis, set, u_change) : 0.0;
 #if TONE_BY == 0
     float octave = log2(darkness / (u_width * g));
 #else

@@ -9,7 +9,7 @@
 #include "base/colour.h"
 #include "base/error.h"
 
-enum { PALETTE_MAX = 8, PARAM_TEXT_MAX = 128 };
+enum { PALETTE_MAX = 8, PARAM_TEXT_MAX = 512 };
 
 /* A short list of colours, darkest first. */
 typedef struct palette {
@@ -63,6 +63,7 @@ typedef struct param {
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
     const char        *example;     /* PARAM_TEXT: a value that does something, for tests */
     bool               is_selector; /* PARAM_TEXT: selects parts; src/look checks it */
+    bool               is_file;     /* PARAM_TEXT: may be the path of a file; in look files beside the look */
     lmn_status       (*check)(const char *text, lmn_error *error); /* PARAM_TEXT: LMN_USAGE when it is wrong; NULL: any will do */
     const char        *doc;         /* one line, ends in a full stop */
     const char        *since, *was;
@@ -95,7 +96,7 @@ void params_set_defaults(const param *params, size_t count, void *values);
 /* Sets one field from text. Errors (the field is unchanged): LMN_USAGE, the message names key, value and range. */
 lmn_status param_set_text(const param *p, void *values, const char *text, lmn_error *error);
 
-/* The field as text that param_set_text takes. `out` holds `size` characters (128 suffice). */
+/* The field as text that param_set_text takes. `out` holds `size` characters (PARAM_TEXT_MAX suffice). */
 void param_print(const param *p, const void *values, char *out, size_t size);
 
 bool param_is_default(const param *p, const void *values);

@@ -89,11 +89,11 @@ typedef struct perturbation {
     const struct pass *map; /* writes TARGET_FIELD */
 } perturbation;
 
-/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, with NAME_SIZE-like facts in the uniform
- * vec4 u_NAME: width, height, layers, levels. */
+/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its width, layers, levels
+ * and spacing as vec4 u_NAME_facts, and HAS_NAME, in capitals. */
 typedef struct texture_source {
     const char *name;
-    const char *when; /* condition on the parameters; NULL: always. While it is made, HAS_NAME is defined, in capitals */
+    const char *when; /* condition on the parameters; NULL: always */
     /* Appends all that decides the content; equal text, equal texture. */
     void      (*describe)(text *out, const void *values);
     lmn_status (*make)(mip_chain *out, const void *values, lmn_error *error);

@@ -1,0 +1,40 @@
+/* Noise on the plane that strokes lie on, as fine on the page at any zoom. Seed 001, sections 6.7.6 and 6.8. */
+#include "gpu/hash.glsl"
+
+uniform float u_time; /* seconds */
+
+float number_of(uint hash)
+{
+    return float(hash >> 8u) / 16777215.0;
+}
+
+float cell_noise(ivec2 cell, uint seed)
+{
+    return number_of(hash_of(uvec3(uvec2(cell), 0u), seed)) * 2.0 - 1.0;
+}
+
+/* Smooth noise in the plane, −1 … 1. */
+float plane_noise(vec2 at, uint seed)
+{
+    vec2 low = floor(at), t = at - low;
+    t = t * t * (3.0 - 2.0 * t);
+    ivec2 cell = ivec2(low);
+    return mix(mix(cell_noise(cell, seed), cell_noise(cell + ivec2(1, 0), seed), t.x),
+               mix(cell_noise(cell + ivec2(0, 1), seed), cell_noise(cell + 1, seed), t.x), t.y);
+}
+
+/* Noise of as many waves on the page at any zoom: two octaves that hand over to each other. */
+float zoomed_noise(vec2 at, float octave, uint seed)
+{
+    float low = floor(octave), share = octave - low;
+    float scale = exp2(low);
+    return mix(plane_noise(at * scale, seed), plane_noise(at * scale * 2.0, seed), share);
+}
+
+/* The same, which changes so many times a second, smoothly. */
+float living_noise(vec2 at, float octave, uint seed, float change)
+{
+    float step = floor(u_time * change), share = u_time * change - step;
+    float first = zoomed_noise(at, octave, seed + 0x9e37u * uint(step));
+    return share > 0.0 ? mix(first, zoomed_noise(at, octave, seed + 0x9e37u * uint(step + 1.0)), share) : first;
+}

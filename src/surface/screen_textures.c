@@ -1,0 +1,277 @@
+#include "surface/screen_textures.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/image_read.h"
+#include "base/memory.h"
+
+enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PROCEDURE_TEXELS = 8, INDICATION_SIDE_MOST = 2048 };
+
+static const char *const standard_screen = "cross";
+static const char *const hatch_map_name = "hatch-map";
+
+static const char *name_of(const screen_values *v)
+{
+    return v->screen.text[0] ? v->screen.text : standard_screen;
+}
+
+static int index_in(const char *const *names, const char *name)
+{
+    for (int i = 0; names[i]; i++)
+        if (strcmp(names[i], name) == 0)
+            return i;
+    return -1;
+}
+
+static bool ends_in(const char *name, const char *const *endings)
+{
+    char ending[8];
+    file_ending(name, ending, sizeof ending);
+    return index_in(endings, ending) >= 0;
+}
+
+static const char *const picture_endings[] = {".png", ".jpg", ".jpeg", ".webp", NULL};
+static const char *const stroke_endings[] = {".stx", ".svg", NULL};
+
+lmn_status screen_check_picture(const char *name, lmn_error *error)
+{
+    if (ends_in(name, picture_endings))
+        return LMN_OK;
+    return error_set(error, LMN_USAGE, "'%.200s' is no picture; allowed are .png, .jpg and .webp", name);
+}
+
+lmn_status screen_check_name(const char *name, lmn_error *error)
+{
+    if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 || strcmp(name, hatch_map_name) == 0 ||
+        ends_in(name, stroke_endings) || ends_in(name, picture_endings))
+        return LMN_OK;
+    lmn_status status = error_set(error, LMN_USAGE, "there is no screen '%.200s'", name);
+    const char *names[PATTERN_COUNT + PROCEDURE_COUNT + 1];
+    size_t count = 0;
+    for (int i = 0; i < PATTERN_COUNT; i++)
+        names[count++] = stroke_pattern_names[i];
+    for (int i = 0; i < PROCEDURE_COUNT; i++)
+        names[count++] = screen_procedure_names[i];
+    names[count++] = hatch_map_name;
+    const char *near = text_nearest(name, names, count);
+    if (near)
+        error_hint(error, "did you mean '%s'? Files end in .stx, .svg, .png, .jpg or .webp", near);
+    else
+        error_hint(error, "`limner looks` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
+    return status;
+}
+
+/* A file's content by a number (FNV-1a), so that what was made from it is found again for as long as it is the same. */
+static uint64_t content_of(const char *path)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    file_data file;
+    if (file_load(&file, path, NULL) != LMN_OK)
+        return 0;
+    for (size_t i = 0; i < file.size; i++)
+        hash = (hash ^ file.data[i]) * 0x100000001b3u;
+    file_data_release(&file);
+    return hash;
+}
+
+static void describe_file(text *out, const char *name)
+{
+    if (ends_in(name, stroke_endings) || ends_in(name, picture_endings))
+        text_append(out, " content=%016llx", (unsigned long long)content_of(name));
+}
+
+void screen_describe(text *out, const void *values)
+{
+    const screen_values *v = values;
+    text_append(out, "1 %s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g", name_of(v), (double)v->scale,
+                (double)v->width, v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain);
+    describe_file(out, name_of(v));
+}
+
+void screen_describe_indication(text *out, const void *values)
+{
+    const screen_values *v = values;
+    text_append(out, "1 %s", v->indication.text);
+    describe_file(out, v->indication.text);
+}
+
+/* --- screens of strokes --- */
+
+static lmn_status strokes_of(strokes *out, const screen_values *v, int frame, lmn_error *error)
+{
+    int pattern = index_in(stroke_pattern_names, name_of(v));
+    if (pattern < 0)
+        return strokes_load(out, name_of(v), error);
+    return strokes_generate(out, &(pattern_wishes){.pattern = (stroke_pattern)pattern, .uneven = 0.5f, .seed = (uint32_t)(v->pattern_seed * 16 + frame)}, error);
+}
+
+/* Side of the square over the mean distance of its strokes. */
+static double strokes_across(const strokes *s)
+{
+    double length = 0, dots = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        double own = stroke_length(&s->items[i]);
+        length += own;
+        dots += own < 1e-6;
+    }
+    return fmax(fmax(length, sqrt(dots)), 1);
+}
+
+/* As many texels as the square has pixels on the page, about, so that strokes can be drawn as wide as they are wanted. */
+static screen_wishes wishes_of(const screen_values *v, const strokes *s)
+{
+    double pixels = (double)v->scale * strokes_across(s);
+    int side = SIDE_LEAST;
+    while (side < SIDE_MOST && side < pixels * 0.75)
+        side *= 2;
+    return (screen_wishes){.side = side, .brush = {.width = fmax((double)v->width * side / pixels, 0.5), .taper = 0.15},
+                           .detail = (screen_detail)v->detail, .equalised = v->equalised && v->scheme != SCHEME_MULTIPLY};
+}
+
+typedef lmn_status (*strokes_to_chain)(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error);
+
+static lmn_status to_screen(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error)
+{
+    return v->scheme == SCHEME_MULTIPLY ? screen_ink_map(out, s, wishes, error) : screen_of_strokes(out, s, wishes, error);
+}
+
+static lmn_status to_relief(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error)
+{
+    return screen_normals(out, s, wishes, (double)v->relief, error);
+}
+
+/* Puts chains of one layer that are alike into one of several; takes them over. */
+static lmn_status join(mip_chain *out, mip_chain *parts, int count, lmn_error *error)
+{
+    if (count == 1) {
+        *out = parts[0];
+        memset(&parts[0], 0, sizeof parts[0]);
+        return LMN_OK;
+    }
+    lmn_status status = mip_chain_create(out, parts[0].width, parts[0].height, count, parts[0].levels, parts[0].format, error);
+    for (int k = 0; status == LMN_OK && k < out->levels; k++)
+        for (int i = 0; i < count; i++)
+            memcpy(mip_layer(out, k, i), parts[i].data[k], mip_level_bytes(&parts[i], k));
+    out->spacing = parts[0].spacing;
+    out->nearest = parts[0].nearest;
+    return status;
+}
+
+/* One chain a frame, of one size. */
+static lmn_status make_of_strokes(mip_chain *out, const screen_values *v, strokes_to_chain convert, lmn_error *error)
+{
+    enum { FRAMES_MAX = 16 };
+    mip_chain parts[FRAMES_MAX] = {{0}};
+    bool pattern = index_in(stroke_pattern_names, name_of(v)) >= 0;
+    int count = pattern ? v->frames : 1;
+    screen_wishes wishes = {0};
+    lmn_status status = LMN_OK;
+    for (int i = 0; i < count && status == LMN_OK; i++) {
+        strokes s = {0};
+        status = strokes_of(&s, v, i, error);
+        if (status == LMN_OK && i == 0)
+            wishes = wishes_of(v, &s);
+        if (status == LMN_OK)
+            status = convert(&parts[i], &s, &wishes, v, error);
+        strokes_release(&s);
+    }
+    if (status == LMN_OK)
+        status = join(out, parts, count, error);
+    for (int i = 0; i < count; i++)
+        mip_chain_release(&parts[i]);
+    return status;
+}
+
+/* --- painted screens --- */
+
+/* One picture is the screen; several that are numbered, NAME-1.png, NAME-2.png …, are its layers, the most important one first. */
+static lmn_status make_of_picture(mip_chain *out, const screen_values *v, lmn_error *error)
+{
+    image_pixels pixels;
+    lmn_status status = image_load(&pixels, name_of(v), error);
+    if (status != LMN_OK)
+        return status;
+    lmn_error problem;
+    int side = SIDE_LEAST;
+    while (side < BITMAP_SIDE && (uint32_t)side < pixels.width)
+        side *= 2;
+    status = screen_of_layers(out, &(screen_layer){pixels.rgba, pixels.width, pixels.height}, 1, (double)v->gain, side, (screen_detail)v->detail, &problem);
+    if (status == LMN_OK && v->equalised && v->scheme != SCHEME_MULTIPLY)
+        status = screen_equalise(out, &problem);
+    mem_free(pixels.rgba);
+    return status == LMN_OK ? LMN_OK : error_in_file(error, status, name_of(v), 0, "%s", problem.message);
+}
+
+/* --- all --- */
+
+lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
+{
+    const screen_values *v = values;
+    int procedure = index_in(screen_procedure_names, name_of(v));
+    if (procedure >= 0)
+        return screen_of_procedure(out, (screen_procedure)procedure, 128, PROCEDURE_TEXELS, error);
+    if (strcmp(name_of(v), hatch_map_name) == 0)
+        return screen_hatch_map(out, 1024, PROCEDURE_TEXELS, true, false, error);
+    if (ends_in(name_of(v), picture_endings))
+        return make_of_picture(out, v, error);
+    return make_of_strokes(out, v, to_screen, error);
+}
+
+/* No slopes anywhere. */
+static lmn_status make_flat(mip_chain *out, lmn_error *error)
+{
+    lmn_status status = mip_chain_create(out, 1, 1, 1, 1, MIP_RG8, error);
+    if (status == LMN_OK)
+        memset(out->data[0], 128, mip_level_bytes(out, 0));
+    return status;
+}
+
+lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *error)
+{
+    const screen_values *v = values;
+    bool has_strokes = index_in(stroke_pattern_names, name_of(v)) >= 0 || ends_in(name_of(v), stroke_endings);
+    return has_strokes ? make_of_strokes(out, v, to_relief, error) : make_flat(out, error);
+}
+
+/* Halves of a picture of greys, each the mean of four. */
+static void average_levels(mip_chain *chain)
+{
+    for (int k = 1; k < chain->levels; k++) {
+        const uint8_t *from = chain->data[k - 1];
+        uint8_t *to = chain->data[k];
+        int width = mip_width(chain, k - 1), height = mip_height(chain, k - 1);
+        for (int y = 0; y < mip_height(chain, k); y++)
+            for (int x = 0; x < mip_width(chain, k); x++) {
+                int x0 = 2 * x < width ? 2 * x : width - 1, x1 = x0 + 1 < width ? x0 + 1 : x0;
+                int y0 = 2 * y < height ? 2 * y : height - 1, y1 = y0 + 1 < height ? y0 + 1 : y0;
+                int sum = from[y0 * width + x0] + from[y0 * width + x1] + from[y1 * width + x0] + from[y1 * width + x1];
+                to[y * mip_width(chain, k) + x] = (uint8_t)((sum + 2) / 4);
+            }
+    }
+}
+
+lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error *error)
+{
+    const screen_values *v = values;
+    image_pixels pixels;
+    lmn_status status = image_load(&pixels, v->indication.text, error);
+    if (status != LMN_OK)
+        return status;
+    if (pixels.width > INDICATION_SIDE_MOST || pixels.height > INDICATION_SIDE_MOST)
+        status = error_in_file(error, LMN_LIMIT, v->indication.text, 0, "an indication of %u x %u pixels; allowed are %d a side", pixels.width, pixels.height,
+                               INDICATION_SIDE_MOST);
+    if (status == LMN_OK)
+        status = mip_chain_create(out, (int)pixels.width, (int)pixels.height, 1, 0, MIP_R8, error);
+    for (uint32_t y = 0; status == LMN_OK && y < pixels.height; y++)
+        for (uint32_t x = 0; x < pixels.width; x++) {
+            const uint8_t *from = &pixels.rgba[4 * ((size_t)y * pixels.width + x)];
+            /* Row 0 is v = 0, as glTF counts. */
+            ((uint8_t *)out->data[0])[(size_t)y * pixels.width + x] = (uint8_t)((54 * from[0] + 183 * from[1] + 19 * from[2] + 128) >> 8);
+        }
+    if (status == LMN_OK)
+        average_levels(out);
+    mem_free(pixels.rgba);
+    return status;
+}
