@@ -80,6 +80,9 @@ lmn_status strokes_generate(strokes *out, const pattern_wishes *wishes, lmn_erro
 
 /* --- priorities --- */
 
+/* Chords that follow each other in the list, each in the layer of the one before and beginning where that ends, are one curve: it is ordered as a whole, and
+ * its chords have the same priority. */
+
 typedef enum priority_order {
     ORDER_DRAWN,    /* within a layer as they are in the list */
     ORDER_SHUFFLED, /* within a layer at random (EX-19) */
@@ -112,7 +115,11 @@ lmn_status strokes_set_perspective(strokes *s, perspective_order order, uint32_t
 typedef struct stroke_brush {
     double width;      /* texels */
     double taper;      /* share of the length over which both ends run out to nothing; 0: round ends */
+    double from, to;   /* a chord's place on its line of length 1, so that a curve runs out at its ends only; both 0: it is the whole line */
 } stroke_brush;
+
+/* The brush for one stroke of a list: with the list's width, and its place on its curve. */
+stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush *brush);
 
 /* Combines one stroke into a square picture of `side` texels that repeats: calls `texel` for each texel that it touches, row 0 at the bottom, with the share
  * of the texel that it covers (exact box filter of the distance, above 0). Copies around the border are included; a texel is called once at most. `texel`

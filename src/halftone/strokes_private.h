@@ -1,0 +1,30 @@
+/* What the files of stroke textures share. */
+#ifndef LIMNER_HALFTONE_STROKES_PRIVATE_H
+#define LIMNER_HALFTONE_STROKES_PRIVATE_H
+
+#include "halftone/random.h"
+#include "halftone/strokes.h"
+
+enum { STROKES_MAX = 1000000, STROKE_LAYERS_MAX = 65536, STROKE_REACH = 16 };
+
+/* A number as short as it can be, with a point whatever the locale; text_parse_double gives it back exactly. */
+void stroke_write_number(text *out, float value);
+
+/* Is `next` the chord that goes on where `one` ends? */
+bool stroke_goes_on(const stroke *one, const stroke *next);
+
+lmn_status strokes_too_many(const char *name, int line, lmn_error *error);
+
+/* --- stroke_spread.c: order in which things are spread most evenly over the torus --- */
+
+/* Points that belong to items; the points of one item follow each other. */
+typedef struct spread_point {
+    float  u, v;
+    size_t item;
+} spread_point;
+
+/* Writes the first `wanted` items to `order`, each the one that is then farthest from all before it (mean distance of its points to theirs, around the
+ * corners). The first one, and the winner among equals, are chosen by the seed. Every item has a point. False: memory is gone. */
+bool spread_order(size_t *order, size_t wanted, const spread_point *points, size_t point_count, size_t item_count, uint32_t seed);
+
+#endif
