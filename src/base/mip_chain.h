@@ -22,7 +22,7 @@ typedef struct mip_chain {
     mip_format format;
     bool       clamped; /* does not repeat */
     bool       nearest; /* texels must not be mixed */
-    float      spacing; /* texels between strokes of level 0, on the mean: what a picture of the right size is worked out from; 0: not known */
+    float      fact;    /* a number that belongs to it, which shaders get too: of screens, texels between strokes of level 0, on the mean */
     void      *data[MIP_LEVELS_MAX];
 } mip_chain;
 

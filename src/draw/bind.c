@@ -52,6 +52,7 @@ void frame_set_rest(frame *f, size_t part_index)
             out[4 * row + column] = (float)sum;
         }
     gpu_set_vec4_array(f->g, "u_rest", out, 3);
+    gpu_set_vec3(f->g, "u_upward", &rows[13]);
 }
 
 static void set_part_frames(frame *f, const figure_state *s)

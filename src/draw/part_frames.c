@@ -107,8 +107,8 @@ static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, i
     return (vec3){(float)out[0], (float)out[1], (float)out[2]};
 }
 
-/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, and the mover's number. */
-static void write_frame(const upload *u, const mover *m, int32_t mover_index, const double origin[3], float *rows)
+/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, the mover's number, and which way is up in it. */
+static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3], float *rows)
 {
     const float middle[3] = {(m->box.min.x + m->box.max.x) / 2, (m->box.min.y + m->box.max.y) / 2, (m->box.min.z + m->box.max.z) / 2};
     for (int row = 0; row < 3; row++) {
@@ -120,6 +120,8 @@ static void write_frame(const upload *u, const mover *m, int32_t mover_index, co
         rows[4 * row + 3] = (float)moved;
     }
     rows[12] = (float)mover_index;
+    for (int row = 0; row < 3; row++)
+        rows[13 + row] = (float)m->turn[3 * row + (up_is_y ? 1 : 2)];
 }
 
 static void write_frames(const upload *u, const lmn_scene *scene, mover *movers, const bool *animated, float *values)
@@ -137,7 +139,7 @@ static void write_frames(const upload *u, const lmn_scene *scene, mover *movers,
     }
     for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
-        write_frame(u, &movers[index], index, u->frame_origin, &values[4 * TEXELS_A_PART * i]);
+        write_frame(u, &movers[index], index, scene->up == 'y', u->frame_origin, &values[4 * TEXELS_A_PART * i]);
     }
 }
 

@@ -471,7 +471,10 @@ void raster_shade_deferred(frame *f, figure_state *s)
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {
-        gpu_pass_begin(f->g, &(gpu_pass){.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true});
+        gpu_pass pass = {.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true};
+        memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+        memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+        gpu_pass_begin(f->g, &pass);
         gpu_use(f->g, p, (gpu_state){0});
         frame_set_common(f, s);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));

@@ -24,8 +24,6 @@ typedef struct screen_wishes {
     int           levels;    /* with strokes; what follows is white. 0: as long as a stroke is longer than it is wide */
 } screen_wishes;
 
-/* All screens set the chain's `spacing`: of strokes side / sum of their lengths (dots: side / √count), of procedures the period. */
-
 /* R8, value 1 − light priority, antialiased towards white; strokes of high priority lie on top. Errors: LMN_LIMIT, LMN_MEMORY. */
 lmn_status screen_of_strokes(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error);
 

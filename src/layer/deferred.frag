@@ -7,25 +7,34 @@
 uniform sampler2D  t_normal_depth;
 uniform usampler2D t_id;
 uniform sampler2D  t_albedo;
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
 uniform vec2 u_size;
+#endif
 layout(location = 0) out vec4 out_shade;
 
-void main()
+vec4 shade_of(ivec2 pixel, uvec2 id)
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    uvec2 id = texelFetch(t_id, pixel, 0).rg;
-    if (id.r == 0u || (id.g & SURFACE_COMPLEMENT) != 0u) {
-        out_shade = vec4(0.0);
-        return;
-    }
     vec4 normal_depth = texelFetch(t_normal_depth, pixel, 0);
     vec2 ndc = 2.0 * gl_FragCoord.xy / u_size - 1.0;
     vec3 eye = vec3(ndc * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
     vec3 normal = (id.g & SURFACE_TURNED) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
-    out_shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false, id.r));
+    vec4 shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), false, id.r));
 #ifdef HAS_CUT
     if ((id.g & SURFACE_CUT) != 0u)
-        out_shade = cut_colour(pixel, id, albedo.rgb);
+        shade = cut_colour(pixel, id, albedo.rgb);
 #endif
+    return shade;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    uvec2 id = texelFetch(t_id, pixel, 0).rg;
+    out_shade = vec4(0.0);
+    /* As a loop: where nothing is, software drivers skip it, as they do not skip what follows a return. */
+    int drawn = id.r == 0u || (id.g & SURFACE_COMPLEMENT) != 0u ? 0 : 1;
+    for (int once = 0; once < drawn; once++)
+        out_shade = shade_of(pixel, id);
 }

@@ -7,7 +7,7 @@
 #include "base/image_read.h"
 #include "base/memory.h"
 
-enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PROCEDURE_TEXELS = 8, INDICATION_SIDE_MOST = 2048 };
+enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8, INDICATION_SIDE_MOST = 2048 };
 
 static const char *const standard_screen = "cross";
 static const char *const hatch_map_name = "hatch-map";
@@ -154,7 +154,7 @@ static lmn_status join(mip_chain *out, mip_chain *parts, int count, lmn_error *e
     for (int k = 0; status == LMN_OK && k < out->levels; k++)
         for (int i = 0; i < count; i++)
             memcpy(mip_layer(out, k, i), parts[i].data[k], mip_level_bytes(&parts[i], k));
-    out->spacing = parts[0].spacing;
+    out->fact = parts[0].fact;
     out->nearest = parts[0].nearest;
     return status;
 }
@@ -175,6 +175,7 @@ static lmn_status make_of_strokes(mip_chain *out, const screen_values *v, stroke
             wishes = wishes_of(v, &s);
         if (status == LMN_OK)
             status = convert(&parts[i], &s, &wishes, v, error);
+        parts[i].fact = (float)(wishes.side / strokes_across(&s));
         strokes_release(&s);
     }
     if (status == LMN_OK)
@@ -210,13 +211,13 @@ lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
 {
     const screen_values *v = values;
     int procedure = index_in(screen_procedure_names, name_of(v));
-    if (procedure >= 0)
-        return screen_of_procedure(out, (screen_procedure)procedure, 128, PROCEDURE_TEXELS, error);
-    if (strcmp(name_of(v), hatch_map_name) == 0)
-        return screen_hatch_map(out, 1024, PROCEDURE_TEXELS, true, false, error);
-    if (ends_in(name_of(v), picture_endings))
-        return make_of_picture(out, v, error);
-    return make_of_strokes(out, v, to_screen, error);
+    if (procedure < 0 && strcmp(name_of(v), hatch_map_name) != 0 && !ends_in(name_of(v), picture_endings))
+        return make_of_strokes(out, v, to_screen, error);
+    lmn_status status = procedure >= 0 ? screen_of_procedure(out, (screen_procedure)procedure, 128, PERIOD, error)
+                        : ends_in(name_of(v), picture_endings) ? make_of_picture(out, v, error)
+                                                               : screen_hatch_map(out, 1024, PERIOD, true, false, error);
+    out->fact = PERIOD;
+    return status;
 }
 
 /* No slopes anywhere. */

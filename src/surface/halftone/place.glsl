@@ -8,6 +8,7 @@ uniform sampler2D t_part_frames; /* src/draw/upload.h */
 uniform mat4 u_world_from_eye;
 #else
 uniform vec4 u_rest[3]; /* rows: from eye space to the part's frame */
+uniform vec3 u_upward;
 #endif
 
 /* One way of laying a plane on a surface. A place may have several; their weights add up to 1. */
@@ -23,6 +24,7 @@ struct stroke_plane {
 struct rest_place {
     vec3 at, right, up;
     vec3 normal;
+    vec3 upward; /* which way is up */
 };
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
@@ -53,11 +55,13 @@ rest_place place_at_rest(surface_point p)
     ivec2 texel = ivec2(4 * (part & 1023), part >> 10);
     mat4 rows = transpose(mat4(texelFetch(t_part_frames, texel, 0), texelFetch(t_part_frames, texel + ivec2(1, 0), 0),
                                texelFetch(t_part_frames, texel + ivec2(2, 0), 0), vec4(0.0, 0.0, 0.0, 1.0))) * u_world_from_eye;
+    vec3 upward = texelFetch(t_part_frames, texel + ivec2(3, 0), 0).yzw;
 #else
     mat4 rows = transpose(mat4(u_rest[0], u_rest[1], u_rest[2], vec4(0.0, 0.0, 0.0, 1.0)));
+    vec3 upward = u_upward;
 #endif
     mat3 turn = mat3(rows);
-    return rest_place((rows * vec4(p.eye, 1.0)).xyz, turn * right, turn * up, turn * p.normal);
+    return rest_place((rows * vec4(p.eye, 1.0)).xyz, turn * right, turn * up, turn * p.normal, upward);
 }
 
 stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, uint key)
@@ -86,17 +90,21 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
                   : plane_along(r, first, second, 1.0 - own, uint(series) + 4u);
 }
 #elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV))
+/* Walls have their second coordinate upwards. */
 #define PLANES 3
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
-    vec3 share = abs(r.normal);
+    vec3 right = abs(r.upward.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    right = normalize(right - r.upward * dot(right, r.upward));
+    vec3 back = cross(r.upward, right);
+    vec3 share = abs(vec3(dot(r.normal, right), dot(r.normal, back), dot(r.normal, r.upward)));
     share *= share;
     share *= share;
     share *= share;
     share /= share.x + share.y + share.z;
-    return i == 0 ? plane_along(r, vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0), share.x, 0u)
-         : i == 1 ? plane_along(r, vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), share.y, 1u)
-                  : plane_along(r, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), share.z, 2u);
+    return i == 0 ? plane_along(r, back, r.upward, share.x, 0u)
+         : i == 1 ? plane_along(r, right, r.upward, share.y, 1u)
+                  : plane_along(r, right, back, share.z, 2u);
 }
 #elif COORDINATES == 3
 #define PLANES 1

@@ -1,0 +1,48 @@
+#include "surface/halftone/place.glsl"
+#include "surface/halftone/tone.glsl"
+#include "surface/halftone/screen.glsl"
+
+surface_point s_point;
+rest_place    s_rest;
+
+/* Ink of a tone: 0 is paper, then the pictures of the map. */
+float tone_ink(vec2 at, float level, float tone)
+{
+    return tone < 0.5 ? 0.0 : 1.0 - textureLod(t_tones, vec3(at, tone - 1.0), level).r;
+}
+
+/* The ink of a darkness at a place: that of the two tones that lie around it. */
+float map_ink(vec2 at, float level, float darkness)
+{
+    float count = u_tones_facts.y;
+    float wanted = clamp(darkness / u_tones_facts.w, 0.0, 1.0) * count;
+#if BLEND == 0
+    return tone_ink(at, level, floor(wanted + 0.5));
+#else
+    float low = min(floor(wanted), count - 1.0);
+    return mix(tone_ink(at, level, low), tone_ink(at, level, low + 1.0), wanted - low);
+#endif
+}
+
+float cover_of(float darkness, int ink)
+{
+    float bare = 1.0;
+    for (int i = 0; i < PLANES; i++) {
+        stroke_plane s = turned_plane(plane_of(s_point, s_rest, i, 0), radians(u_angle + 30.0 * float(ink)));
+        float level = screen_level(s, u_tones_facts.x, u_scale);
+        for (int k = 0; k < 2; k++) {
+            screen_octave o = octave_of(s, level, k, -1e9);
+            bare *= 1.0 - map_ink(s.at * o.scale, o.level, darkness * s.weight * o.weight);
+        }
+    }
+    return 1.0 - bare;
+}
+
+#include "surface/halftone/inks.glsl"
+
+vec4 surface_colour(surface_point p)
+{
+    s_point = p;
+    s_rest = place_at_rest(p);
+    return inked(p, tone_of_light(p, light_of(p)));
+}
