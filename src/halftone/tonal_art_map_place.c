@@ -6,15 +6,17 @@
 #include "base/memory.h"
 
 enum {
-    CANDIDATES = 240,   /* tried for one stroke */
+    CANDIDATES = 320,   /* tried for one stroke */
     CROWD_STEPS = 4,    /* entries of the table of crowding, a texel */
     STROKES_A_TEXEL = 2 /* more than that are never needed, whatever the tone */
 };
 
+static const float  END_STRETCH = 3;   /* how much farther away a stroke seems past its ends */
+static const float  END_SLOPE = 4, END_LEAST = 0.25f; /* a quarter of the stroke crowds less; share at its very end */
 static const double SHORTEST = 0.3;    /* of the longest stroke */
 static const double LONG_ENOUGH = 3;   /* widths that a stroke should be long on the level for which it is drawn */
 static const double SWAY = 0.16;       /* slope of the most uneven strokes */
-static const double REACH = 2.5;       /* gaps between even strokes of the tone over which strokes keep away from each other */
+static const double REACH = 4;       /* gaps between even strokes of the tone over which strokes keep away from each other */
 static const double STRIP_SHARE = 0.7; /* of a strip, for hatching, in which strokes begin */
 
 /* --- crowding ----------------------------------------------------------------------------------------------------- */
@@ -33,9 +35,16 @@ bool tam_set_crowding(tam *t)
     t->crowding_count = count;
     for (size_t i = 0; i < count; i++) {
         double distance = (double)i / CROWD_STEPS, fade = 1 - distance / reach;
-        table[i] = fade > 0 ? (float)(fade * fade / (distance / t->brush.width + 0.5)) : 0;
+        table[i] = fade > 0 ? (float)(fade * fade / (distance / t->brush.width + 0.8)) : 0;
     }
     return true;
+}
+
+/* Ends are thin and crowd less, so that strokes go in between them; else there would be white lenses. */
+static float end_share(float along)
+{
+    float share = fminf(along, 1 - along) * END_SLOPE;
+    return share >= 1 ? 1 : END_LEAST + (1 - END_LEAST) * share;
 }
 
 void tam_add_crowd(tam *t, tam_level *level, const stroke *s, int direction)
@@ -49,12 +58,11 @@ void tam_add_crowd(tam *t, tam_level *level, const stroke *s, int direction)
     for (int y = low; y < high; y++) {
         float *row = level->crowd[direction] + (size_t)(y & mask) * (size_t)side, py = (float)y + 0.5f - y0;
         for (int x = left; x < right; x++) {
-            float px = (float)x + 0.5f - x0, along = size > 0 ? (px * dx + py * dy) / size : 0;
-            along = along < 0 ? 0 : along > 1 ? 1 : along;
-            float  ax = px - along * dx, ay = py - along * dy;
-            size_t entry = (size_t)(sqrtf(ax * ax + ay * ay) * CROWD_STEPS);
+            float px = (float)x + 0.5f - x0, along = (px * dx + py * dy) / size, aside = px * dy - py * dx;
+            float inside = along < 0 ? 0 : along > 1 ? 1 : along, past = END_STRETCH * (along - inside);
+            size_t entry = (size_t)(sqrtf(aside * aside / size + past * past * size) * CROWD_STEPS);
             if (entry < t->crowding_count)
-                row[x & mask] += t->crowding[entry];
+                row[x & mask] += t->crowding[entry] * end_share(inside);
         }
     }
 }
@@ -139,6 +147,8 @@ bool tam_fill_best(tam *t)
 
 /* --- strips ------------------------------------------------------------------------------------------------------- */
 
+static const double GOLDEN = 0.61803398875;
+
 static size_t common_divisor(size_t a, size_t b)
 {
     while (b > 0) {
@@ -150,15 +160,15 @@ static size_t common_divisor(size_t a, size_t b)
 }
 
 /* As many strips as strokes are needed, one stroke into each, until the tone is there. Strips are taken in steps of the golden section, so that those that
- * are left over at the end lie apart. */
+ * are left over at the end lie apart, and so are the strokes' beginnings, half of that at random. */
 bool tam_fill_strips(tam *t)
 {
     const tam_wishes *w = t->wishes;
     double            inside = w->opacity < 1 ? 1 : STRIP_SHARE;
     for (size_t most = strokes_most(t); most > 0;) {
         double needed = tam_missing(t) / tam_expected(t, t->level, 0.5 * (1 + SHORTEST) * w->length);
-        size_t strips = needed > 1 ? (size_t)needed : 1, step = (size_t)((double)strips * 0.61803398875) + 1, strip = 0;
-        double from = random_unit(&t->random);
+        size_t strips = needed > 1 ? (size_t)needed : 1, step = (size_t)((double)strips * GOLDEN) + 1, strip = 0;
+        double from = random_unit(&t->random), start = random_unit(&t->random);
         while (common_divisor(strips, step) > 1)
             step--;
         for (size_t i = 0; i < strips && most > 0; i++, most--, strip = (strip + step) % strips) {
@@ -166,8 +176,10 @@ bool tam_fill_strips(tam *t)
             double length = next_length(t);
             if (length <= 0)
                 return true;
-            double aside = from + ((double)strip + 0.5 + inside * (random_unit(&t->random) - 0.5)) / (double)strips, at = random_unit(&t->random);
+            double aside = from + ((double)strip + 0.5 + inside * (random_unit(&t->random) - 0.5)) / (double)strips;
+            double at = start + GOLDEN * (double)strip + 0.5 * random_unit(&t->random);
             aside -= floor(aside);
+            at -= floor(at);
             stroke s = stroke_at(t, direction == TAM_ALONG ? at : aside, direction == TAM_ALONG ? aside : at, length, direction);
             if (!tam_put(t, s, direction))
                 return false;
