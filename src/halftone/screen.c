@@ -1,5 +1,6 @@
 /* Screens, warp maps, normals and ink maps, all from one rasterised level: who owns a texel, and how strongly. */
 #include "halftone/screen_private.h"
+#include "halftone/strokes_private.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,8 +12,7 @@ const char *const screen_detail_names[DETAIL_COUNT + 1] = {"kept", "minimum", "a
 
 enum { SIDE_MOST = 4096, NOBODY = -1 };
 
-/* What both round ends together cover, in squares of the width. */
-static const double ROUND_ENDS = 0.78539816339744831;
+static const double QUARTER_TURN = 0.78539816339744831; /* π / 4 */
 /* Dots have room where a level is this many times as wide as they are. */
 static const double DOT_ROOM = 4;
 
@@ -22,11 +22,19 @@ typedef struct ranked {
     uint32_t index;
 } ranked;
 
+/* What a stroke is besides its numbers: perhaps a chord of a curve, which counts as one stroke. */
+typedef struct mark {
+    stroke_brush brush;
+    float        middle[2];    /* of the whole curve */
+    bool         begins, ends; /* it is the first or last chord */
+} mark;
+
 /* One level at a time, from the finest on. */
 typedef struct raster {
     const strokes       *strokes;
     const screen_wishes *wishes;
-    stroke_brush         brush; /* the width with the strokes' own share */
+    double               width; /* with the strokes' own share */
+    mark                *marks;
     ranked              *order;
     size_t               count;
     double               longest;
@@ -60,6 +68,7 @@ static int by_light(const void *a, const void *b)
 
 static void raster_end(raster *r)
 {
+    mem_free(r->marks);
     mem_free(r->order);
     mem_free(r->ink);
     mem_free(r->owner);
@@ -76,30 +85,65 @@ static lmn_status check_wishes(const screen_wishes *w, lmn_error *error)
     return LMN_OK;
 }
 
+/* Marks of the chords `first` to `last`, which are one curve. Returns its length. */
+static double mark_curve(raster *r, size_t first, size_t last)
+{
+    const stroke *items = r->strokes->items;
+    double        length = 0, before = 0;
+    float         middle[2] = {items[first].u0, items[first].v0};
+    for (size_t i = first; i <= last; i++)
+        length += stroke_length(&items[i]);
+    for (size_t i = first; i <= last; i++) {
+        const stroke *s = &items[i];
+        double        size = stroke_length(s), along = size > 0 ? (0.5 * length - before) / size : 0;
+        if (along >= 0 && along <= 1) {
+            middle[0] = (float)((double)s->u0 + along * ((double)s->u1 - (double)s->u0));
+            middle[1] = (float)((double)s->v0 + along * ((double)s->v1 - (double)s->v0));
+        }
+        before += size;
+    }
+    for (size_t i = first; i <= last; i++)
+        r->marks[i] = (mark){strokes_brush_at(r->strokes, i, &r->wishes->brush), {middle[0], middle[1]}, i == first, i == last};
+    return length;
+}
+
+static void mark_strokes(raster *r)
+{
+    const strokes *s = r->strokes;
+    for (size_t first = 0, last; first < s->count; first = last + 1) {
+        for (last = first; last + 1 < s->count && stroke_goes_on(&s->items[last], &s->items[last + 1]);)
+            last++;
+        double length = mark_curve(r, first, last);
+        for (size_t i = first; i <= last; i++) {
+            float light = s->items[i].light;
+            if (r->flat ? light < 0 : !(light > 0))
+                continue;
+            r->order[r->count++] = (ranked){light, (uint32_t)i};
+            r->longest = fmax(r->longest, length);
+            r->dots |= is_dot(&s->items[i]);
+        }
+    }
+    qsort(r->order, r->count, sizeof *r->order, by_light);
+}
+
 static lmn_status raster_begin(raster *r, const strokes *s, const screen_wishes *w, bool flat, lmn_error *error)
 {
-    *r = (raster){.strokes = s, .wishes = w, .brush = w->brush, .flat = flat, .side = w->side};
+    *r = (raster){.strokes = s, .wishes = w, .width = w->brush.width, .flat = flat, .side = w->side};
     lmn_status status = check_wishes(w, error);
     if (status != LMN_OK)
         return status;
-    r->brush.width *= s->width > 0 ? (double)s->width : 1;
+    r->width *= s->width > 0 ? (double)s->width : 1;
     size_t texels = (size_t)w->side * (size_t)w->side;
+    r->marks = mem_calloc(s->count, sizeof *r->marks);
     r->order = mem_calloc(s->count, sizeof *r->order);
     r->ink = mem_calloc(texels, sizeof *r->ink);
     r->owner = mem_calloc(texels, sizeof *r->owner);
     r->tones = mem_calloc(INK_TONES, sizeof *r->tones);
-    if (!r->order || !r->ink || !r->owner || !r->tones) {
+    if (!r->marks || !r->order || !r->ink || !r->owner || !r->tones) {
         raster_end(r);
         return error_memory(error);
     }
-    for (size_t i = 0; i < s->count; i++) {
-        if (flat ? s->items[i].light < 0 : !(s->items[i].light > 0))
-            continue;
-        r->order[r->count++] = (ranked){s->items[i].light, (uint32_t)i};
-        r->longest = fmax(r->longest, stroke_length(&s->items[i]));
-        r->dots |= is_dot(&s->items[i]);
-    }
-    qsort(r->order, r->count, sizeof *r->order, by_light);
+    mark_strokes(r);
     return LMN_OK;
 }
 
@@ -108,7 +152,7 @@ static bool has_room(const raster *r, int level)
     if (r->wishes->levels > 0)
         return level < r->wishes->levels;
     double room = fmax(r->longest, r->dots ? 1 / DOT_ROOM : 0) * (r->wishes->side >> level);
-    return level == 0 || room >= r->brush.width;
+    return level == 0 || room >= r->width;
 }
 
 /* Each level has a quarter of the texels and strokes half as long, so that half of them keep its tone. Dots stay as large, and a quarter of them does. */
@@ -118,19 +162,30 @@ static bool is_kept(const stroke *s, int level)
     return shift >= 24 ? s->perspective >= 1 : (double)s->perspective >= 1 - 1.0 / (double)(1 << shift);
 }
 
-/* Round ends cover more of a coarse level than of the finest; strokes are shortened by the difference, so that what is kept is as dark. */
-static stroke fit_ends(const raster *r, const stroke *s, int level)
+/* Round ends cover more of a coarse level than of the finest; strokes are shortened by the difference, so that what is kept is as dark. The length is that
+ * of a piece of stroke which covers as much as both its ends, with the rims that stroke_draw gives them. */
+static double ends_as_length(double width)
 {
-    stroke out = *s;
-    double length = stroke_length(s);
-    if (r->brush.taper > 0 || length <= 0)
+    return QUARTER_TURN * (width < 1 ? 1 + width * width / 3 : width + 1 / (3 * width));
+}
+
+static stroke fit_ends(const raster *r, size_t index, int level)
+{
+    stroke      out = r->strokes->items[index];
+    const mark *m = &r->marks[index];
+    double      length = stroke_length(&out);
+    if (m->brush.taper > 0 || length <= 0)
         return out;
-    double excess = ROUND_ENDS * r->brush.width * ((double)(1 << level) - 1) / r->wishes->side;
-    float  cut = (float)(0.5 * fmin(1, excess / length)), du = (s->u1 - s->u0) * cut, dv = (s->v1 - s->v0) * cut;
-    out.u0 += du;
-    out.v0 += dv;
-    out.u1 -= du;
-    out.v1 -= dv;
+    double excess = ends_as_length(m->brush.width) * ((double)(1 << level) - 1) / r->wishes->side;
+    float  cut = (float)(0.5 * fmin(1, excess / length)), du = (out.u1 - out.u0) * cut, dv = (out.v1 - out.v0) * cut;
+    if (m->begins) {
+        out.u0 += du;
+        out.v0 += dv;
+    }
+    if (m->ends) {
+        out.u1 -= du;
+        out.v1 -= dv;
+    }
     return out;
 }
 
@@ -152,13 +207,14 @@ static void draw_level(raster *r, int level)
     memset(r->ink, 0, texels * sizeof *r->ink);
     memset(r->owner, 0xff, texels * sizeof *r->owner);
     for (size_t i = 0; i < r->count && has_room(r, level); i++) {
-        const stroke *s = &r->strokes->items[r->order[i].index];
+        uint32_t      index = r->order[i].index;
+        const stroke *s = &r->strokes->items[index];
         if (!is_kept(s, level))
             continue;
-        stroke fitted = fit_ends(r, s, level);
-        r->drawn = (int32_t)r->order[i].index;
+        stroke fitted = fit_ends(r, index, level);
+        r->drawn = (int32_t)index;
         r->strength = r->flat || s->light > 1 ? 1 : s->light;
-        stroke_draw(&fitted, r->side, &r->brush, own_texel, r);
+        stroke_draw(&fitted, r->side, &r->marks[index].brush, own_texel, r);
     }
 }
 
@@ -256,9 +312,9 @@ static void fill_warp(const raster *r, int level, void *texels, double user)
             int32_t owner = r->owner[(size_t)y * (size_t)r->side + (size_t)x];
             if (owner == NOBODY)
                 continue;
-            const stroke *s = &r->strokes->items[owner];
-            to[0] = (float)around(0.5 * ((double)s->u0 + (double)s->u1) - (x + 0.5) / r->side);
-            to[1] = (float)around(0.5 * ((double)s->v0 + (double)s->v1) - (y + 0.5) / r->side);
+            const float *middle = r->marks[owner].middle;
+            to[0] = (float)around((double)middle[0] - (x + 0.5) / r->side);
+            to[1] = (float)around((double)middle[1] - (y + 0.5) / r->side);
         }
 }
 
@@ -295,13 +351,13 @@ static void to_axis(const stroke *s, double u, double v, double way[2])
 static void fill_normals(const raster *r, int level, void *texels, double steep)
 {
     uint8_t *to = texels;
-    double   half = 0.5 * r->brush.width / r->side;
+    double   half = 0.5 * r->width / r->side;
     for (int y = 0; y < r->side; y++)
         for (int x = 0; x < r->side; x++, to += 2) {
             int32_t owner = r->owner[(size_t)y * (size_t)r->side + (size_t)x];
             double  way[2] = {0, 0};
             if (owner != NOBODY) {
-                stroke s = fit_ends(r, &r->strokes->items[owner], r->wishes->detail == DETAIL_KEPT ? level : 0);
+                stroke s = fit_ends(r, (size_t)owner, r->wishes->detail == DETAIL_KEPT ? level : 0);
                 to_axis(&s, (x + 0.5) / r->side, (y + 0.5) / r->side, way);
             }
             double distance = sqrt(way[0] * way[0] + way[1] * way[1]);

@@ -1,0 +1,237 @@
+/* Tonal art maps: tone after tone, each from its coarsest level to its finest, so that what is drawn goes on in all that is darker or finer. */
+#include "halftone/tonal_art_map_private.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "halftone/strokes_private.h"
+
+const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1] = {"best-fit", "strips", NULL};
+
+enum { SIDE_LEAST = 8, SIDE_MOST = 1024, TONES_LEAST = 2, TONES_MOST = 16, STREAM = 0x7a61 };
+
+/* Both ends of a stroke run out over this share of its length; what it covers less for that, by stroke_draw's profile. */
+static const double TAPER = 0.22, TAPER_LOSS = 2.0 / 3.0;
+
+double tam_target(const tam_wishes *w, int tone)
+{
+    return w->darkest * (tone + 1) / w->tones;
+}
+
+static double mean_ink(const tam_level *level)
+{
+    return level->sum / ((double)level->side * level->side);
+}
+
+double tam_missing(const tam *t)
+{
+    return tam_target(t->wishes, t->tone) - mean_ink(&t->levels[t->level]);
+}
+
+double tam_expected(const tam *t, int level, double length)
+{
+    const tam_level *l = &t->levels[level];
+    double           area = length * l->side * t->brush.width * (1 - TAPER_LOSS * t->brush.taper);
+    double           open = (double)t->limit - mean_ink(l);
+    return area * (double)t->opacity * open / ((double)l->side * l->side);
+}
+
+/* --- drawing ------------------------------------------------------------------------------------------------------ */
+
+typedef struct darkening {
+    tam_level *level;
+    float      limit, opacity;
+} darkening;
+
+/* Each stroke takes its share of what is left, so that overlaps darken less and less (seed-pencil-city P32), and never past the limit. */
+static void darken(void *user, size_t index, float coverage)
+{
+    darkening *d = user;
+    float     *ink = &d->level->ink[index], more = (d->limit - *ink) * coverage * d->opacity;
+    *ink += more;
+    d->level->sum += (double)more;
+}
+
+/* The priorities that make the stroke appear in its tone and down to its level. */
+static bool keep(tam *t, stroke s, int direction)
+{
+    if (!t->kept)
+        return true;
+    s.light = 1 - (float)t->tone / (float)t->wishes->tones;
+    s.perspective = 1 - 0.75f / (float)(1 << t->level);
+    if (!t->wishes->drawn)
+        s.layer = direction;
+    return strokes_add(t->kept, s);
+}
+
+bool tam_put(tam *t, stroke s, int direction)
+{
+    for (int k = t->level; k >= 0; k--) {
+        tam_level *level = &t->levels[k];
+        darkening  d = {level, t->limit, t->opacity};
+        stroke_draw(&s, level->side, &t->brush, darken, &d);
+        if (level->crowd[direction])
+            tam_add_crowd(t, level, &s, direction);
+    }
+    t->drawn_length[direction] += stroke_length(&s);
+    return keep(t, s, direction);
+}
+
+/* --- strokes that were drawn elsewhere ---------------------------------------------------------------------------- */
+
+typedef struct ranked {
+    float    light;
+    uint32_t index;
+} ranked;
+
+static int by_light(const void *a, const void *b)
+{
+    const ranked *left = a, *right = b;
+    if (left->light != right->light)
+        return left->light > right->light ? -1 : 1;
+    return left->index < right->index ? -1 : left->index > right->index;
+}
+
+/* Strokes in the order of their priorities; placed ones are taken out. */
+typedef struct queue {
+    ranked *items;
+    size_t  count;
+} queue;
+
+static bool queue_fill(queue *q, const strokes *s)
+{
+    *q = (queue){mem_calloc(s->count, sizeof *q->items), 0};
+    if (!q->items)
+        return false;
+    for (size_t i = 0; i < s->count; i++)
+        if (s->items[i].light >= 0)
+            q->items[q->count++] = (ranked){s->items[i].light, (uint32_t)i};
+    qsort(q->items, q->count, sizeof *q->items, by_light);
+    return true;
+}
+
+static bool near_enough(const stroke *s, int level)
+{
+    return (double)s->perspective >= 1 - 1.0 / (double)(1 << level);
+}
+
+/* Places as many as the level being filled needs, or as there are. */
+static bool fill_drawn(tam *t, queue *q)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < q->count; i++) {
+        const stroke *s = &t->wishes->drawn->items[q->items[i].index];
+        double        length = stroke_length(s) + 0.8 * t->brush.width / t->levels[t->level].side; /* round ends cover about that much */
+        bool          wanted = near_enough(s, t->level) && tam_missing(t) > 0.5 * tam_expected(t, t->level, length);
+        if (!wanted)
+            q->items[left++] = q->items[i];
+        else if (!tam_put(t, *s, TAM_ALONG))
+            return false;
+    }
+    q->count = left;
+    return true;
+}
+
+/* --- all of it ---------------------------------------------------------------------------------------------------- */
+
+static lmn_status check(const tam_wishes *w, lmn_error *error)
+{
+    if (w->side < SIDE_LEAST || w->side > SIDE_MOST || (w->side & (w->side - 1)))
+        return error_set(error, LMN_USAGE, "a tonal art map of %d texels a side; allowed are powers of two from %d to %d", w->side, SIDE_LEAST, SIDE_MOST);
+    if (w->tones < TONES_LEAST || w->tones > TONES_MOST)
+        return error_set(error, LMN_USAGE, "a tonal art map of %d tones; allowed are %d to %d", w->tones, TONES_LEAST, TONES_MOST);
+    if (!(w->darkest >= 0.05 && w->darkest <= 0.98))
+        return error_set(error, LMN_USAGE, "the darkest tone of a tonal art map is %g; allowed are 0.05 to 0.98", w->darkest);
+    if (!(w->width >= 0.25 && w->width <= w->side / 4.0))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g texels wide; allowed are 0.25 to a quarter of the side", w->width);
+    if (!w->drawn && !(w->length >= 0.02 && w->length <= 1))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g long; allowed are 0.02 to 1", w->length);
+    if (!(w->opacity > 0 && w->opacity <= 1))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the opacity %g; allowed is above 0 up to 1", w->opacity);
+    if (!(w->uneven >= 0 && w->uneven <= 1) || (int)w->placement < 0 || w->placement >= TAM_PLACEMENT_COUNT)
+        return error_set(error, LMN_USAGE, "a tonal art map cannot be uneven by %g, or placed by method %d", (double)w->uneven, (int)w->placement);
+    return LMN_OK;
+}
+
+static void tam_end(tam *t)
+{
+    for (int k = 0; k < t->level_count; k++) {
+        mem_free(t->levels[k].ink);
+        for (int d = 0; d < TAM_DIRECTIONS; d++)
+            mem_free(t->levels[k].crowd[d]);
+    }
+    mem_free(t->crowding);
+}
+
+static bool tam_begin(tam *t, const tam_wishes *w, strokes *kept)
+{
+    *t = (tam){.wishes = w, .brush = {.width = w->width, .taper = w->drawn ? 0 : TAPER}, .opacity = (float)w->opacity, .kept = kept,
+               .random = random_start(w->seed, STREAM)};
+    if (w->drawn && w->drawn->width > 0)
+        t->brush.width *= (double)w->drawn->width;
+    /* Ink covers paper; graphite leaves some of it even where many strokes lie. */
+    t->limit = w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1;
+    bool fitted = !w->drawn && w->placement == TAM_BEST_FIT, enough = true;
+    for (int side = w->side; side >= SIDE_LEAST; side /= 2) {
+        tam_level *level = &t->levels[t->level_count++];
+        size_t     texels = (size_t)side * (size_t)side;
+        level->side = side;
+        level->ink = mem_calloc(texels, sizeof *level->ink);
+        enough = enough && level->ink;
+        for (int d = 0; fitted && d < (w->cross ? 2 : 1); d++) {
+            level->crowd[d] = mem_calloc(texels, sizeof *level->crowd[d]);
+            enough = enough && level->crowd[d];
+        }
+    }
+    return enough;
+}
+
+static void keep_tone(const tam *t, mip_chain *out)
+{
+    for (int k = 0; k < out->levels; k++) {
+        uint8_t *texels = mip_layer(out, k, t->tone);
+        size_t   count = mip_level_bytes(out, k) / (size_t)out->layers;
+        if (k >= t->level_count)
+            memset(texels, (int)(255.5 - 255 * tam_target(t->wishes, t->tone)), count);
+        for (size_t i = 0; k < t->level_count && i < count; i++)
+            texels[i] = (uint8_t)(255.5f - 255 * t->levels[k].ink[i]);
+    }
+}
+
+static bool fill_tone(tam *t, queue *q)
+{
+    bool fitted = !t->wishes->drawn && t->wishes->placement == TAM_BEST_FIT, good = true;
+    if (fitted)
+        good = tam_set_crowding(t);
+    for (t->level = t->level_count - 1; good && t->level >= 0; t->level--)
+        good = t->wishes->drawn ? fill_drawn(t, q) : fitted ? tam_fill_best(t) : tam_fill_strips(t);
+    return good;
+}
+
+lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_wishes *wishes, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    if (kept)
+        *kept = (strokes){.width = 1};
+    lmn_status status = check(wishes, error);
+    if (status == LMN_OK)
+        status = mip_chain_create(out, wishes->side, wishes->side, wishes->tones, 0, MIP_R8, error);
+    if (status != LMN_OK)
+        return status;
+    tam   t;
+    queue q = {NULL, 0};
+    bool  good = tam_begin(&t, wishes, kept) && (!wishes->drawn || queue_fill(&q, wishes->drawn));
+    for (t.tone = 0; good && t.tone < wishes->tones; t.tone++) {
+        good = fill_tone(&t, &q);
+        keep_tone(&t, out);
+    }
+    mem_free(q.items);
+    tam_end(&t);
+    if (good)
+        return LMN_OK;
+    mip_chain_release(out);
+    if (kept)
+        strokes_release(kept);
+    return error_memory(error);
+}
