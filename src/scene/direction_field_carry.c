@@ -9,21 +9,15 @@ enum { STEPS_OF_CARRYING = 8 };
 static const double sure_from = 0.1;   /* below, a direction of its own fades out as a carried one fades in */
 static const double carried = 0.05;    /* how sure those are */
 
-typedef struct place {
-    float    distance;
-    uint32_t element;
-} place;
-
 typedef struct carrier {
     const field_surface *surface;
     const bool          *flat;
     tensor              *own, *units; /* units: directions as unit tensors, valid where reached */
     tensor              *flow;
-    float               *distances;
+    double              *distances;
     bool                *reached, *sure;
     uint32_t            *pieces, *queue; /* per element: number of its flat piece */
-    place               *heap;
-    size_t               heap_count, heap_room;
+    near_queue           near;
 } carrier;
 
 static double sureness(const tensor *t)
@@ -48,44 +42,8 @@ static bool unit_in_plane(point3 normal, const tensor *t, tensor *out)
     return true;
 }
 
-/* Nearer first; among equally near ones the lower number, so that the order is the same everywhere. */
-static bool before(place a, place b)
-{
-    return a.distance != b.distance ? a.distance < b.distance : a.element < b.element;
-}
-
-static bool heap_push(carrier *c, place p)
-{
-    if (!mem_grow((void **)&c->heap, &c->heap_room, c->heap_count + 1, sizeof *c->heap))
-        return false;
-    size_t i = c->heap_count++;
-    for (; i > 0 && before(p, c->heap[(i - 1) / 2]); i = (i - 1) / 2)
-        c->heap[i] = c->heap[(i - 1) / 2];
-    c->heap[i] = p;
-    return true;
-}
-
-static place heap_pop(carrier *c)
-{
-    place top = c->heap[0], last = c->heap[--c->heap_count];
-    size_t i = 0;
-    for (;;) {
-        size_t child = 2 * i + 1;
-        if (child >= c->heap_count)
-            break;
-        if (child + 1 < c->heap_count && before(c->heap[child + 1], c->heap[child]))
-            child++;
-        if (!before(c->heap[child], last))
-            break;
-        c->heap[i] = c->heap[child];
-        i = child;
-    }
-    c->heap[i] = last;
-    return top;
-}
-
 /* Offers the direction of e to its neighbours. */
-static bool offer(carrier *c, uint32_t e, float distance, bool into_flat)
+static bool offer(carrier *c, uint32_t e, double distance, bool into_flat)
 {
     const field_surface *s = c->surface;
     for (uint32_t i = s->starts[e]; i < s->starts[e + 1]; i++)
@@ -93,11 +51,11 @@ static bool offer(carrier *c, uint32_t e, float distance, bool into_flat)
             uint32_t n = s->corners[s->around[i] / 3 * 3 + k];
             if (c->reached[n] || (c->flat[n] && !into_flat))
                 continue;
-            float far = distance + (float)point_length(point_sub(s->positions[n], s->positions[e]));
+            double far = distance + point_length(point_sub(s->positions[n], s->positions[e]));
             if (far >= c->distances[n] || !unit_in_plane(s->normals[n], &c->units[e], &c->units[n]))
                 continue;
             c->distances[n] = far;
-            if (!heap_push(c, (place){far, n}))
+            if (!near_push(&c->near, far, n))
                 return false;
         }
     return true;
@@ -106,15 +64,15 @@ static bool offer(carrier *c, uint32_t e, float distance, bool into_flat)
 /* From all that is reached into all that is not. */
 static bool spread(carrier *c, bool into_flat)
 {
-    c->heap_count = 0;
+    c->near.count = 0;
     for (uint32_t e = 0; e < c->surface->element_count; e++)
         c->distances[e] = INFINITY;
     /* Units of places that are not reached yet are overwritten with each nearer offer; the nearest is the last. */
     for (uint32_t e = 0; e < c->surface->element_count; e++)
         if (c->reached[e] && !offer(c, e, 0, into_flat))
             return false;
-    while (c->heap_count > 0) {
-        place p = heap_pop(c);
+    while (c->near.count > 0) {
+        near_place p = near_pop(&c->near);
         if (c->reached[p.element])
             continue;
         c->reached[p.element] = true;
@@ -373,7 +331,7 @@ bool field_carry(const field_surface *s, tensor *own, const bool *flat)
     c.pieces = mem_alloc(count * sizeof *c.pieces);
     c.queue = mem_alloc(count * sizeof *c.queue);
     bool good = c.units && c.flow && c.distances && c.reached && c.sure && c.pieces && c.queue && carry(&c);
-    void *const blocks[] = {c.units, c.flow, c.distances, c.reached, c.sure, c.pieces, c.queue, c.heap};
+    void *const blocks[] = {c.units, c.flow, c.distances, c.reached, c.sure, c.pieces, c.queue, c.near.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);
     return good;
