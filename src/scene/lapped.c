@@ -5,7 +5,9 @@
 #include "scene/lapped_private.h"
 
 enum {
-    MOST_TIMES = 14,    /* so many times the triangles in patches; what is left comes once more */
+    MOST_TIMES = 14,      /* so many times the triangles in patches; what is left comes once more */
+    ENOUGH = 60000,       /* triangles in patches that are no worry, however few the surface has */
+    CELLS = 8, ALL_CELLS = 64, /* parts of a triangle along an edge and in all: outlines of several patches together may have it */
     LEFT_OVER_RADII = 16,
     STRETCH_CELLS = 4096
 };
@@ -25,6 +27,8 @@ typedef struct lapping {
     patch_ground     ground;
     double           radius;          /* as the surface is scaled */
     uint32_t        *order;           /* triangles shuffled */
+    uint64_t        *cells;           /* per triangle: which parts some outline has */
+    bool            *hopeless;        /* per triangle: its parts are too large for an outline */
     uint32_t        *copies;          /* per triangle of the primitive: the next copy, NOWHERE */
     uint32_t        *numbers, *rounds; /* per vertex of the primitive: its number in the patch that was made in that round … */
     uint32_t        *elements;         /* … as part of this element: around the end of a feature edge a patch may have both sides of it */
@@ -129,26 +133,82 @@ static bool add_triangle(lapping *l, sheet *to, uint32_t triangle, float ignore,
     return true;
 }
 
-/* Can the triangle lie within an outline at all? */
-static bool may_fit(const lapping *l, uint32_t triangle)
+static double longest_edge(const field_surface *s, uint32_t triangle)
 {
-    const field_surface *s = &l->surface;
+    double longest = 0;
     for (uint32_t k = 0; k < 3; k++) {
         point3 a = s->positions[s->corners[3 * triangle + k]], b = s->positions[s->corners[3 * triangle + (k + 1) % 3]];
-        if (point_length(point_sub(b, a)) > 1.7 * l->radius)
-            return false;
+        longest = fmax(longest, point_length(point_sub(b, a)));
     }
-    return true;
+    return longest;
 }
 
-/* Takes the grown patch if its outline has the seed, and there is room for it. */
-static bool take_patch(lapping *l, uint32_t seed, bool *full)
+/* The corners of a part, as shares of the second and third corner. Rows of 15, 13 … 1 parts, every other one upside down. */
+static void cell_corners(int cell, flat_place shares[3])
+{
+    int row = 0, row_size = 2 * CELLS - 1;
+    for (; cell >= row_size; row_size -= 2, row++)
+        cell -= row_size;
+    int column = cell / 2, upside_down = cell % 2;
+    for (int k = 0; k < 3; k++) {
+        int x = column + (upside_down ? k != 1 : k == 1), y = row + (upside_down ? k != 0 : k == 2);
+        shares[k] = (flat_place){(double)x / CELLS, (double)y / CELLS};
+    }
+}
+
+static bool holds_cell(const lapping *l, const flat_place places[3], int cell)
+{
+    flat_place shares[3], corners[3];
+    cell_corners(cell, shares);
+    for (int k = 0; k < 3; k++) {
+        double b = shares[k].x, c = shares[k].y, a = 1 - b - c;
+        corners[k] = (flat_place){a * places[0].x + b * places[1].x + c * places[2].x, a * places[0].y + b * places[1].y + c * places[2].y};
+    }
+    return outline_holds(l->patch_count, l->radius, corners);
+}
+
+/* Small triangles are covered whole or not: taking them apart would only take time. */
+static bool is_small(const lapping *l, uint32_t triangle)
+{
+    return longest_edge(&l->surface, triangle) < 0.15 * l->radius;
+}
+
+static void cover_triangle(lapping *l, uint32_t triangle, const flat_place places[3])
+{
+    uint64_t *cells = &l->cells[triangle];
+    if (l->ground.covered[triangle])
+        return;
+    if (outline_holds(l->patch_count, l->radius, places))
+        *cells = UINT64_MAX;
+    else if (!is_small(l, triangle))
+        for (int k = 0; k < ALL_CELLS; k++)
+            if (!(*cells >> k & 1) && holds_cell(l, places, k))
+                *cells |= UINT64_C(1) << k;
+    l->ground.covered[triangle] = *cells == UINT64_MAX;
+}
+
+/* Where in a triangle a patch is to have its middle: in a part that is not covered. */
+static flat_place bare_place(const lapping *l, uint32_t triangle, int *cell)
+{
+    flat_place shares[3];
+    *cell = (int)(mix_bits(triangle + l->patch_count) % ALL_CELLS);
+    if (is_small(l, triangle))
+        return (flat_place){1.0 / 3, 1.0 / 3};
+    while (l->cells[triangle] >> *cell & 1)
+        *cell = (*cell + 1) % ALL_CELLS;
+    cell_corners(*cell, shares);
+    return (flat_place){(shares[0].x + shares[1].x + shares[2].x) / 3, (shares[0].y + shares[1].y + shares[2].y) / 3};
+}
+
+/* Takes the grown patch if its outline has the part around its middle, and there is room for it. */
+static bool take_patch(lapping *l, uint32_t seed, int cell, bool *full)
 {
     patch_ground *g = &l->ground;
     flat_place places[3];
     size_t kept = 0, most = (size_t)MOST_TIMES * l->surface.triangle_count;
     patch_places(g, seed, places);
-    if (!outline_holds(l->patch_count, l->radius, places))
+    l->hopeless[seed] = is_small(l, seed) ? !outline_holds(l->patch_count, l->radius, places) : !holds_cell(l, places, cell);
+    if (l->hopeless[seed])
         return true;
     for (size_t i = 0; i < g->triangle_count; i++) {
         patch_places(g, g->triangles[i], places);
@@ -156,14 +216,14 @@ static bool take_patch(lapping *l, uint32_t seed, bool *full)
             g->triangles[kept++] = g->triangles[i];
     }
     g->triangle_count = kept;
-    *full = l->triangles + kept > most;
+    *full = l->triangles + kept > (most > ENOUGH ? most : ENOUGH);
     if (*full)
         return true;
     l->round++;
     for (size_t i = 0; i < g->triangle_count; i++) {
         uint32_t t = g->triangles[i];
         patch_places(g, t, places);
-        g->covered[t] = g->covered[t] || outline_holds(l->patch_count, l->radius, places);
+        cover_triangle(l, t, places);
         if (!add_triangle(l, &l->patches, t, 0, l->patch_count))
             return false;
     }
@@ -171,15 +231,26 @@ static bool take_patch(lapping *l, uint32_t seed, bool *full)
     return true;
 }
 
+/* Large triangles take many patches. Each gets one in turn, so that none is left without if there come to be too many. */
 static bool cover_with_patches(lapping *l)
 {
-    bool full = false, good = true;
-    for (uint32_t i = 0; good && !full && i < l->surface.triangle_count; i++) {
-        uint32_t seed = l->order[i];
-        if (l->ground.covered[seed] || !may_fit(l, seed))
-            continue;
-        good = patch_grow(&l->ground, seed, l->radius) && take_patch(l, seed, &full);
-        patch_clear(&l->ground);
+    bool full = false, good = true, more = true;
+    while (more) {
+        more = false;
+        for (uint32_t i = 0; good && !full && i < l->surface.triangle_count; i++) {
+            uint32_t seed = l->order[i];
+            int cell;
+            if (l->ground.covered[seed] || l->hopeless[seed])
+                continue;
+            flat_place middle = bare_place(l, seed, &cell);
+            /* A part that is longer than twice the radius has no room in any outline. */
+            l->hopeless[seed] = longest_edge(&l->surface, seed) > 2 * CELLS * l->radius;
+            if (l->hopeless[seed])
+                continue;
+            good = patch_grow(&l->ground, seed, middle, l->radius) && take_patch(l, seed, cell, &full);
+            patch_clear(&l->ground);
+            more = good && !full;
+        }
     }
     return good;
 }
@@ -192,7 +263,7 @@ static bool cover_the_rest(lapping *l)
     for (uint32_t seed = 0; good && seed < l->surface.triangle_count; seed++) {
         if (g->covered[seed])
             continue;
-        good = patch_grow(g, seed, LEFT_OVER_RADII * l->radius);
+        good = patch_grow(g, seed, (flat_place){1.0 / 3, 1.0 / 3}, LEFT_OVER_RADII * l->radius);
         l->round++;
         for (size_t i = 0; good && i < g->triangle_count; i++) {
             g->covered[g->triangles[i]] = true;
@@ -248,11 +319,13 @@ static bool make_ready(lapping *l, const direction_field *field, uint32_t seed)
     g->covered = mem_calloc(s->triangle_count, sizeof *g->covered);
     g->stamps = mem_calloc(s->triangle_count, sizeof *g->stamps);
     l->order = mem_alloc(s->triangle_count * sizeof *l->order);
+    l->cells = mem_calloc(s->triangle_count, sizeof *l->cells);
+    l->hopeless = mem_calloc(s->triangle_count, sizeof *l->hopeless);
     l->copies = mem_alloc(l->primitive->index_count / 3 * sizeof *l->copies);
     l->numbers = mem_alloc(vertices * sizeof *l->numbers);
     l->rounds = mem_calloc(vertices, sizeof *l->rounds);
     l->elements = mem_alloc(vertices * sizeof *l->elements);
-    if (!g->axes || !g->sure || !g->local || !g->covered || !g->stamps || !l->order || !l->copies || !l->numbers || !l->rounds || !l->elements)
+    if (!g->axes || !g->sure || !g->local || !g->covered || !g->stamps || !l->order || !l->cells || !l->hopeless || !l->copies || !l->numbers || !l->rounds || !l->elements)
         return false;
     memset(g->local, 0xFF, s->element_count * sizeof *g->local);
     shuffle(l->order, s->triangle_count, seed);
@@ -264,7 +337,7 @@ static void release(lapping *l)
 {
     patch_ground *g = &l->ground;
     void *const blocks[] = {g->axes, g->sure, g->local, g->covered, g->stamps, g->vertices, g->edges, g->triangles, g->kept, g->near.items,
-                            l->order, l->copies, l->numbers, l->rounds, l->elements, l->base.source, l->base.places, l->base.indices,
+                            l->order, l->cells, l->hopeless, l->copies, l->numbers, l->rounds, l->elements, l->base.source, l->base.places, l->base.indices,
                             l->patches.source, l->patches.places, l->patches.indices};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);

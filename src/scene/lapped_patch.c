@@ -148,9 +148,10 @@ static bool lay_seed(patch_ground *g, uint32_t seed)
     const field_surface *s = g->surface;
     const uint32_t *corners = s->corners + 3 * (size_t)seed;
     point3 axis = {0, 0, 0}, middle = {0, 0, 0}, n = s->directions[seed];
+    const double shares[3] = {1 - g->middle.x - g->middle.y, g->middle.x, g->middle.y};
     uint32_t surest = corners[0];
     for (int k = 0; k < 3; k++) {
-        middle = point_add(middle, point_scale(s->positions[corners[k]], 1.0 / 3));
+        middle = point_add(middle, point_scale(s->positions[corners[k]], shares[k]));
         if (g->sure[corners[k]] > g->sure[surest])
             surest = corners[k];
     }
@@ -295,14 +296,16 @@ static void centre(patch_ground *g, uint32_t seed)
 {
     flat_place c[3];
     patch_places(g, seed, c);
-    flat_place middle = {(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3};
+    double first = 1 - g->middle.x - g->middle.y;
+    flat_place middle = flat_add(flat_add((flat_place){first * c[0].x, first * c[0].y}, c[1], g->middle.x), c[2], g->middle.y);
     for (size_t l = 0; l < g->vertex_count; l++)
         g->vertices[l].place = flat_add(g->vertices[l].place, middle, -1);
 }
 
-bool patch_grow(patch_ground *g, uint32_t seed, double radius)
+bool patch_grow(patch_ground *g, uint32_t seed, flat_place middle, double radius)
 {
     const field_surface *s = g->surface;
+    g->middle = middle;
     if (!lay_seed(g, seed))
         return false;
     for (uint32_t k = 0; k < 3; k++)

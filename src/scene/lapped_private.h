@@ -43,12 +43,14 @@ typedef struct patch_ground {
     patch_edge   *edges;
     uint32_t     *triangles; /* of the patch; the first is the seed */
     flat_place   *kept;
+    flat_place    middle;    /* where in the seed 0 is */
     size_t        vertex_count, vertex_room, edge_count, edge_room, triangle_count, triangle_room, kept_room;
     near_queue    near;
 } patch_ground;
 
-/* Grows a patch around a triangle and lays it flat, the seed's centre at 0; false when memory is gone. patch_clear makes ready for the next. */
-bool patch_grow(patch_ground *g, uint32_t seed, double radius);
+/* Grows a patch around a place in a triangle (as shares of its second and third corner) and lays it flat, the place at 0; false when memory is gone. patch_clear makes ready for
+ * the next. */
+bool patch_grow(patch_ground *g, uint32_t seed, flat_place middle, double radius);
 void patch_clear(patch_ground *g);
 
 /* Of a triangle as it lies now: the greater of its greatest stretch and the inverse of the least; INFINITY when it is turned over. */
