@@ -1,0 +1,61 @@
+/* The torn outline of a patch, and how triangles lie to it. */
+#include "scene/lapped_private.h"
+
+/* Outlines are held a little smaller here than they are drawn, since a shader computes them with less precision. */
+static const double spare = 0.02;
+
+double lapped_outline(uint32_t patch, double angle)
+{
+    return 0.7 + 0.2 * sin(3 * angle + 2.4 * patch) + 0.1 * sin(7 * angle + 1.7 * patch);
+}
+
+/* How far beyond the outline, in radii; negative inside. */
+static double beyond(uint32_t patch, double radius, flat_place p)
+{
+    return hypot(p.x, p.y) / radius - lapped_outline(patch, atan2(p.y, p.x));
+}
+
+/* Away from the middle, `beyond` changes by no more than this for each radius travelled: the outline's slope is at most 1.3, and its least distance 0.4. */
+static const double steepest = 3.4;
+static const double finest = 0.004; /* radii; shorter pieces are not divided further */
+
+static bool segment_inside(uint32_t patch, double radius, flat_place a, flat_place b)
+{
+    flat_place middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
+    double half = hypot(b.x - a.x, b.y - a.y) / 2 / radius, from = hypot(middle.x, middle.y) / radius;
+    if (from + half < 0.4 - spare)
+        return true;
+    double out = beyond(patch, radius, middle);
+    if (from - half > 0.35 && out <= -steepest * half - spare)
+        return true;
+    if (out > -spare || half < finest)
+        return false;
+    return segment_inside(patch, radius, a, middle) && segment_inside(patch, radius, middle, b);
+}
+
+static bool segment_touches(uint32_t patch, double radius, flat_place a, flat_place b)
+{
+    flat_place middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
+    double half = hypot(b.x - a.x, b.y - a.y) / 2 / radius, from = hypot(middle.x, middle.y) / radius;
+    double out = beyond(patch, radius, middle);
+    if (out <= spare || half < 4 * finest)
+        return out <= spare + steepest * half;
+    if (from - half > 1 || (from - half > 0.35 && out > steepest * half + spare))
+        return false;
+    return segment_touches(patch, radius, a, middle) || segment_touches(patch, radius, middle, b);
+}
+
+/* What lies outside an outline hangs together and has no end, so that a triangle whose border is inside has no part of it. */
+bool outline_holds(uint32_t patch, double radius, const flat_place corners[3])
+{
+    return segment_inside(patch, radius, corners[0], corners[1]) && segment_inside(patch, radius, corners[1], corners[2]) &&
+           segment_inside(patch, radius, corners[2], corners[0]);
+}
+
+bool outline_touches(uint32_t patch, double radius, const flat_place c[3])
+{
+    double a = c[0].x * c[1].y - c[0].y * c[1].x, b = c[1].x * c[2].y - c[1].y * c[2].x, d = c[2].x * c[0].y - c[2].y * c[0].x;
+    if ((a >= 0 && b >= 0 && d >= 0) || (a <= 0 && b <= 0 && d <= 0))
+        return true;
+    return segment_touches(patch, radius, c[0], c[1]) || segment_touches(patch, radius, c[1], c[2]) || segment_touches(patch, radius, c[2], c[0]);
+}
