@@ -91,24 +91,42 @@ static bool asks_for_removed(const lmn_look *look)
     return false;
 }
 
+/* What the look's surfaces want meshes to have. */
+static mesh_wishes wishes_of(const lmn_look *look)
+{
+    mesh_wishes all = {false, 0};
+    for (size_t i = 0; i < look->rule_count; i++) {
+        const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
+        if (!surface || !surface->technique->wishes)
+            continue;
+        mesh_wishes own = surface->technique->wishes(surface->values);
+        all.field = all.field || own.field;
+        all.patch = own.patch > 0 ? own.patch : all.patch;
+    }
+    return all;
+}
+
 /* Puts the scene on the GPU unless it is there already. */
 static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     double crease = (double)v->crease_angle * (3.14159265358979323846 / 180);
-    upload_section section;
-    lmn_status status = find_section(&section, scene, look, desc, error);
-    bool removed = scene->ghost_count > 0 && asks_for_removed(look);
-    bool there = r->up_valid && r->up.has_removed == removed && r->scene == scene && r->up.revision == scene->revision && r->up.crease_angle == crease;
-    if (status != LMN_OK || (there && same_section(&r->up.section, &section, scene->part_count + scene->ghost_count))) {
-        mem_free(section.spared);
+    upload_desc wanted = {.crease_angle = crease, .removed = scene->ghost_count > 0 && asks_for_removed(look), .wishes = wishes_of(look)};
+    lmn_status status = find_section(&wanted.section, scene, look, desc, error);
+    bool same_meshes = r->up.crease_angle == crease && (r->up.wishes.field || !wanted.wishes.field) &&
+                       (r->up.wishes.patch == wanted.wishes.patch || wanted.wishes.patch == 0);
+    bool there = r->up_valid && r->up.has_removed == wanted.removed && r->scene == scene && r->up.revision == scene->revision && same_meshes;
+    if (status != LMN_OK || (there && same_section(&r->up.section, &wanted.section, scene->part_count + scene->ghost_count))) {
+        mem_free(wanted.section.spared);
         return status;
     }
     upload earlier = r->up;
-    bool related = r->up_valid && earlier.identity == scene->identity && earlier.crease_angle == crease;
-    if (!related)
+    bool related = r->up_valid && earlier.identity == scene->identity && same_meshes;
+    if (related)
+        wanted.wishes = earlier.wishes; /* what is taken over has them */
+    else
         upload_release(&earlier, r->g); /* at once: two scenes may not fit */
-    status = upload_create(&r->up, r->g, scene, crease, removed, &section, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    status = upload_create(&r->up, r->g, scene, &wanted, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
     upload_release(&earlier, r->g);
     r->scene = scene;
     r->up_valid = status == LMN_OK;

@@ -189,7 +189,7 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_colours, is_cut, ready;
+    bool                has_uvs, has_colours, is_cut, has_field, has_patches, ready;
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
@@ -216,23 +216,39 @@ static gpu_state state_of(const raster_job *job)
     return (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_compare = job->stack ? GPU_LESS : GPU_LESS_EQUAL};
 }
 
+/* Does the surface lay strokes along the way that the item bends? */
+static bool uses_field(const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return surface && surface->technique->wishes && surface->technique->wishes(surface->values).field && gpu_mesh_has_tensors(item->mesh);
+}
+
+/* Or on patches? Layers and enlarged figures draw each triangle once. */
+static bool uses_patches(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->wishes && surface->technique->wishes(surface->values).patch > 0;
+}
+
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
+    bool field = uses_field(s, item), patches = uses_patches(job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
-        item->has_colours == last->has_colours && item->is_cut == last->is_cut)
+        item->has_colours == last->has_colours && item->is_cut == last->is_cut && field == last->has_field && patches == last->has_patches)
         return;
     material tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
     item_textures t = textures_of(f, item, m);
     text prelude = {0};
     declare_material(&prelude, s, item, m, t);
+    text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "", field && !patches ? "#define HAS_FIELD\n" : "");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
     set_pass(f, job, s);
     frame_set_projection(f);
     set_material(f->g, m, t, job->stack != NULL);
-    *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, true, last->triangles};
+    *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, field, patches, true, last->triangles};
 }
 
 /* The figure among those of the stack that draws a part; NULL: none. */
@@ -281,7 +297,9 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
         gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
     if (item->is_cut)
         gpu_set_float(f->g, "u_nearer", 2 * item->nearer);
-    gpu_draw_mesh(f->g, item->mesh);
+    if (last->has_patches)
+        gpu_set_float(f->g, "u_patch_radius", item->patch_radius);
+    gpu_draw_mesh(f->g, last->has_patches ? item->lapped : item->mesh);
     last->triangles += gpu_mesh_triangles(item->mesh);
 }
 

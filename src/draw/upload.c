@@ -5,14 +5,16 @@
 
 #include "base/memory.h"
 
-static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, const primitive *p, const part_pose *pose, lmn_error *error)
+static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const primitive *p, const part_pose *pose, lmn_error *error)
 {
     posed_mesh m;
     lmn_status status = posed_make(&m, u, p, pose, error);
-    if (status == LMN_OK) {
+    if (status == LMN_OK && u->wishes.field)
+        status = upload_with_field(u, g, out, lapped, &m.data, error);
+    else if (status == LMN_OK)
         *out = gpu_mesh_create(g, &m.data);
+    if (status == LMN_OK)
         status = gpu_check(g, error);
-    }
     posed_release(&m);
     return status;
 }
@@ -34,9 +36,11 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     if (p->index_count == 0)
         return LMN_OK;
     if (!job->meshes[i])
-        status = upload_primitive(u, g, &job->meshes[i], p, &job->pose, error);
+        status = upload_primitive(u, g, &job->meshes[i], &job->lapped[i], p, &job->pose, error);
     draw_item item = upload_item(job, i);
     item.mesh = job->meshes[i];
+    item.lapped = job->lapped[i];
+    item.patch_radius = upload_patch_radius(u, p->bounds);
     item.world = *world;
     u->triangles += p->index_count / 3;
     if (status == LMN_OK && !upload_add_item(u, &item))
@@ -80,10 +84,11 @@ static bool make_room(upload_mesh *m, const mesh *source)
 {
     if (!m->primitives) {
         m->primitives = mem_calloc(source->primitive_count, sizeof *m->primitives);
+        m->lapped = mem_calloc(source->primitive_count, sizeof *m->lapped);
         m->count = source->primitive_count;
         m->revision = source->revision;
     }
-    return m->primitives != NULL;
+    return m->primitives && m->lapped;
 }
 
 static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
@@ -103,6 +108,7 @@ static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t 
     lmn_status status = LMN_OK;
     if (make_room(made, m)) {
         job.meshes = made->primitives;
+        job.lapped = made->lapped;
         status = add_instances(u, g, scene, &job, error);
     } else {
         status = error_memory(error);
@@ -114,17 +120,18 @@ static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t 
 
 /* --- all parts ----------------------------------------------------------------------------------------------------------- */
 
-static lmn_status open_upload(upload *out, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section, lmn_error *error)
+static lmn_status open_upload(upload *out, const lmn_scene *scene, upload_desc *desc, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->revision = scene->revision;
     out->identity = scene->identity;
-    out->crease_angle = crease_angle;
-    out->section = *section;
-    *section = (upload_section){.spared = NULL};
+    out->crease_angle = desc->crease_angle;
+    out->wishes = desc->wishes;
+    out->section = desc->section;
+    desc->section = (upload_section){.spared = NULL};
     out->worlds = scene_world_matrices(scene);
-    out->has_removed = removed;
-    out->part_count = scene->part_count + (removed ? scene->ghost_count : 0);
+    out->has_removed = desc->removed;
+    out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);
     out->part_boxes = mem_calloc(out->part_count, sizeof *out->part_boxes);
     out->texture_count = scene->image_count * 2;
     out->textures = mem_calloc(out->texture_count, sizeof(gpu_texture *));
@@ -171,10 +178,10 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
     }
 }
 
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section, upload *earlier,
-                         lmn_progress_fn progress, void *user, lmn_error *error)
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, upload_desc *desc, upload *earlier, lmn_progress_fn progress, void *user,
+                         lmn_error *error)
 {
-    lmn_status status = open_upload(out, scene, crease_angle, removed, section, error);
+    lmn_status status = open_upload(out, scene, desc, error);
     if (status == LMN_OK && earlier)
         take_over(out, earlier, scene);
     for (size_t i = 0; i < out->part_count && status == LMN_OK; i++) {
@@ -194,9 +201,12 @@ lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double cre
 static void release_meshes(upload_mesh *meshes, size_t count, gpu *g)
 {
     for (size_t i = 0; i < count; i++) {
-        for (size_t k = 0; k < meshes[i].count; k++)
+        for (size_t k = 0; meshes[i].primitives && k < meshes[i].count; k++)
             gpu_mesh_destroy(g, &meshes[i].primitives[k]);
+        for (size_t k = 0; meshes[i].lapped && k < meshes[i].count; k++)
+            gpu_mesh_destroy(g, &meshes[i].lapped[k]);
         mem_free(meshes[i].primitives);
+        mem_free(meshes[i].lapped);
     }
     mem_free(meshes);
 }

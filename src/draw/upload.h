@@ -5,6 +5,7 @@
 #include "csg/csg.h"
 #include "gpu/gpu.h"
 #include "scene/cut.h"
+#include "technique/technique.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "scene/solid_products.h"
@@ -36,6 +37,7 @@ typedef struct upload_solid {
 typedef struct upload_mesh {
     uint64_t   revision;
     gpu_mesh **primitives; /* NULL, as each of them: not made yet */
+    gpu_mesh **lapped;     /* the same covered with patches, where these are wished for */
     size_t     count;
 } upload_mesh;
 
@@ -49,7 +51,8 @@ typedef struct upload_shape {
 
 /* One draw call: a primitive of a part at one place. */
 typedef struct draw_item {
-    gpu_mesh *mesh;
+    gpu_mesh *mesh, *lapped; /* lapped: NULL: there is none */
+    float     patch_radius;
     mat4      world;
     uint32_t  part_id, surface_id;
     size_t    part_index;
@@ -73,6 +76,7 @@ typedef struct upload_section {
 typedef struct upload {
     uint64_t      revision, identity; /* of the scene */
     double        crease_angle; /* radians */
+    mesh_wishes   wishes;       /* of all techniques */
     upload_section section;
     size_t        open_parts; /* some of whose sections are not closed */
     bool          has_cut;    /* there are cut faces */
@@ -106,11 +110,19 @@ typedef struct upload {
     uint64_t      triangles; /* drawn, instances counted */
 } upload;
 
+/* How a scene is put on the GPU. */
+typedef struct upload_desc {
+    double         crease_angle;
+    bool           removed; /* what solids take away, too */
+    mesh_wishes    wishes;
+    upload_section section; /* taken over */
+} upload_desc;
+
 /* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The section is taken over, and so is what
  * an earlier upload (may be NULL) of the same scene and crease angle has that still holds: after an edit, meshes, textures and solids that did
- * not change. Release that one too. `removed`: what solids take away, too. */
-lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, double crease_angle, bool removed, upload_section *section, upload *earlier,
-                         lmn_progress_fn progress, void *user, lmn_error *error);
+ * not change. Release that one too. */
+lmn_status upload_create(upload *out, gpu *g, const lmn_scene *scene, upload_desc *desc, upload *earlier, lmn_progress_fn progress, void *user,
+                         lmn_error *error);
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
 gpu_texture *upload_texture(upload *u, gpu *g, const lmn_scene *scene, const texture_use *use, bool linear);

@@ -26,7 +26,7 @@ typedef struct upload_part_job {
     size_t      part_index;
     const mesh *mesh;
     part_pose   pose;
-    gpu_mesh  **meshes; /* per primitive, NULL: not made yet */
+    gpu_mesh  **meshes, **lapped; /* per primitive, NULL: not made yet */
     posed_mesh *posed;  /* per primitive, what cutting needs; NULL: not made yet */
     cut_input  *inputs;
     vec3      **input_positions;
@@ -42,6 +42,12 @@ void       posed_release(posed_mesh *m);
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
 bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
+
+/* --- upload_field.c --- */
+/* The mesh with the way it bends, and when wished for once more with patches that cover it (else *lapped stays NULL). */
+lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const gpu_mesh_data *data, lmn_error *error);
+/* Of the patches of a mesh with these bounds. */
+float      upload_patch_radius(const upload *u, box3 bounds);
 
 /* --- upload_solid.c --- */
 lmn_status upload_solid_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, lmn_error *error);

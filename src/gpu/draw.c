@@ -207,6 +207,27 @@ static void add_attribute(gpu_mesh *m, GLuint index, int components, uint32_t co
     glEnableVertexAttribArray(index);
 }
 
+/* Both halves from one buffer. */
+static void add_tensors(gpu_mesh *m, const gpu_mesh_data *data)
+{
+    const GLsizei stride = 6 * sizeof(float);
+    if (!data->tensors)
+        return;
+    m->has_tensors = true;
+    glGenBuffers(1, &m->buffers[6]);
+    glBindBuffer(GL_ARRAY_BUFFER, m->buffers[6]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)stride * (GLsizeiptr)data->vertex_count, data->tensors, GL_STATIC_DRAW);
+    for (GLuint half = 0; half < 2; half++) {
+        glVertexAttribPointer(6 + half, 3, GL_FLOAT, GL_FALSE, stride, (const void *)(half * 3 * sizeof(float)));
+        glEnableVertexAttribArray(6 + half);
+    }
+}
+
+bool gpu_mesh_has_tensors(const gpu_mesh *m)
+{
+    return m && m->has_tensors;
+}
+
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
 {
     if (g->failed)
@@ -233,8 +254,10 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
         glVertexAttribIPointer(5, 1, GL_UNSIGNED_INT, 0, NULL);
         glEnableVertexAttribArray(5);
     }
-    glGenBuffers(1, &m->buffers[6]);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[6]);
+    add_tensors(m, data);
+    add_attribute(m, 8, 4, data->vertex_count, data->patches);
+    glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
     size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, data->indices, GL_STATIC_DRAW);
     glBindVertexArray(0);
@@ -249,7 +272,7 @@ void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
     if (!*m)
         return;
     glDeleteVertexArrays(1, &(*m)->array);
-    glDeleteBuffers(7, (*m)->buffers);
+    glDeleteBuffers(GPU_BUFFERS, (*m)->buffers);
     mem_free(*m);
     *m = NULL;
 }

@@ -94,12 +94,15 @@ size_t       gpu_program_count(const gpu *g);
 typedef struct gpu_mesh_data {
     uint32_t        vertex_count, index_count;
     const float    *positions, *normals, *uvs[2], *colours;
+    const float    *tensors; /* six numbers a vertex: locations 6 and 7 */
+    const float    *patches; /* four numbers a vertex: location 8 */
     const uint32_t *keys; /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
+bool      gpu_mesh_has_tensors(const gpu_mesh *m);
 
 /* --- storage buffers (only where gpu_facts.lists) ------------------------------------------------------------------ */
 

@@ -36,10 +36,12 @@ struct gpu_program {
     int          uniform_count;
 };
 
+enum { GPU_BUFFERS = 10 };
+
 struct gpu_mesh {
-    GLuint   array, buffers[7]; /* by attribute, the last for indices */
+    GLuint   array, buffers[GPU_BUFFERS]; /* by attribute, the last for indices */
     uint32_t index_count, vertex_count;
-    bool     has_colours;
+    bool     has_colours, has_tensors;
 };
 
 /* A framebuffer object for one set of attachments. */

@@ -61,8 +61,22 @@ float stored_depth()
 #include "layer/order.glsl"
 #endif
 
+#ifdef HAS_PATCHES
+/* Is the place outside its patch's outline? src/scene/lapped.h; the number of a patch is the same at all its corners. */
+bool outside_patch()
+{
+    float angle = atan(v_patch.y, v_patch.x), number = floor(v_patch.w + 0.5);
+    float outline = 0.7 + 0.2 * sin(3.0 * angle + 2.4 * number) + 0.1 * sin(7.0 * angle + 1.7 * number);
+    return v_patch.z < 0.5 && length(v_patch.xy) > outline * u_patch_radius;
+}
+#endif
+
 void main()
 {
+#ifdef HAS_PATCHES
+    if (outside_patch())
+        discard;
+#endif
 #ifdef SOLID
     if (!fetch_surface(u_part_id))
         discard;

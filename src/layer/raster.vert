@@ -4,6 +4,16 @@ layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_uv0;
 layout(location = 3) in vec2 a_uv1;
 layout(location = 4) in vec4 a_colour;
+#ifdef HAS_FIELD
+layout(location = 6) in vec3 a_field_diagonal; /* a symmetric tensor: xx, yy, zz */
+layout(location = 7) in vec3 a_field_sides;    /* xy, yz, zx */
+out vec3 v_field_diagonal; /* eye space */
+out vec3 v_field_sides;
+#endif
+#ifdef HAS_PATCHES
+layout(location = 8) in vec4 a_patch; /* src/scene/lapped.h */
+out vec4 v_patch;
+#endif
 
 uniform mat4 u_model_view;
 uniform mat3 u_normal_matrix;
@@ -46,6 +56,17 @@ void main()
 #endif
 #ifdef HAS_COLOURS
     v_colour = a_colour;
+#endif
+#ifdef HAS_FIELD
+    mat3 turn = mat3(u_model_view);
+    mat3 field = mat3(a_field_diagonal.x, a_field_sides.x, a_field_sides.z, a_field_sides.x, a_field_diagonal.y, a_field_sides.y,
+                      a_field_sides.z, a_field_sides.y, a_field_diagonal.z);
+    field = turn * field * transpose(turn) / pow(abs(determinant(turn)) + 1e-30, 2.0 / 3.0);
+    v_field_diagonal = vec3(field[0].x, field[1].y, field[2].z);
+    v_field_sides = vec3(field[0].y, field[1].z, field[2].x);
+#endif
+#ifdef HAS_PATCHES
+    v_patch = a_patch;
 #endif
     gl_Position = u_projection * eye;
 #ifdef CUT_FACE

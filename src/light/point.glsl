@@ -7,6 +7,14 @@ struct surface_point {
     uint part;    /* its number, where shading comes after the geometry; else 0 */
 };
 
+#ifdef HAS_FIELD
+in vec3 v_field_diagonal; /* src/scene/direction_field.h, eye space */
+in vec3 v_field_sides;
+#endif
+#ifdef HAS_PATCHES
+in vec4 v_patch;
+uniform float u_patch_radius;
+#endif
 #ifdef HAS_UV
 /* Texture coordinates of the place, for surfaces that are shaded with their geometry: as the material's own picture has them, and the second set, which is meant
  * to be used once. */

@@ -38,5 +38,5 @@ const technique surface_hatch = {
     .name = "hatch", .doc = "Hatching that stays as dense and as wide at any zoom, by the number or the width of its lines.",
     .example = "{\"surface\": {\"technique\": \"hatch\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(hatch),
-    .surface = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN,
+    .surface = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
 };

@@ -52,6 +52,6 @@ const technique surface_screen = {
     .name = "screen", .doc = "A halftone screen on the surface: strokes, dots or a painted texture that come and go with the tone.",
     .example = "{\"surface\": {\"technique\": \"screen\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(screen_values),
-    .surface = "surface/screen.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN,
+    .surface = "surface/screen.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
     .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

@@ -61,6 +61,6 @@ const technique surface_tonal_art_map = {
     .name = "tonal-art-map", .doc = "Hatched tones that hold each other's strokes, made once and laid on the surface.",
     .example = "{\"surface\": {\"technique\": \"tonal-art-map\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(tonal_art_map_values),
-    .surface = "surface/tonal_art_map.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN,
+    .surface = "surface/tonal_art_map.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
     .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

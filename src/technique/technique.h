@@ -75,6 +75,12 @@ typedef struct pass {
     bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
 } pass;
 
+/* What a technique wants meshes to have besides positions and normals. */
+typedef struct mesh_wishes {
+    bool  field;  /* the way surfaces bend */
+    float patch;  /* radius of patches that cover them, share of a mesh's diagonal; 0: none */
+} mesh_wishes;
+
 struct pass;
 
 /* What a technique that moves lookups must tell. */
@@ -120,6 +126,7 @@ typedef struct technique {
     bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
     const char  *forward_when; /* surface: the same under this condition on its parameters; NULL: never */
+    mesh_wishes (*wishes)(const void *values); /* surface; NULL: nothing */
     const texture_source *textures; /* surface: what it makes on the CPU */
     size_t       texture_count;
     const perturbation *perturbs; /* perturb: how lookups are moved */

@@ -2,3 +2,10 @@
 
 const char *const halftone_coordinate_names[] = {"axes", "triplanar", "screen", "uv", "curvature", "lapped", NULL};
 const char *const halftone_ink_names[] = {"one", "two", "cmyk", NULL};
+
+mesh_wishes halftone_wishes(const void *values)
+{
+    const halftone_values *v = values;
+    bool lapped = v->coordinates == COORDINATES_LAPPED;
+    return (mesh_wishes){.field = lapped || v->coordinates == COORDINATES_CURVATURE, .patch = lapped ? v->patch : 0};
+}

@@ -25,13 +25,18 @@ typedef struct halftone_values {
     int32_t coordinates, inks;
     float   angle, shadow, light, contrast, texture;
     colour  ink, second_ink, paper;
-    float   ink_tint, paper_tint;
+    float   ink_tint, paper_tint, patch;
 } halftone_values;
+
+/* Of a technique whose values begin with these. */
+mesh_wishes halftone_wishes(const void *values);
 
 #define HALFTONE_ROWS(DEFAULT_COORDINATES)                                                                                                           \
     PARAM_ENUM_ROW(halftone_values, coordinates, .names = halftone_coordinate_names, .def = (DEFAULT_COORDINATES), .variant = true,                  \
                    .doc = "What strokes are tied to: axes, planes askew through the model; triplanar, the model seen along its axes; screen, the "     \
                           "picture; uv, texture coordinates; curvature, the way it bends; lapped, patches that are laid along it."),                   \
+    PARAM_FLOAT_ROW(halftone_values, patch, .def = 0.1, .min = 0.01, .max = 1, .soft_min = 0.03, .soft_max = 0.3, .unit = UNIT_SHARE, .cpu_only = true, \
+                    .only_if = "coordinates=lapped", .doc = "Radius of patches, share of a mesh's diagonal."),                                        \
     PARAM_FLOAT_ROW(halftone_values, angle, .def = 0, .min = -360, .max = 360, .soft_min = -90, .soft_max = 90, .unit = UNIT_DEGREES,                \
                     .doc = "Turns the strokes on the surface."),                                                                                     \
     PARAM_FLOAT_ROW(halftone_values, shadow, .def = 0.05, .min = -1, .max = 1, .soft_min = 0, .unit = UNIT_SHARE,                                     \

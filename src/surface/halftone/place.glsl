@@ -25,6 +25,7 @@ struct rest_place {
     vec3 at, right, up;
     vec3 normal;
     vec3 upward; /* which way is up */
+    mat3 turn;   /* from eye space */
 };
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
@@ -61,7 +62,7 @@ rest_place place_at_rest(surface_point p)
     vec3 upward = u_upward;
 #endif
     mat3 turn = mat3(rows);
-    return rest_place((rows * vec4(p.eye, 1.0)).xyz, turn * right, turn * up, turn * p.normal, upward);
+    return rest_place((rows * vec4(p.eye, 1.0)).xyz, turn * right, turn * up, turn * p.normal, upward, turn);
 }
 
 stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, uint key)
@@ -77,7 +78,7 @@ stroke_plane turned_plane(stroke_plane s, float angle)
     return stroke_plane(turn * s.at, turn * s.right, turn * s.up, s.weight, s.key);
 }
 
-#if COORDINATES == 0
+#if COORDINATES == 0 || (COORDINATES == 4 && !defined(HAS_FIELD))
 /* Strokes are where planes through the model cut its surface: they run on over everything without seams. Around the two places where the surface is a plane's own,
  * another set of planes takes over. */
 #define PLANES 2
@@ -89,7 +90,7 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
     return i == 0 ? plane_along(r, abs(dot(second, r.normal)) < abs(dot(third, r.normal)) ? second : third, first, own, uint(series))
                   : plane_along(r, first, second, 1.0 - own, uint(series) + 4u);
 }
-#elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV))
+#elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES))
 /* Walls have their second coordinate upwards. */
 #define PLANES 3
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
@@ -111,6 +112,50 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     return stroke_plane(s_uv, dFdx(s_uv), dFdy(s_uv), 1.0, 0u);
+}
+#elif COORDINATES == 4
+/* Planes through the model of a few fixed directions; each place takes those two whose lines come nearest to the way its surface bends. So strokes lie in
+ * patches of parallel ones, which overlap where the way changes, as a draughtsman sets them. */
+#define PLANES 2
+const int WAYS = 13;
+const vec3 WAY[WAYS] = vec3[WAYS](vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0),
+    vec3(0.7071, 0.7071, 0.0), vec3(0.7071, -0.7071, 0.0), vec3(0.0, 0.7071, 0.7071), vec3(0.0, 0.7071, -0.7071), vec3(0.7071, 0.0, 0.7071), vec3(-0.7071, 0.0, 0.7071),
+    vec3(0.5774, 0.5774, 0.5774), vec3(0.5774, 0.5774, -0.5774), vec3(0.5774, -0.5774, 0.5774), vec3(-0.5774, 0.5774, 0.5774));
+
+/* Coordinates along and across the lines of a way. */
+stroke_plane plane_of_way(rest_place r, int way, float weight)
+{
+    vec3 across = WAY[way], line = cross(r.normal, across);
+    vec3 aside = normalize(abs(across.x) < 0.9 ? cross(across, vec3(1.0, 0.0, 0.0)) : cross(across, vec3(0.0, 1.0, 0.0))), other = cross(across, aside);
+    return plane_along(r, abs(dot(aside, line)) > abs(dot(other, line)) ? aside : other, across, weight, uint(way));
+}
+
+stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+{
+    mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
+                      v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
+    field = r.turn * field * transpose(r.turn);
+    float best = -1e9, next = -1e9;
+    int way = 0, second = 0;
+    for (int k = 0; k < WAYS; k++) {
+        vec3 line = cross(r.normal, WAY[k]);
+        float square = dot(line, line);
+        /* Where nothing bends the way is the first one that is not too flat. */
+        float fits = dot(line, field * line) / max(square, 1e-6) + 0.2 * min(square, 0.5) - 0.004 * float(k);
+        bool first = fits > best, other = !first && fits > next;
+        next = first ? best : other ? fits : next;
+        second = first ? way : other ? k : second;
+        best = first ? fits : best;
+        way = first ? k : way;
+    }
+    float own = 0.5 + 0.5 * smoothstep(0.0, 0.15, best - next);
+    return plane_of_way(r, i == 0 ? way : second, i == 0 ? own : 1.0 - own);
+}
+#elif COORDINATES == 5
+#define PLANES 1
+stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+{
+    return stroke_plane(v_patch.xy, dFdx(v_patch.xy), dFdy(v_patch.xy), 1.0, uint(v_patch.w + 0.5));
 }
 #else
 #define PLANES 1
