@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { CHORDS_MAX = 256, CHORDS_ROUGHLY = 8 };
+enum { CHORDS_MAX = 256, CHORDS_ROUGHLY = 8, NUMBER_MAX = 256 };
 
 static const double half_turn = 3.14159265358979323846;
 
@@ -24,8 +24,9 @@ static const char *skip_comma(const char *at)
 
 const char *svg_number(const char *at, double *out)
 {
-    /* No words: "nan" and "inf" are no numbers here. */
-    const char *end = strchr("+-.0123456789", *at) && *at ? text_parse_double(at, at + strlen(at), out) : NULL;
+    /* No words: "nan" and "inf" are no numbers here. Looking for the end of all the text each time would take its length squared. */
+    bool begins = *at && strchr("+-.0123456789", *at);
+    const char *end = begins ? text_parse_double(at, at + strnlen(at, NUMBER_MAX), out) : NULL;
     return end && isfinite(*out) ? skip_comma(end) : NULL;
 }
 

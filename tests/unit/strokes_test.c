@@ -633,7 +633,6 @@ static void test_spread(void **state)
         set_light(&s, ORDER_EVEN, SHARE_COUNT, 0, seed);
         order = sorted(&s, compare_light);
         double even = worst_quadrants(&s, order, 8);
-        print_message("even: chi-square %g\n", even);
         if (even >= 4)
             fail_msg("even, seed %u: %g", seed, even);
         free(order);
