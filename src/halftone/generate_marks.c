@@ -39,32 +39,24 @@ void pattern_random(generator *g)
 
 /* --- scribble --- */
 
-enum { LOOPS = 6, LOOP_CHORDS = 12, SCRIBBLE_CHORDS = LOOPS * LOOP_CHORDS };
+enum { LOOPS = 9, LOOP_CHORDS = 13, SCRIBBLE_CHORDS = LOOPS * LOOP_CHORDS };
 
-/* Loops that move on as a coil does, in a direction that wanders; no loop is like the one before. */
+/* A pen that always turns the same way, now tighter, now wider: where it turns slowly it moves on, and so its loops wander, none like another. */
 static void scribble(generator *g, place middle, double heading)
 {
-    place points[SCRIBBLE_CHORDS + 1];
-    double u = 0, v = 0, mean_u = 0, mean_v = 0, uneven = 0.35 + 0.65 * g->uneven;
-    /* The length is that of the coil drawn out. */
-    double radius = g->length / (turn * LOOPS) * (1 + 0.5 * g->uneven * random_hand(&g->chance));
-    double advance = radius * (0.95 + 0.5 * g->uneven * random_hand(&g->chance)), angle = turn * random_unit(&g->chance);
-    double side = random_unit(&g->chance) < 0.5 ? -1 : 1, swell = turn * random_unit(&g->chance), way = heading;
-    double bend = 1.6 * uneven * random_hand(&g->chance), tilt = turn * random_unit(&g->chance);
-    for (int i = 0; i <= SCRIBBLE_CHORDS; i++) {
-        double t = (double)i / LOOP_CHORDS, run = t / LOOPS;
-        double r = radius * (1 + 0.45 * uneven * sin(2.3 * t + swell) + 0.15 * uneven * sin(5.1 * t + tilt));
-        /* The pen begins and ends between loops, not within one. */
-        r *= fmin(1, 0.45 + 3 * fmin(run, 1 - run));
-        double flat = 0.8 + 0.2 * uneven * sin(1.7 * t + tilt), along = r * flat * cos(angle), aside = r * sin(angle);
-        points[i].u = u + along * cos(way) - aside * sin(way);
-        points[i].v = v + along * sin(way) + aside * cos(way);
-        mean_u += points[i].u / (SCRIBBLE_CHORDS + 1);
-        mean_v += points[i].v / (SCRIBBLE_CHORDS + 1);
-        u += advance / LOOP_CHORDS * cos(way);
-        v += advance / LOOP_CHORDS * sin(way);
-        way += bend / SCRIBBLE_CHORDS;
-        angle += side * turn / LOOP_CHORDS * (1 + 0.15 * uneven * sin(3.1 * t + swell));
+    place points[SCRIBBLE_CHORDS + 1] = {{0, 0}};
+    double mean_u = 0, mean_v = 0, uneven = 0.5 + 0.5 * g->uneven, phases[3];
+    double step = g->length / SCRIBBLE_CHORDS * (1 + 0.5 * g->uneven * random_hand(&g->chance));
+    double side = random_unit(&g->chance) < 0.5 ? -1 : 1, pace = 1 + 0.12 * random_hand(&g->chance), way = heading;
+    for (int k = 0; k < 3; k++)
+        phases[k] = turn * random_unit(&g->chance);
+    for (int i = 0; i < SCRIBBLE_CHORDS; i++) {
+        double t = (double)i / LOOP_CHORDS * pace;
+        double swing = 0.8 * sin(0.91 * turn * t + phases[0]) + 0.8 * sin(0.41 * turn * t + phases[1]) + 0.5 * sin(1.57 * turn * t + phases[2]);
+        way += side * turn / LOOP_CHORDS * (1 + 0.6 * uneven * swing);
+        points[i + 1] = (place){points[i].u + step * cos(way), points[i].v + step * sin(way)};
+        mean_u += points[i + 1].u / SCRIBBLE_CHORDS;
+        mean_v += points[i + 1].v / SCRIBBLE_CHORDS;
     }
     for (int i = 0; i <= SCRIBBLE_CHORDS; i++)
         points[i] = (place){middle.u + points[i].u - mean_u, middle.v + points[i].v - mean_v};
@@ -145,9 +137,9 @@ static double share_inside(const brick *b, place from, place to)
 /* Short parallel scratches between two places along a brick (−1 … 1), as shade is put on it: slanted, from its lower edge. */
 static void scratches(generator *g, const brick *b, double left, double right, double slant, int32_t layer)
 {
-    double low = -0.78 + 0.3 * random_unit(&g->chance) * g->uneven, pitch = 0.075 + 0.03 * g->uneven * random_hand(&g->chance);
+    double low = -0.78 + 0.3 * random_unit(&g->chance) * g->uneven, pitch = 0.11 + 0.04 * g->uneven * random_hand(&g->chance);
     for (double x = left; x < right; x += pitch * (1 + 0.6 * g->uneven * random_hand(&g->chance))) {
-        double reach = g->length * (0.75 + 0.4 * g->uneven * random_hand(&g->chance));
+        double reach = g->length * (0.95 + 0.4 * g->uneven * random_hand(&g->chance));
         place from = in_brick(b, x, low + 0.2 * g->uneven * random_hand(&g->chance));
         place to = {from.u + reach * cos(slant), from.v + reach * sin(slant)};
         double share = share_inside(b, from, to);
@@ -175,7 +167,7 @@ static void one_brick(generator *g, const brick *b)
 /* A running bond: each course is moved by half a brick. Bricks are nearly three times as long as they are high. */
 void pattern_brick(generator *g)
 {
-    enum { STROKES_A_BRICK = 32 };
+    enum { STROKES_A_BRICK = 22 };
     size_t across = (size_t)fmax(1, floor(sqrt((double)g->count / STROKES_A_BRICK / 2.5) + 0.5));
     size_t courses = 2 * (size_t)fmax(1, floor(1.25 * (double)across + 0.5));
     double width = 1 / (double)across, height = 1 / (double)courses, joint = 0.08 * height;
