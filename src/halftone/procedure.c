@@ -11,6 +11,7 @@ const char *const screen_procedure_names[PROCEDURE_COUNT + 1] = {"lines", "dots"
 enum {
     PERIOD_MOST = 256,
     WAVE = 128,       /* texels over which an engraved line sways by one texel */
+    WAVE_APART = 79,  /* and from line to line */
     DOT_TILE = 64,    /* texels over which clustered dots take turns in growing */
     BLUE_TILE = 64,
     FINE = 1 << 16    /* fixed point */
@@ -79,10 +80,10 @@ static uint64_t dot_key(int x, int y, int period, int tile)
 }
 
 /* Profile of a line along u, whose middle sways by half a texel to both sides: so every height within a texel is met equally often, and the tone does not go
- * in steps of two rows of texels. */
+ * in steps of two rows of texels. Each line sways at other places, or all would grow wider in the same columns. */
 static uint8_t line_value(int x, int y, int period, int side)
 {
-    int     wave = side < WAVE ? side : WAVE, at = x % wave;
+    int     wave = side < WAVE ? side : WAVE, line = (y + period / 2) / period % (side / period), at = (x + line * WAVE_APART) % wave;
     int64_t sway = 0; /* in texels times 2 × wave */
     if (side >= 8 * period)
         sway = at * 2 < wave ? 4 * at + 2 - wave : 4 * (wave - 1 - at) + 2 - wave;

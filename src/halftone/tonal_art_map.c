@@ -172,14 +172,14 @@ static bool tam_begin(tam *t, const tam_wishes *w, strokes *kept)
         t->brush.width *= (double)w->drawn->width;
     /* Ink covers paper; graphite leaves some of it even where many strokes lie. */
     t->limit = w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1;
-    bool fitted = !w->drawn && w->placement == TAM_BEST_FIT, enough = true;
+    bool enough = true;
     for (int side = w->side; side >= SIDE_LEAST; side /= 2) {
         tam_level *level = &t->levels[t->level_count++];
         size_t     texels = (size_t)side * (size_t)side;
         level->side = side;
         level->ink = mem_calloc(texels, sizeof *level->ink);
         enough = enough && level->ink;
-        for (int d = 0; fitted && d < (w->cross ? 2 : 1); d++) {
+        for (int d = 0; !w->drawn && d < (w->cross ? 2 : 1); d++) {
             level->crowd[d] = mem_calloc(texels, sizeof *level->crowd[d]);
             enough = enough && level->crowd[d];
         }
@@ -201,9 +201,7 @@ static void keep_tone(const tam *t, mip_chain *out)
 
 static bool fill_tone(tam *t, queue *q)
 {
-    bool fitted = !t->wishes->drawn && t->wishes->placement == TAM_BEST_FIT, good = true;
-    if (fitted)
-        good = tam_set_crowding(t);
+    bool fitted = t->wishes->placement == TAM_BEST_FIT, good = t->wishes->drawn || tam_set_crowding(t);
     for (t->level = t->level_count - 1; good && t->level >= 0; t->level--)
         good = t->wishes->drawn ? fill_drawn(t, q) : fitted ? tam_fill_best(t) : tam_fill_strips(t);
     return good;

@@ -6,7 +6,8 @@
 #include "base/memory.h"
 
 enum {
-    CANDIDATES = 320,   /* tried for one stroke */
+    CANDIDATES = 320,   /* tried for one stroke of the best fit */
+    STRIP_CANDIDATES = 8,
     CROWD_STEPS = 4,    /* entries of the table of crowding, a texel */
     STROKES_A_TEXEL = 2 /* more than that are never needed, whatever the tone */
 };
@@ -120,26 +121,33 @@ static size_t strokes_most(const tam *t)
     return STROKES_A_TEXEL * side * side + 16;
 }
 
-bool tam_fill_best(tam *t)
+/* Tries places in a band across strokes' direction and draws where it is least crowded. */
+static bool put_best(tam *t, double length, int direction, double band, double thickness, int candidates)
 {
     const tam_level *level = &t->levels[t->level];
+    stroke           best = {0};
+    float            least = INFINITY;
+    for (int k = 0; k < candidates; k++) {
+        double at = random_unit(&t->random), aside = band + thickness * random_unit(&t->random);
+        aside -= floor(aside);
+        stroke s = stroke_at(t, direction == TAM_ALONG ? at : aside, direction == TAM_ALONG ? aside : at, length, direction);
+        float  crowd = crowd_along(level, level->crowd[direction], &s, least);
+        if (crowd < least) {
+            least = crowd;
+            best = s;
+        }
+    }
+    return tam_put(t, best, direction);
+}
+
+bool tam_fill_best(tam *t)
+{
     for (size_t i = strokes_most(t); i > 0; i--) {
         int    direction = direction_of(t);
         double length = next_length(t);
         if (length <= 0)
             return true;
-        stroke best = {0};
-        float  least = INFINITY;
-        for (int k = 0; k < CANDIDATES; k++) {
-            double u = random_unit(&t->random), v = random_unit(&t->random);
-            stroke s = stroke_at(t, u, v, length, direction);
-            float  crowd = crowd_along(level, level->crowd[direction], &s, least);
-            if (crowd < least) {
-                least = crowd;
-                best = s;
-            }
-        }
-        if (!tam_put(t, best, direction))
+        if (!put_best(t, length, direction, 0, 1, CANDIDATES))
             return false;
     }
     return true;
@@ -160,15 +168,15 @@ static size_t common_divisor(size_t a, size_t b)
 }
 
 /* As many strips as strokes are needed, one stroke into each, until the tone is there. Strips are taken in steps of the golden section, so that those that
- * are left over at the end lie apart, and so are the strokes' beginnings, half of that at random. */
+ * are left over at the end lie apart. The seed's strips are of an empty picture; here there are strokes of lighter tones and coarser levels already, so
+ * that each stroke takes the best of a few places in its strip. */
 bool tam_fill_strips(tam *t)
 {
     const tam_wishes *w = t->wishes;
     double            inside = w->opacity < 1 ? 1 : STRIP_SHARE;
     for (size_t most = strokes_most(t); most > 0;) {
-        double needed = tam_missing(t) / tam_expected(t, t->level, 0.5 * (1 + SHORTEST) * w->length);
+        double needed = tam_missing(t) / tam_expected(t, t->level, 0.5 * (1 + SHORTEST) * w->length), from = random_unit(&t->random);
         size_t strips = needed > 1 ? (size_t)needed : 1, step = (size_t)((double)strips * GOLDEN) + 1, strip = 0;
-        double from = random_unit(&t->random), start = random_unit(&t->random);
         while (common_divisor(strips, step) > 1)
             step--;
         for (size_t i = 0; i < strips && most > 0; i++, most--, strip = (strip + step) % strips) {
@@ -176,12 +184,8 @@ bool tam_fill_strips(tam *t)
             double length = next_length(t);
             if (length <= 0)
                 return true;
-            double aside = from + ((double)strip + 0.5 + inside * (random_unit(&t->random) - 0.5)) / (double)strips;
-            double at = start + GOLDEN * (double)strip + 0.5 * random_unit(&t->random);
-            aside -= floor(aside);
-            at -= floor(at);
-            stroke s = stroke_at(t, direction == TAM_ALONG ? at : aside, direction == TAM_ALONG ? aside : at, length, direction);
-            if (!tam_put(t, s, direction))
+            double band = from + ((double)strip + 0.5 * (1 - inside)) / (double)strips;
+            if (!put_best(t, length, direction, band, inside / (double)strips, STRIP_CANDIDATES))
                 return false;
         }
     }
