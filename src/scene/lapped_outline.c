@@ -9,10 +9,16 @@ double lapped_outline(uint32_t patch, double angle)
     return 0.7 + 0.2 * sin(3 * angle + 2.4 * patch) + 0.1 * sin(7 * angle + 1.7 * patch);
 }
 
+/* Nothing here is so large or small that it would need the care, and the time, of hypot. */
+static double length_of(double x, double y)
+{
+    return sqrt(x * x + y * y);
+}
+
 /* How far beyond the outline, in radii; negative inside. */
 static double beyond(uint32_t patch, double radius, flat_place p)
 {
-    return hypot(p.x, p.y) / radius - lapped_outline(patch, atan2(p.y, p.x));
+    return length_of(p.x, p.y) / radius - lapped_outline(patch, atan2(p.y, p.x));
 }
 
 /* Away from the middle, `beyond` changes by no more than this for each radius travelled: the outline's slope is at most 1.3, and its least distance 0.4. */
@@ -22,9 +28,11 @@ static const double finest = 0.004; /* radii; shorter pieces are not divided fur
 static bool segment_inside(uint32_t patch, double radius, flat_place a, flat_place b)
 {
     flat_place middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-    double half = hypot(b.x - a.x, b.y - a.y) / 2 / radius, from = hypot(middle.x, middle.y) / radius;
+    double half = length_of(b.x - a.x, b.y - a.y) / 2 / radius, from = length_of(middle.x, middle.y) / radius;
     if (from + half < 0.4 - spare)
         return true;
+    if (from > 1)
+        return false;
     double out = beyond(patch, radius, middle);
     if (from - half > 0.35 && out <= -steepest * half - spare)
         return true;
@@ -36,11 +44,13 @@ static bool segment_inside(uint32_t patch, double radius, flat_place a, flat_pla
 static bool segment_touches(uint32_t patch, double radius, flat_place a, flat_place b)
 {
     flat_place middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-    double half = hypot(b.x - a.x, b.y - a.y) / 2 / radius, from = hypot(middle.x, middle.y) / radius;
+    double half = length_of(b.x - a.x, b.y - a.y) / 2 / radius, from = length_of(middle.x, middle.y) / radius;
+    if (from - half > 1 + spare)
+        return false;
     double out = beyond(patch, radius, middle);
     if (out <= spare || half < 4 * finest)
         return out <= spare + steepest * half;
-    if (from - half > 1 || (from - half > 0.35 && out > steepest * half + spare))
+    if ((from - half > 0.35 && out > steepest * half + spare))
         return false;
     return segment_touches(patch, radius, a, middle) || segment_touches(patch, radius, middle, b);
 }

@@ -11,7 +11,7 @@ static flat_place flat_add(flat_place a, flat_place b, double factor)
 
 static double flat_length(flat_place a)
 {
-    return hypot(a.x, a.y);
+    return sqrt(a.x * a.x + a.y * a.y);
 }
 
 /* How far the segment passes from 0. */

@@ -155,10 +155,386 @@ static void directions_agree_with_known_surfaces(void **state)
     check_accuracy("saddle, jittered", grid_surface(saddle_at, 24, 24, false, false, 0.7), saddle_truth);
 }
 
+/* --- what always holds -------------------------------------------------------------------------------------------- */
+
+/* Finite, no trace, within 1; in the plane of each triangle that has the corner, when `flat` says that these agree. */
+static void check_tensors(const primitive *p, const direction_field *f, bool flat)
+{
+    assert_int_equal(f->count, p->vertex_count);
+    assert_true(f->tensor_count >= f->count && f->tensors);
+    for (uint32_t k = 0; k < f->tensor_count; k++) {
+        const float *t = f->tensors[k];
+        double sum = 0;
+        for (int i = 0; i < 6; i++) {
+            assert_true(isfinite(t[i]));
+            sum += (i < 3 ? 1 : 2) * (double)t[i] * t[i];
+        }
+        assert_true(sqrt(sum / 2) <= 1 + 1e-4);
+        assert_true(fabs((double)t[0] + t[1] + t[2]) <= 1e-4);
+        /* T n = 0 for some n: no third direction. */
+        double determinant = t[0] * ((double)t[1] * t[2] - (double)t[4] * t[4]) - t[3] * ((double)t[3] * t[2] - (double)t[4] * t[5]) +
+                             t[5] * ((double)t[3] * t[4] - (double)t[1] * t[5]);
+        assert_true(fabs(determinant) <= 1e-4);
+    }
+    for (uint32_t c = 0; c < p->index_count; c++) {
+        const uint32_t *k = p->indices + c / 3 * 3;
+        const float *t = direction_field_at(f, p, c);
+        vec3 a = p->positions[k[0]], b = p->positions[k[1]], d = p->positions[k[2]];
+        double u[3] = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z}, v[3] = {(double)d.x - a.x, (double)d.y - a.y, (double)d.z - a.z};
+        place3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        double l = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+        assert_true(c == 0 || direction_field_at(f, p, c) >= f->tensors[0]);
+        if (!flat || !(l > 0))
+            continue;
+        assert_true(fabs(t[0] * n.x + t[3] * n.y + t[5] * n.z) <= 1e-4 * l);
+        assert_true(fabs(t[3] * n.x + t[1] * n.y + t[4] * n.z) <= 1e-4 * l);
+        assert_true(fabs(t[5] * n.x + t[4] * n.y + t[2] * n.z) <= 1e-4 * l);
+    }
+}
+
+static void check_anything(primitive p)
+{
+    for (int i = 0; i < 3; i++) {
+        const double features[3] = {0, 0.8, 4}, radii[3] = {0, 1e9, 1e-9};
+        direction_field f;
+        assert_int_equal(direction_field_make(&f, &p, features[i], radii[i], NULL), LMN_OK);
+        check_tensors(&p, &f, false);
+        direction_field_release(&f);
+    }
+    primitive_release(&p);
+}
+
+static double sureness_of(const float *t)
+{
+    double sum = 0;
+    for (int i = 0; i < 6; i++)
+        sum += (i < 3 ? 1 : 2) * (double)t[i] * t[i];
+    return sqrt(sum / 2);
+}
+
+/* l·T·l: 1 along d, −1 across, times the sureness. */
+static double along(const float *t, place3 l)
+{
+    return t[0] * l.x * l.x + t[1] * l.y * l.y + t[2] * l.z * l.z + 2 * (t[3] * l.x * l.y + t[4] * l.y * l.z + t[5] * l.z * l.x);
+}
+
+static void the_greater_curvature_is_meant(void **state)
+{
+    (void)state;
+    /* The sum of edges bent points along a cylinder's axis; the field must not. */
+    primitive p = grid_surface(cylinder_at, 32, 24, true, false, 0.5);
+    direction_field f = make_field(&p);
+    for (uint32_t v = 0; v < p.vertex_count; v++) {
+        assert_true(along(f.tensors[v], (place3){0, 0, 1}) < -0.9);
+        place3 ring = {-p.positions[v].y, p.positions[v].x, 0};
+        assert_true(along(f.tensors[v], ring) > 0.9);
+    }
+    direction_field_release(&f);
+    primitive_release(&p);
+    /* A saddle bends 2 along x and 1, the other way, along y: the sureness is 1/3 in its middle. Without signs nothing could be told. */
+    p = grid_surface(saddle_at, 40, 40, false, false, 0);
+    f = make_field(&p);
+    double sure = along(f.tensors[20 * 41 + 20], (place3){1, 0, 0});
+    printf("saddle: %.3f along x\n", sure);
+    assert_true(fabs(sure - 1.0 / 3) < 0.05);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+static void a_ball_is_not_sure_of_anything(void **state)
+{
+    (void)state;
+    const place3 round = {2, 2, 2};
+    primitive p = ball(24, 0.7, round);
+    direction_field f = make_field(&p);
+    double most = 0, mean = 0;
+    check_tensors(&p, &f, false);
+    for (uint32_t v = 0; v < p.vertex_count; v++) {
+        double s = sureness_of(f.tensors[v]);
+        most = s > most ? s : most;
+        mean += s / p.vertex_count;
+    }
+    printf("ball: sureness %.3f, at most %.3f\n", mean, most);
+    assert_true(most < 0.1);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+static void a_plane_is_drawn_along_its_longer_side(void **state)
+{
+    (void)state;
+    for (int rotated = 0; rotated < 2; rotated++) {
+        primitive p = grid_surface(plane_at, 12, 4, false, false, rotated ? 0.6 : 0);
+        place3 x = {1, 0, 0};
+        if (rotated) {
+            turn_primitive(&p);
+            x = turned(x);
+        }
+        direction_field f = make_field(&p);
+        check_tensors(&p, &f, true);
+        for (uint32_t v = 0; v < p.vertex_count; v++)
+            assert_true(fabs(along(f.tensors[v], x) - 0.05) < 1e-3);
+        direction_field_release(&f);
+        primitive_release(&p);
+    }
+}
+
+/* A wall shaped like an L: how far it reaches is askew, its borders are not. */
+static void a_facade_is_drawn_along_its_border(void **state)
+{
+    (void)state;
+    static const vec3 corners[8] = {{0, 0, 0}, {4, 0, 0}, {4, 0, 1}, {1, 0, 1}, {1, 0, 3}, {0, 0, 3}, {0, 0, 1}, {1, 0, 0}};
+    static const uint32_t triangles[18] = {0, 7, 3, 0, 3, 6, 7, 1, 2, 7, 2, 3, 6, 3, 4, 6, 4, 5};
+    primitive p = empty_primitive(8, 18);
+    memcpy(p.positions, corners, sizeof corners);
+    memcpy(p.indices, triangles, sizeof triangles);
+    turn_primitive(&p);
+    direction_field f = make_field(&p);
+    check_tensors(&p, &f, true);
+    for (uint32_t v = 0; v < 8; v++)
+        assert_true(along(f.tensors[v], turned((place3){1, 0, 0})) > 0.0499);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+static void faces_of_a_cube_have_one_direction_each(void **state)
+{
+    (void)state;
+    primitive p = shared_cube();
+    direction_field f = make_field(&p);
+    check_tensors(&p, &f, true);
+    assert_non_null(f.corners);
+    for (uint32_t c = 0; c < p.index_count; c += 6) {
+        for (uint32_t k = 0; k < 6; k++)
+            assert_true(memcmp(direction_field_at(&f, &p, c), direction_field_at(&f, &p, c + k), sizeof *f.tensors) == 0);
+        assert_true(fabs(sureness_of(direction_field_at(&f, &p, c)) - 0.05) < 1e-4);
+        /* Along one of the cube's own edges. */
+        const float *t = direction_field_at(&f, &p, c);
+        assert_true(fabs(t[3]) + fabs(t[4]) + fabs(t[5]) < 1e-4);
+    }
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+/* A drum: its flat ends are as round as can be, and must still have one direction; its side is sure. */
+static place3 bowl_at(double u, double v)
+{
+    double a = 2 * field_pi * u, r = v < 0.5 ? v * 4 : 2 + sin((v - 0.5) * field_pi), z = v < 0.5 ? 0 : 1 - cos((v - 0.5) * field_pi);
+    return (place3){r * cos(a), r * sin(a), z};
+}
+
+/* Half a cylinder that goes on as a plane: the plane has the cylinder's direction. */
+static place3 hook_at(double u, double v)
+{
+    double s = 8 * u;
+    if (s < field_pi)
+        return (place3){sin(s), 1 - cos(s), 2 * v};
+    return (place3){-(s - field_pi), 2, 2 * v};
+}
+
+static void flat_places_take_after_what_bends_beside_them(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(hook_at, 80, 20, false, false, 0);
+    direction_field f = make_field(&p);
+    check_tensors(&p, &f, false);
+    for (uint32_t v = 0; v < p.vertex_count; v++)
+        if (p.positions[v].y > 1.9999f)
+            assert_true(along(f.tensors[v], (place3){1, 0, 0}) > 0.04);
+    direction_field_release(&f);
+    primitive_release(&p);
+    p = grid_surface(bowl_at, 48, 40, true, false, 0);
+    f = make_field(&p);
+    check_tensors(&p, &f, false);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+static primitive with_triangles(const uint32_t *triangles, uint32_t count)
+{
+    static const vec3 places[7] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0.2f, 1}, {2, 0, 0}, {3, 0, 0}, {0, 0, 0}};
+    primitive p = empty_primitive(7, count);
+    memcpy(p.positions, places, sizeof places);
+    memcpy(p.indices, triangles, count * sizeof *triangles);
+    return p;
+}
+
+static void barely_meshes_are_finite(void **state)
+{
+    (void)state;
+    const uint32_t one[3] = {0, 1, 2}, flat[3] = {0, 1, 4}, same[3] = {0, 0, 0}, place[3] = {0, 6, 1}, copies[9] = {0, 1, 2, 0, 1, 2, 2, 1, 0};
+    const uint32_t book[9] = {0, 1, 2, 0, 1, 3, 1, 0, 5}, mixed[12] = {0, 1, 2, 1, 4, 5, 0, 4, 2, 0, 3, 2};
+    check_anything(with_triangles(one, 3));
+    check_anything(with_triangles(flat, 3));
+    check_anything(with_triangles(same, 3));
+    check_anything(with_triangles(place, 3));
+    check_anything(with_triangles(copies, 9));
+    check_anything(with_triangles(book, 9));
+    check_anything(with_triangles(mixed, 12));
+    check_anything(with_triangles(one, 0));
+    check_anything(empty_primitive(3, 3));
+    check_anything(empty_primitive(0, 0));
+    primitive p = with_triangles(mixed, 12);
+    p.positions[3] = (vec3){NAN, INFINITY, 0};
+    check_anything(p);
+    p = with_triangles(mixed, 12);
+    p.positions[3] = (vec3){3e38f, -3e38f, 3e38f};
+    check_anything(p);
+    p = with_triangles(mixed, 12);
+    scale_primitive(&p, 1e-42, 0);
+    check_anything(p);
+    /* Everything at once: random triangles between few places, and a torus whose faces are turned at will. */
+    p = empty_primitive(20, 900);
+    for (uint32_t v = 0; v < 20; v++)
+        p.positions[v] = (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)), (float)rint(2 * hashed(v + 200))};
+    for (uint32_t i = 0; i < 900; i++)
+        p.indices[i] = (uint32_t)(hashed(i + 1000) * 19.99);
+    check_anything(p);
+}
+
+/* Windings that disagree and copies of triangles change nothing. */
+static void windings_and_copies_do_not_matter(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(torus_at, 48, 20, true, true, 0.4), q = empty_primitive(p.vertex_count, 2 * p.index_count);
+    memcpy(q.positions, p.positions, p.vertex_count * sizeof *p.positions);
+    for (uint32_t t = 0; t < p.index_count / 3; t++)
+        for (uint32_t k = 0; k < 3; k++) {
+            q.indices[3 * t + k] = p.indices[3 * t + (hashed(t) < 0.5 ? k : 2 - k)];
+            q.indices[p.index_count + 3 * t + k] = p.indices[3 * t + 2 - k];
+        }
+    direction_field a = make_field(&p), b = make_field(&q);
+    double worst = 0;
+    for (uint32_t v = 0; v < p.vertex_count; v++)
+        for (int k = 0; k < 6; k++)
+            worst = fmax(worst, fabs((double)a.tensors[v][k] - b.tensors[v][k]));
+    printf("turned and doubled: off by %.2g\n", worst);
+    assert_true(worst < 1e-4);
+    direction_field_release(&a);
+    direction_field_release(&b);
+    primitive_release(&p);
+    primitive_release(&q);
+}
+
+static void compare_moved(primitive p, const char *name, double tolerance)
+{
+    static const struct {
+        double scale, shift;
+    } moves[] = {{1e-6, 0}, {1e6, 0}, {1, 0.1}, {1, 2}, {1e6, 3e5}};
+    direction_field a = make_field(&p);
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
+        primitive q = empty_primitive(p.vertex_count, p.index_count);
+        memcpy(q.positions, p.positions, p.vertex_count * sizeof *p.positions);
+        memcpy(q.indices, p.indices, p.index_count * sizeof *p.indices);
+        scale_primitive(&q, moves[i].scale, moves[i].shift);
+        direction_field b = make_field(&q);
+        double worst = 0;
+        for (uint32_t v = 0; v < p.vertex_count; v++)
+            for (int k = 0; k < 6; k++)
+                worst = fmax(worst, fabs((double)a.tensors[v][k] - b.tensors[v][k]));
+        printf("%s times %g plus %g: off by %.2g\n", name, moves[i].scale, moves[i].shift, worst);
+        assert_true(worst < tolerance);
+        direction_field_release(&b);
+        primitive_release(&q);
+    }
+    direction_field_release(&a);
+    primitive_release(&p);
+}
+
+static void size_and_place_do_not_matter(void **state)
+{
+    (void)state;
+    const place3 axes = {3, 2, 1};
+    compare_moved(grid_surface(torus_at, 48, 20, true, true, 0.4), "torus", 1e-3);
+    compare_moved(ball(16, 0.4, axes), "ellipsoid", 2e-2);
+    compare_moved(shared_cube(), "cube", 1e-4);
+}
+
+static void the_same_twice(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(torus_at, 200, 100, true, true, 0.4);
+    direction_field a = make_field(&p), b = make_field(&p);
+    assert_memory_equal(a.tensors, b.tensors, a.tensor_count * sizeof *a.tensors);
+    direction_field_release(&a);
+    direction_field_release(&b);
+    primitive_release(&p);
+}
+
+static void memory_may_run_out(void **state)
+{
+    (void)state;
+    primitive p = shared_cube();
+    long n = 1;
+    for (; n < 1000; n++) {
+        lmn_error error = {0};
+        direction_field f;
+        mem_fail_at(n);
+        lmn_status status = direction_field_make(&f, &p, 0.8, 0, &error);
+        mem_fail_at(0);
+        if (status == LMN_OK) {
+            direction_field_release(&f);
+            break;
+        }
+        assert_int_equal(status, LMN_MEMORY);
+        assert_int_equal(error.status, LMN_MEMORY);
+        assert_null(f.tensors);
+    }
+    assert_true(n > 20 && n < 1000);
+    primitive_release(&p);
+}
+
+static void a_million_triangles_do_not_take_long(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(torus_at, 1000, 500, true, true, 0.5);
+    double before = seconds_now(), median, most;
+    direction_field f = make_field(&p);
+    double taken = seconds_now() - before;
+    measure_field(&p, &f, torus_truth, false, &median, &most);
+    printf("torus of %u triangles: %.2f s; median %.2f, 95 %% %.2f degrees\n", p.index_count / 3, taken, median, most);
+    assert_true(median <= 5 && most <= 15);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+static void models_have_fields(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"mesh/suzanne.obj", "mesh/spot.obj", "mesh/teapot.obj", "mesh/cube.ply", "mesh/scifihelmet-binary.ply", "mesh/gearbox-100k.stl"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        primitive p;
+        if (!model_primitive(names[i], &p))
+            skip();
+        double before = seconds_now(), sure = 0;
+        direction_field f = make_field(&p);
+        double taken = seconds_now() - before;
+        check_tensors(&p, &f, false);
+        for (uint32_t k = 0; k < f.tensor_count; k++)
+            sure += sureness_of(f.tensors[k]) >= 0.1;
+        printf("%-30s %6u triangles: %.3f s, sure at %.0f %%\n", names[i], p.index_count / 3, taken, 100 * sure / f.tensor_count);
+        direction_field_release(&f);
+        primitive_release(&p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_agree_with_known_surfaces),
+        cmocka_unit_test(the_greater_curvature_is_meant),
+        cmocka_unit_test(a_ball_is_not_sure_of_anything),
+        cmocka_unit_test(a_plane_is_drawn_along_its_longer_side),
+        cmocka_unit_test(a_facade_is_drawn_along_its_border),
+        cmocka_unit_test(faces_of_a_cube_have_one_direction_each),
+        cmocka_unit_test(flat_places_take_after_what_bends_beside_them),
+        cmocka_unit_test(barely_meshes_are_finite),
+        cmocka_unit_test(windings_and_copies_do_not_matter),
+        cmocka_unit_test(size_and_place_do_not_matter),
+        cmocka_unit_test(the_same_twice),
+        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(a_million_triangles_do_not_take_long),
+        cmocka_unit_test(models_have_fields),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }

@@ -160,11 +160,224 @@ static void models_are_covered(void **state)
     }
 }
 
+/* How the x axis of places runs on a triangle: the surface's direction in which x grows and y does not, as shares of the edges from the first corner. */
+static double along_field(const primitive *p, const lapped_mesh *m, const direction_field *f, uint32_t k, uint32_t origin)
+{
+    const float *a = m->places[m->indices[3 * k]], *b = m->places[m->indices[3 * k + 1]], *c = m->places[m->indices[3 * k + 2]];
+    double ux = (double)b[0] - a[0], uy = (double)b[1] - a[1], vx = (double)c[0] - a[0], vy = (double)c[1] - a[1], det = ux * vy - uy * vx;
+    double s = vy / det, t = -uy / det;
+    vec3 o = p->positions[p->indices[3 * origin]], q = p->positions[p->indices[3 * origin + 1]], r = p->positions[p->indices[3 * origin + 2]];
+    double l[3] = {s * (q.x - o.x) + t * (r.x - o.x), s * (q.y - o.y) + t * (r.y - o.y), s * (q.z - o.z) + t * (r.z - o.z)};
+    double length = sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]), sum[6] = {0}, size = 0;
+    for (uint32_t i = 0; i < 3; i++)
+        for (int j = 0; j < 6; j++)
+            sum[j] += (double)direction_field_at(f, p, 3 * origin + i)[j];
+    for (int j = 0; j < 6; j++)
+        size += (j < 3 ? 1 : 2) * sum[j] * sum[j];
+    for (int j = 0; j < 3; j++)
+        l[j] /= length;
+    return (sum[0] * l[0] * l[0] + sum[1] * l[1] * l[1] + sum[2] * l[2] * l[2] + 2 * (sum[3] * l[0] * l[1] + sum[4] * l[1] * l[2] + sum[5] * l[2] * l[0])) /
+           sqrt(size / 2);
+}
+
+static void places_run_along_the_field(void **state)
+{
+    (void)state;
+    primitive shapes[2] = {grid_surface(torus_at, 96, 32, true, true, 0.4), grid_surface(cylinder_at, 48, 40, true, false, 0.4)};
+    for (int i = 0; i < 2; i++) {
+        direction_field f;
+        lapped_mesh m;
+        primitive *p = &shapes[i];
+        assert_int_equal(direction_field_make(&f, p, 0.8, 0, NULL), LMN_OK);
+        assert_int_equal(lapped_make(&m, p, &f, 0.7, 3, NULL), LMN_OK);
+        origins o = find_origins(p, &m);
+        double sum = 0;
+        for (uint32_t k = 0; k < m.index_count / 3; k++)
+            sum += along_field(p, &m, &f, k, o.of[k]);
+        sum /= m.index_count / 3;
+        printf("%s: cos 2θ between x and the field is %.3f on average\n", i ? "cylinder" : "torus", sum);
+        assert_true(sum > 0.97); /* 7 degrees */
+        origins_release(&o);
+        lapped_release(&m);
+        direction_field_release(&f);
+        primitive_release(p);
+    }
+}
+
+/* The plane is laid flat as it is. */
+static void a_plane_is_not_stretched(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(plane_at, 30, 10, false, false, 0.6);
+    lapped_mesh m = lap(&p, 0.3, 1);
+    for (uint32_t k = 0; k < m.index_count; k++) {
+        uint32_t i = m.indices[k], j = m.indices[k % 3 == 2 ? k - 2 : k + 1];
+        vec3 a = p.positions[m.source[i]], b = p.positions[m.source[j]];
+        double there = sqrt(pow((double)a.x - b.x, 2) + pow((double)a.y - b.y, 2) + pow((double)a.z - b.z, 2));
+        double here = hypot((double)m.places[i][0] - m.places[j][0], (double)m.places[i][1] - m.places[j][1]);
+        assert_true(fabs(here - there) < 1e-4);
+        /* x of places is ±x of the plane. */
+        assert_true(fabs(fabs((double)m.places[i][0] - m.places[j][0]) - fabs((double)a.x - b.x)) < 1e-3);
+    }
+    lapped_release(&m);
+    primitive_release(&p);
+}
+
+/* Away from the middle the outline turns: no stretch of a tenth of the way around is as straight as a quad's side would be. */
+static void outlines_have_no_straight_sides(void **state)
+{
+    (void)state;
+    for (uint32_t k = 0; k < 1000; k++) {
+        double straightest = 1;
+        for (int i = 0; i < 200; i++) {
+            double off = 0, p[3][2];
+            for (int j = 0; j < 3; j++) {
+                double a = 2 * field_pi * (i / 200.0 + j / 20.0), r = lapped_outline(k, a);
+                assert_true(r >= 0.4 - 1e-12 && r <= 1 + 1e-12);
+                p[j][0] = r * cos(a);
+                p[j][1] = r * sin(a);
+            }
+            for (int q = 1; q < 20; q++) {
+                double a = 2 * field_pi * (i / 200.0 + q / 200.0), r = lapped_outline(k, a), dx = p[2][0] - p[0][0], dy = p[2][1] - p[0][1];
+                off = fmax(off, fabs((r * cos(a) - p[0][0]) * dy - (r * sin(a) - p[0][1]) * dx) / hypot(dx, dy));
+            }
+            straightest = fmin(straightest, off);
+        }
+        assert_true(straightest > 0.002);
+    }
+}
+
+static void the_seed_decides_alone(void **state)
+{
+    (void)state;
+    const place3 axes = {3, 2, 1};
+    primitive p = ball(20, 0.3, axes);
+    lapped_mesh a = lap(&p, 0.5, 7), b = lap(&p, 0.5, 7), c = lap(&p, 0.5, 8);
+    assert_int_equal(a.vertex_count, b.vertex_count);
+    assert_int_equal(a.index_count, b.index_count);
+    assert_memory_equal(a.places, b.places, a.vertex_count * sizeof *a.places);
+    assert_memory_equal(a.source, b.source, a.vertex_count * sizeof *a.source);
+    assert_memory_equal(a.indices, b.indices, a.index_count * sizeof *a.indices);
+    assert_true(a.vertex_count != c.vertex_count || memcmp(a.places, c.places, a.vertex_count * sizeof *a.places) != 0);
+    lapped_release(&a);
+    lapped_release(&b);
+    lapped_release(&c);
+    primitive_release(&p);
+}
+
+/* A model that is a million times as large has patches that are. */
+static void size_does_not_matter(void **state)
+{
+    (void)state;
+    const double scales[2] = {1048576, 1.0 / 1048576};
+    primitive p = grid_surface(torus_at, 48, 20, true, true, 0.4);
+    lapped_mesh a = lap(&p, 0.8, 2);
+    for (int i = 0; i < 2; i++) {
+        primitive q = empty_primitive(p.vertex_count, p.index_count);
+        memcpy(q.positions, p.positions, p.vertex_count * sizeof *p.positions);
+        memcpy(q.indices, p.indices, p.index_count * sizeof *p.indices);
+        scale_primitive(&q, scales[i], 0);
+        lapped_mesh b = lap(&q, 0.8 * scales[i], 2);
+        assert_int_equal(a.vertex_count, b.vertex_count);
+        for (uint32_t v = 0; v < a.vertex_count; v++)
+            assert_true(fabs((double)a.places[v][0] - b.places[v][0] / scales[i]) < 1e-5);
+        lapped_release(&b);
+        primitive_release(&q);
+    }
+    lapped_release(&a);
+    primitive_release(&p);
+}
+
+/* Windings that disagree, copies, faces on edges of three, triangles that are none. */
+static void barely_meshes_are_covered(void **state)
+{
+    (void)state;
+    primitive torus = grid_surface(torus_at, 48, 20, true, true, 0.4), p = empty_primitive(torus.vertex_count, torus.index_count + 60);
+    memcpy(p.positions, torus.positions, torus.vertex_count * sizeof *torus.positions);
+    for (uint32_t t = 0; t < torus.index_count / 3; t++)
+        for (uint32_t k = 0; k < 3; k++)
+            p.indices[3 * t + k] = torus.indices[3 * t + (hashed(t) < 0.3 ? k : 2 - k)];
+    for (uint32_t i = 0; i < 60; i++)
+        p.indices[torus.index_count + i] = i < 30 ? torus.indices[i / 3 * 3 + (i + 1) % 3] : (uint32_t)(hashed(i) * torus.vertex_count * 0.999);
+    check_coverage("disagreeing", p, 0.8);
+    primitive_release(&torus);
+    p = empty_primitive(3, 3);
+    lapped_mesh m = lap(&p, 1, 0);
+    assert_int_equal(m.index_count, 0);
+    assert_true(m.stretch >= 1 && m.stretch <= 1.5);
+    lapped_release(&m);
+    primitive_release(&p);
+    p = empty_primitive(0, 0);
+    m = lap(&p, -1, 0);
+    lapped_release(&m);
+    primitive_release(&p);
+    p = empty_primitive(12, 120);
+    for (uint32_t v = 0; v < 12; v++)
+        p.positions[v] = (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)), (float)rint(2 * hashed(v + 200))};
+    for (uint32_t i = 0; i < 120; i++)
+        p.indices[i] = (uint32_t)(hashed(i + 1000) * 11.99);
+    m = lap(&p, 0.5, 0);
+    check_form(&p, &m);
+    lapped_release(&m);
+    primitive_release(&p);
+}
+
+static void memory_may_run_out(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(torus_at, 12, 8, true, true, 0);
+    direction_field f;
+    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
+    long n = 1;
+    for (; n < 100000; n++) {
+        lmn_error error = {0};
+        lapped_mesh m;
+        mem_fail_at(n);
+        lmn_status status = lapped_make(&m, &p, &f, 1.5, 1, &error);
+        mem_fail_at(0);
+        if (status == LMN_OK) {
+            lapped_release(&m);
+            break;
+        }
+        assert_int_equal(status, LMN_MEMORY);
+        assert_null(m.places);
+    }
+    assert_true(n > 30 && n < 100000);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
+/* No limit is asked of large models; the figure is for comparison. */
+static void large_surfaces(void **state)
+{
+    (void)state;
+    primitive p = grid_surface(torus_at, 500, 200, true, true, 0.4);
+    direction_field f;
+    lapped_mesh m;
+    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
+    double before = seconds_now();
+    assert_int_equal(lapped_make(&m, &p, &f, 0.7, 1, NULL), LMN_OK);
+    printf("torus of %u triangles: %.2f s, %u patches, %.2f times, stretch %.3f\n", p.index_count / 3, seconds_now() - before, m.patch_count,
+           (double)m.index_count / p.index_count, m.stretch);
+    check_form(&p, &m);
+    lapped_release(&m);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_is_covered),
         cmocka_unit_test(models_are_covered),
+        cmocka_unit_test(places_run_along_the_field),
+        cmocka_unit_test(a_plane_is_not_stretched),
+        cmocka_unit_test(outlines_have_no_straight_sides),
+        cmocka_unit_test(the_seed_decides_alone),
+        cmocka_unit_test(size_does_not_matter),
+        cmocka_unit_test(barely_meshes_are_covered),
+        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(large_surfaces),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
