@@ -167,13 +167,38 @@ static lmn_status find_ground(colour *out, const lmn_look *look, const lmn_draw_
     return status;
 }
 
+/* Where materials have strokes of their own, each gets its textures. */
+static lmn_status bring_by_material(lmn_renderer *r, figure *fig, const technique_use *surface, const lmn_scene *scene, lmn_error *error)
+{
+    void *values = mem_copy(surface->values, surface->technique->params_size);
+    fig->material_textures = mem_calloc(scene->material_count, sizeof *fig->material_textures);
+    lmn_status status = values && fig->material_textures ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < scene->material_count && status == LMN_OK; i++) {
+        int32_t index = scene->materials[i].base_texture.image;
+        memcpy(values, surface->values, surface->technique->params_size);
+        surface->technique->by_material(values, index >= 0 ? scene->images[index].strokes : NULL);
+        status = made_textures_find(&r->made, r->g, &(technique_use){surface->technique, values}, &fig->material_textures[i], error);
+    }
+    mem_free(values);
+    return status;
+}
+
 /* What surface techniques make on the CPU. */
 static lmn_status bring_textures(lmn_renderer *r, plan *p, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     made_textures_trim(&r->made, r->g);
-    for (size_t i = 0; i < p->figure_count && status == LMN_OK; i++)
-        status = made_textures_find(&r->made, r->g, rule_use(p->figures[i].rule, KIND_SURFACE), &p->figures[i].textures, error);
+    for (size_t i = 0; i < p->figure_count && status == LMN_OK; i++) {
+        figure *fig = &p->figures[i];
+        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
+        technique_use plain = {surface ? surface->technique : NULL, NULL};
+        bool differ = surface && surface->technique->by_material && (plain.values = mem_copy(surface->values, surface->technique->params_size)) &&
+                      surface->technique->by_material(plain.values, NULL);
+        status = made_textures_find(&r->made, r->g, differ ? &plain : surface, &fig->textures, error);
+        if (status == LMN_OK && differ)
+            status = bring_by_material(r, fig, surface, p->scene, error);
+        mem_free(plain.values);
+    }
     return status;
 }
 

@@ -501,6 +501,7 @@ void plan_release(plan *p)
     for (size_t i = 0; i < p->figure_count; i++) {
         mem_free(p->figures[i].designated);
         mem_free(p->figures[i].focus);
+        mem_free(p->figures[i].material_textures);
     }
     for (size_t i = 0; i < p->rule_count; i++)
         release_rule(&p->rules[i]);

@@ -24,6 +24,7 @@ typedef struct figure {
     bool        ghostly;    /* of ghosts alone */
     int         layer_count; /* layers at most */
     used_textures textures;  /* of the surface technique; found by who draws */
+    used_textures *material_textures; /* the same, one a material of the scene, where these differ; else NULL */
 } figure;
 
 typedef struct plan {

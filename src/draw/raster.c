@@ -52,6 +52,8 @@ static void declare_material(text *prelude, const figure_state *s, const draw_it
         text_append(prelude, "#define HAS_UV\n");
     if (item->has_colours)
         text_append(prelude, "#define HAS_COLOURS\n");
+    if (item->has_uv1)
+        text_append(prelude, "#define HAS_UV1\n");
     if (t.base)
         text_append(prelude, "#define HAS_BASE_TEXTURE\n");
     if (t.normal)
@@ -95,6 +97,7 @@ static const outputs no_outputs = {-1, -1, -1, -1};
 
 /* One run over the parts. */
 typedef struct raster_job {
+    const gpu_pass     *pass;   /* that is drawn into */
     const figure_state *state;  /* of the only figure; NULL: whose part it is in the stack */
     solid_layers       *solids; /* the surfaces of solids, found when first needed */
     const layer_stack  *stack;
@@ -143,6 +146,12 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     snprintf(path, size, "%s", joined);
 }
 
+/* What the surface technique made, for a material (NONE: without one). */
+static const used_textures *made_for(const figure *fig, int32_t material)
+{
+    return fig->material_textures && material >= 0 ? &fig->material_textures[material] : &fig->textures;
+}
+
 /* `prelude` says what the material needs; it is used up. */
 static gpu_program *raster_program(frame *f, const figure_state *s, const char *vertex, text prelude, const raster_job *job)
 {
@@ -189,18 +198,18 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_colours, is_cut, has_field, has_patches, ready;
+    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, ready;
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
 /* What programs of the geometry pass get, wherever their surfaces come from. */
-static void set_pass(frame *f, const raster_job *job, const figure_state *s)
+static void set_pass(frame *f, const raster_job *job, const figure_state *s, int32_t material)
 {
     frame_set_common(f, s);
     if (job->at.shade >= 0) {
         const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
-        used_textures_set(f->g, surface, &s->figure->textures);
+        used_textures_set(f->g, surface, made_for(s->figure, material));
     }
     if (job->inking)
         set_ink(f, s, job->inking);
@@ -234,7 +243,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
-        item->has_colours == last->has_colours && item->is_cut == last->is_cut && field == last->has_field && patches == last->has_patches)
+        item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut && field == last->has_field && patches == last->has_patches)
         return;
     material tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
@@ -245,10 +254,11 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
-    set_pass(f, job, s);
+    set_pass(f, job, s, item->material);
     frame_set_projection(f);
     set_material(f->g, m, t, job->stack != NULL);
-    *last = (raster_setup){s, item->material, item->has_uvs, item->has_colours, item->is_cut, field, patches, true, last->triangles};
+    *last = (raster_setup){.owner = s, .material = item->material, .has_uvs = item->has_uvs, .has_uv1 = item->has_uv1, .has_colours = item->has_colours,
+                           .is_cut = item->is_cut, .has_field = field, .has_patches = patches, .ready = true, .triangles = last->triangles};
 }
 
 /* The figure among those of the stack that draws a part; NULL: none. */
@@ -282,14 +292,69 @@ static void set_ids(frame *f, const raster_job *job, const figure_state *s, cons
     gpu_set_uint(f->g, "u_order", order);
 }
 
+/* Does the surface look light up in a map of the item's? */
+static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->light_map_when &&
+           params_condition(surface->technique->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
+}
+
+/* The light on one item, laid out by its texture coordinates. The caller gives it back. */
+static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_item *item)
+{
+    enum { SIDE = 1024, BORDER = 4 };
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    gpu_texture *map = gpu_target_acquire(f->g, SIDE, SIDE, GPU_RGBA16F), *other = gpu_target_acquire(f->g, SIDE, SIDE, GPU_RGBA16F);
+    material tinted;
+    const material *m = material_of(f, s->figure, item, &tinted);
+    item_textures t = textures_of(f, item, m);
+    text prelude = {0};
+    declare_material(&prelude, s, item, m, t);
+    text_append(&prelude, "#define UNWRAPPED\n");
+    lights_declare(&prelude, f);
+    uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+    used_textures_declare(&prelude, surface, made_for(s->figure, item->material));
+    char path[320];
+    snprintf(path, sizeof path, "%s+layer/light_map.frag", surface->technique->surface);
+    gpu_program *lit = program_of(f, GPU_FLOOR, "layer/raster.vert", path, &prelude);
+    gpu_pass_begin(f->g, &(gpu_pass){.colours = {map}, .colour_count = 1, .clear = true});
+    gpu_use(f->g, lit, (gpu_state){0});
+    frame_set_common(f, s);
+    uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+    set_material(f->g, m, t, false);
+    frame_set_transform(f, &item->world);
+    gpu_draw_mesh(f->g, item->mesh);
+    for (int i = 0; i < BORDER && !gpu_failed(f->g); i++) {
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {other}, .colour_count = 1});
+        gpu_use(f->g, gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "layer/light_map_pad.frag", ""), (gpu_state){0});
+        gpu_set_texture(f->g, "t_light_map", map, false);
+        gpu_draw_screen(f->g);
+        gpu_texture *before = map;
+        map = other;
+        other = before;
+    }
+    gpu_target_release(f->g, other);
+    return map;
+}
+
 static void draw_item_of(frame *f, const raster_job *job, const draw_item *item, raster_setup *last)
 {
     const figure_state *s = item->is_solid ? NULL : owner_of(f, job, item);
     if (!s)
         return;
+    gpu_texture *light_map = wants_light_map(job, s, item) ? draw_light_map(f, s, item) : NULL;
+    if (light_map) {
+        gpu_pass again = *job->pass;
+        again.clear = false;
+        gpu_pass_begin(f->g, &again);
+        last->ready = false;
+    }
     set_up(f, job, s, item, last);
+    gpu_target_release(f->g, light_map);
     if (gpu_failed(f->g))
         return;
+    gpu_set_texture(f->g, "t_light_map", light_map, true);
     frame_set_transform(f, &item->world);
     frame_set_rest(f, item->part_index);
     set_ids(f, job, s, item, last->triangles);
@@ -312,7 +377,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     gpu_use(f->g, raster_program(f, s, "gpu/boxes.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
-    set_pass(f, job, s);
+    set_pass(f, job, s, NONE);
     gpu_set_texture(f->g, "t_surfaces", job->solids->surfaces, false);
     gpu_set_texture(f->g, "t_operands", f->up->operand_table, false);
     solids_set_depth(f, job->solids);
@@ -389,6 +454,9 @@ static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
 {
     raster_setup last = {0};
     const upload *up = f->up;
+    raster_job here = *job;
+    here.pass = pass;
+    job = &here;
     bool *wanted = solids_wanted(f, job);
     if (wanted)
         solids_open(f, job->solids, wanted, &(solid_wishes){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});

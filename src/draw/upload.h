@@ -57,7 +57,7 @@ typedef struct draw_item {
     uint32_t  part_id, surface_id;
     size_t    part_index;
     int32_t   material;
-    bool      has_uvs, has_colours;
+    bool      has_uvs, has_uv1, has_colours;
     bool      is_solid; /* operands of a solid: nothing of them is drawn as it is */
     size_t    solid;    /* in the upload's solids */
     uint32_t  first_operand, operand_count; /* solids: numbers from first_operand + 1 on */

@@ -98,5 +98,5 @@ draw_item upload_item(const upload_part_job *job, size_t primitive_index)
 {
     const primitive *p = &job->mesh->primitives[primitive_index];
     return (draw_item){.part_id = (uint32_t)job->part_index + 1, .surface_id = (uint32_t)primitive_index + 1, .part_index = job->part_index,
-                       .material = p->material, .has_uvs = p->uvs[0] || p->uvs[1], .has_colours = p->colours != NULL};
+                       .material = p->material, .has_uvs = p->uvs[0] || p->uvs[1], .has_uv1 = p->uvs[1] != NULL, .has_colours = p->colours != NULL};
 }

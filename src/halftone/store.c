@@ -2,6 +2,7 @@
 #include "halftone/store.h"
 
 #include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,8 @@ static const char     ENDING[] = ".texture";
 typedef struct header {
     uint32_t magic, version;
     uint64_t description_size;
-    uint32_t width, height, layers, levels, format, clamped, nearest, unused;
+    uint32_t width, height, layers, levels, format, clamped, nearest;
+    float    fact;
 } header;
 
 static const uint32_t MAGIC = 0x4c6d4e74;
@@ -73,7 +75,7 @@ static bool is_sensible(const header *h)
 {
     return h->magic == MAGIC && h->version == VERSION && h->width >= 1 && h->width <= SIDE_MOST && h->height >= 1 && h->height <= SIDE_MOST &&
            h->layers >= 1 && h->layers <= LAYERS_MOST && h->levels >= 1 && h->levels <= MIP_LEVELS_MAX && h->format <= MIP_RG16F && h->clamped <= 1 &&
-           h->nearest <= 1 && h->unused == 0;
+           h->nearest <= 1 && isfinite(h->fact);
 }
 
 /* What the levels take, all together. */
@@ -96,6 +98,7 @@ static bool read_levels(mip_chain *out, const header *h, const unsigned char *at
     }
     out->clamped = h->clamped;
     out->nearest = h->nearest;
+    out->fact = h->fact;
     for (int k = 0; k < out->levels; k++) {
         memcpy(out->data[k], at, mip_level_bytes(out, k));
         at += mip_level_bytes(out, k);
@@ -196,7 +199,7 @@ static void make_room(const char *folder)
 static void write_chain(text *out, const mip_chain *chain, const char *description)
 {
     header h = {MAGIC, VERSION, strlen(description), (uint32_t)chain->width, (uint32_t)chain->height, (uint32_t)chain->layers, (uint32_t)chain->levels,
-                (uint32_t)chain->format, chain->clamped, chain->nearest, 0};
+                (uint32_t)chain->format, chain->clamped, chain->nearest, chain->fact};
     text_append_bytes(out, (const char *)&h, sizeof h);
     text_append_bytes(out, description, strlen(description));
     for (int k = 0; k < chain->levels; k++)

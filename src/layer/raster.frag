@@ -163,7 +163,11 @@ void main()
 #else
     s_uv = v_uv0;
 #endif
+#ifdef HAS_UV1
     s_uv_unique = v_uv1;
+#else
+    s_uv_unique = v_uv0;
+#endif
 #endif
     out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0, 0u));
 #if defined(SOLID) && defined(HAS_CUT)

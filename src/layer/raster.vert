@@ -69,6 +69,13 @@ void main()
     v_patch = a_patch;
 #endif
     gl_Position = u_projection * eye;
+#ifdef UNWRAPPED
+#ifdef HAS_UV1
+    gl_Position = vec4(2.0 * a_uv1 - 1.0, 0.0, 1.0);
+#else
+    gl_Position = vec4(2.0 * a_uv0 - 1.0, 0.0, 1.0);
+#endif
+#endif
 #ifdef CUT_FACE
     gl_Position.z -= u_nearer * gl_Position.w;
 #endif

@@ -16,8 +16,8 @@ in vec4 v_patch;
 uniform float u_patch_radius;
 #endif
 #ifdef HAS_UV
-/* Texture coordinates of the place, for surfaces that are shaded with their geometry: as the material's own picture has them, and the second set, which is meant
- * to be used once. */
+/* Texture coordinates of the place, for surfaces that are shaded with their geometry: as the material's own picture has them, and those that a
+ * light map has: of the second set, where there is one. */
 vec2 s_uv;
 vec2 s_uv_unique;
 #endif

@@ -227,6 +227,7 @@ static void release_appearance(lmn_scene *s)
     for (size_t i = 0; i < s->image_count; i++) {
         mem_free(s->images[i].name);
         mem_free(s->images[i].pixels);
+        mem_free(s->images[i].strokes);
     }
     for (size_t i = 0; i < s->camera_count; i++)
         mem_free(s->cameras[i].name);

@@ -57,6 +57,7 @@ typedef struct image {
     char    *name;
     uint32_t width, height;
     uint8_t *pixels; /* RGBA, row 0 on top, NULL when it could not be decoded */
+    char    *strokes; /* path of the stroke texture that stands for it in halftones; NULL: none */
 } image;
 
 typedef enum wrap_mode { WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR } wrap_mode;

@@ -9,7 +9,8 @@ static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
     PARAM_TEXT_ROW(screen_values, screen, .example = "dots", .is_file = true, .check = screen_check_name,
                    .doc = "The screen: a pattern of strokes (parallel, cross, contour, brick, stipple, scribble, random), a procedure (lines, dots, ordered, "
-                          "blue-noise, hatch-map), or a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp). Empty: cross."),
+                          "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp); material takes the strokes that lie beside each "
+                          "material's picture under its name (.stx). Empty: cross."),
     PARAM_ENUM_ROW(screen_values, scheme, .names = scheme_names, .def = SCHEME_SHARP, .variant = true,
                    .doc = "binary: hard thresholds; smooth: a ramp in the tone, the seed's; sharp: a ramp of a pixel at any zoom; multiply: all strokes, "
                           "whatever the light, over the lit colour."),
@@ -27,6 +28,8 @@ static const param params[] = {
     PARAM_BOOL_ROW(screen_values, equalised, .def = 1, .cpu_only = true, .doc = "Makes the share of ink follow the tone exactly."),
     PARAM_FLOAT_ROW(screen_values, relief, .def = 0, .min = -8, .max = 8, .soft_min = -2, .soft_max = 2,
                     .doc = "Lights each stroke by itself, as a groove (or, below 0, a ridge) this steep: those towards the light go first."),
+    PARAM_BOOL_ROW(screen_values, whole, .def = 0, .variant = true, .only_if = "coordinates=uv",
+                   .doc = "Each stroke has the light of its middle, so that it is drawn whole or not at all."),
     PARAM_TEXT_ROW(screen_values, indication, .is_file = true, .example = "", .check = screen_check_picture,
                    .doc = "A picture on the texture coordinates that asks for more strokes where it is dark and fewer where it is light; middle grey changes nothing."),
     PARAM_ENUM_ROW(screen_values, indicate, .names = indication_names, .only_if = "indication", .variant = true,
@@ -45,6 +48,7 @@ static const param params[] = {
 static const texture_source textures[] = {
     {.name = "screen", .describe = screen_describe, .make = screen_make, .kept = true},
     {.name = "relief", .when = "relief", .describe = screen_describe, .make = screen_make_relief, .kept = true},
+    {.name = "warp", .when = "whole&coordinates=uv", .describe = screen_describe, .make = screen_make_warp, .kept = true},
     {.name = "indication", .when = "indication", .describe = screen_describe_indication, .make = screen_make_indication},
 };
 
@@ -52,6 +56,6 @@ const technique surface_screen = {
     .name = "screen", .doc = "A halftone screen on the surface: strokes, dots or a painted texture that come and go with the tone.",
     .example = "{\"surface\": {\"technique\": \"screen\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(screen_values),
-    .surface = "surface/screen.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
-    .textures = textures, .texture_count = PARAM_COUNT(textures),
+    .surface = "surface/screen.glsl", .direct = true, .light_map_when = "whole&coordinates=uv", .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
+    .by_material = screen_by_material, .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

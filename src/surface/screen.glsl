@@ -69,6 +69,24 @@ float ink_of(float value, float darkness)
 #endif
 }
 
+#ifdef HAS_WARP
+uniform sampler2D t_light_map;
+
+/* How much darker it is at the middle of the stroke that owns a place of the screen than at this place. Seed 001, section 6.6; rows IM-18 to IM-20: the way to the
+ * middle is relative, so that the screen may repeat, and is taken from the screen's coordinates to those of the light map. */
+float darker_at_middle(stroke_plane s, screen_octave o, vec2 at, float own)
+{
+    vec2 way = textureLod(t_warp, vec3(at * o.scale, 0.0), floor(o.level + 0.5)).rg / o.scale;
+    vec2 right = dFdx(s_uv_unique), up = dFdy(s_uv_unique);
+    float area = s.right.x * s.up.y - s.right.y * s.up.x;
+    vec2 pixels = vec2(way.x * s.up.y - way.y * s.up.x, way.y * s.right.x - way.x * s.right.y) / (abs(area) > 1e-20 ? area : 1e-20);
+    vec4 light = texture(t_light_map, s_uv_unique + right * pixels.x + up * pixels.y);
+    return light.a > 0.5 ? darkness_of(tone_of_light(s_point, light.r)) - own : 0.0;
+}
+#endif
+
+float s_darkness; /* of the place itself */
+
 float cover_of(float darkness, int ink)
 {
     float bare = 1.0;
@@ -83,7 +101,11 @@ float cover_of(float darkness, int ink)
 #if SCHEME == 3
             bare -= share * (1.0 - value);
 #else
-            bare *= 1.0 - ink_of(value, darkness * share);
+            float wanted = darkness;
+#ifdef HAS_WARP
+            wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
+#endif
+            bare *= 1.0 - ink_of(value, wanted * share);
 #endif
         }
     }
@@ -92,10 +114,36 @@ float cover_of(float darkness, int ink)
 
 #include "surface/halftone/inks.glsl"
 
+#ifdef HAS_RELIEF
+/* The normal of the stroke here: those of the relief lean along the plane's axes. */
+vec3 relieved_normal()
+{
+    int most = 0;
+    float weight = 0.0;
+    for (int i = 0; i < PLANES; i++) {
+        float own = screen_plane(i, 0).weight;
+        most = own > weight ? i : most;
+        weight = max(weight, own);
+    }
+    stroke_plane s = screen_plane(most, 0);
+    float level = screen_level(s, u_screen_facts.x, texel_of());
+    screen_octave o = octave_of(s, level, 0, least_octave());
+    vec2 lean = textureLod(t_relief, vec3(wavered(s) * o.scale, 0.0), o.level).rg * 2.0 - 256.0 / 255.0;
+    float area = s.right.x * s.up.y - s.right.y * s.up.x;
+    area = abs(area) > 1e-20 ? area : 1e-20;
+    vec3 along = (s_rest.right * s.up.y - s_rest.up * s.right.y) / area, across = (s_rest.up * s.right.x - s_rest.right * s.up.x) / area;
+    float rest = sqrt(max(1.0 - dot(lean, lean), 0.0));
+    return transpose(s_rest.turn) * normalize(normalize(along) * lean.x + normalize(across) * lean.y + s_rest.normal * rest);
+}
+#endif
+
 vec4 surface_colour(surface_point p)
 {
     s_point = p;
     s_rest = place_at_rest(p);
+#ifdef HAS_RELIEF
+    p.normal = relieved_normal();
+#endif
     float tone = tone_of_light(p, light_of(p));
 #if defined(HAS_INDICATION) && defined(HAS_UV)
     float wanted = texture(t_indication, vec3(s_uv, 0.0)).r;
@@ -105,5 +153,6 @@ vec4 surface_colour(surface_point p)
     tone = min(tone, mix(1.0, wanted, clamp(u_indication_strength, 0.0, 1.0)));
 #endif
 #endif
+    s_darkness = clamp(darkness_of(tone), 0.0, 1.0);
     return inked(p, tone);
 }

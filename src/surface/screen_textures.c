@@ -12,9 +12,22 @@ enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8, INDICAT
 static const char *const standard_screen = "cross";
 static const char *const hatch_map_name = "hatch-map";
 
+static const char *const material_name = "material";
+
 static const char *name_of(const screen_values *v)
 {
     return v->screen.text[0] ? v->screen.text : standard_screen;
+}
+
+bool screen_by_material(void *values, const char *strokes)
+{
+    screen_values *v = values;
+    if (strcmp(v->screen.text, material_name) != 0)
+        return false;
+    v->screen.text[0] = '\0';
+    if (strokes && strlen(strokes) < sizeof v->screen.text)
+        memcpy(v->screen.text, strokes, strlen(strokes) + 1);
+    return true;
 }
 
 static int index_in(const char *const *names, const char *name)
@@ -44,22 +57,23 @@ lmn_status screen_check_picture(const char *name, lmn_error *error)
 
 lmn_status screen_check_name(const char *name, lmn_error *error)
 {
-    if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 || strcmp(name, hatch_map_name) == 0 ||
+    if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 || strcmp(name, hatch_map_name) == 0 || strcmp(name, material_name) == 0 ||
         ends_in(name, stroke_endings) || ends_in(name, picture_endings))
         return LMN_OK;
     lmn_status status = error_set(error, LMN_USAGE, "there is no screen '%.200s'", name);
-    const char *names[PATTERN_COUNT + PROCEDURE_COUNT + 1];
+    const char *names[PATTERN_COUNT + PROCEDURE_COUNT + 2];
     size_t count = 0;
     for (int i = 0; i < PATTERN_COUNT; i++)
         names[count++] = stroke_pattern_names[i];
     for (int i = 0; i < PROCEDURE_COUNT; i++)
         names[count++] = screen_procedure_names[i];
     names[count++] = hatch_map_name;
+    names[count++] = material_name;
     const char *near = text_nearest(name, names, count);
     if (near)
         error_hint(error, "did you mean '%s'? Files end in .stx, .svg, .png, .jpg or .webp", near);
     else
-        error_hint(error, "`limner looks` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
+        error_hint(error, "`limner looks screen` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
     return status;
 }
 
@@ -142,6 +156,12 @@ static lmn_status to_relief(mip_chain *out, const strokes *s, const screen_wishe
     return screen_normals(out, s, wishes, (double)v->relief, error);
 }
 
+static lmn_status to_warp(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error)
+{
+    (void)v;
+    return screen_warp(out, s, wishes, error);
+}
+
 /* Puts chains of one layer that are alike into one of several; takes them over. */
 static lmn_status join(mip_chain *out, mip_chain *parts, int count, lmn_error *error)
 {
@@ -220,20 +240,30 @@ lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
     return status;
 }
 
-/* No slopes anywhere. */
-static lmn_status make_flat(mip_chain *out, lmn_error *error)
+static bool has_strokes(const screen_values *v)
 {
-    lmn_status status = mip_chain_create(out, 1, 1, 1, 1, MIP_RG8, error);
+    return index_in(stroke_pattern_names, name_of(v)) >= 0 || ends_in(name_of(v), stroke_endings);
+}
+
+/* One texel: no slope, no way to a stroke's middle. */
+static lmn_status make_flat(mip_chain *out, mip_format format, int value, lmn_error *error)
+{
+    lmn_status status = mip_chain_create(out, 1, 1, 1, 1, format, error);
     if (status == LMN_OK)
-        memset(out->data[0], 128, mip_level_bytes(out, 0));
+        memset(out->data[0], value, mip_level_bytes(out, 0));
     return status;
 }
 
 lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *error)
 {
-    const screen_values *v = values;
-    bool has_strokes = index_in(stroke_pattern_names, name_of(v)) >= 0 || ends_in(name_of(v), stroke_endings);
-    return has_strokes ? make_of_strokes(out, v, to_relief, error) : make_flat(out, error);
+    return has_strokes(values) ? make_of_strokes(out, values, to_relief, error) : make_flat(out, MIP_RG8, 128, error);
+}
+
+lmn_status screen_make_warp(mip_chain *out, const void *values, lmn_error *error)
+{
+    lmn_status status = has_strokes(values) ? make_of_strokes(out, values, to_warp, error) : make_flat(out, MIP_RG16F, 0, error);
+    out->nearest = true;
+    return status;
 }
 
 /* Halves of a picture of greys, each the mean of four. */

@@ -12,16 +12,19 @@ typedef struct screen_values {
     param_words screen, indication;
     int32_t scheme, detail, indicate, frames, pattern_seed;
     float   gain, scale, width, repeat, relief, indication_strength, wobble, uneven, change;
-    bool    centred, equalised;
+    bool    centred, equalised, whole;
 } screen_values;
 
 /* Is it a pattern, a procedure, or a file of a kind that can be read? Errors: LMN_USAGE. */
 lmn_status screen_check_name(const char *name, lmn_error *error);
 lmn_status screen_check_picture(const char *name, lmn_error *error);
 
+/* For screens that are named `material`. */
+bool       screen_by_material(void *values, const char *strokes);
 void       screen_describe(text *out, const void *values);
 lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error);
 lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *error);
+lmn_status screen_make_warp(mip_chain *out, const void *values, lmn_error *error);
 void       screen_describe_indication(text *out, const void *values);
 lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error *error);
 

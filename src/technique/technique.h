@@ -125,8 +125,12 @@ typedef struct technique {
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
     bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
+    const char  *light_map_when; /* surface: condition under which it wants t_light_map, the light (its function light_of) laid out by texture coordinates */
     const char  *forward_when; /* surface: the same under this condition on its parameters; NULL: never */
     mesh_wishes (*wishes)(const void *values); /* surface; NULL: nothing */
+    /* surface: changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all
+     * materials are alike. NULL: always so. */
+    bool       (*by_material)(void *values, const char *strokes);
     const texture_source *textures; /* surface: what it makes on the CPU */
     size_t       texture_count;
     const perturbation *perturbs; /* perturb: how lookups are moved */

@@ -2,12 +2,6 @@
  * its own for each ink. */
 #include "surface/halftone/tone.glsl"
 
-/* Light strokes on dark paper stand for light. */
-float darkness_of(float tone)
-{
-    return dot(u_ink.rgb, LUMINANCE) > dot(u_paper.rgb, LUMINANCE) ? tone : 1.0 - tone;
-}
-
 vec4 laid_over(vec4 paper, vec4 ink, float cover)
 {
     return mix(paper, ink, cover);

@@ -9,6 +9,12 @@ float seen_brightness(vec3 linear)
     return pow(clamp(dot(linear, LUMINANCE), 0.0, 1.0), 1.0 / 2.2);
 }
 
+/* Light strokes on dark paper stand for light. */
+float darkness_of(float tone)
+{
+    return dot(u_ink.rgb, LUMINANCE) > dot(u_paper.rgb, LUMINANCE) ? tone : 1.0 - tone;
+}
+
 float tone_of_light(surface_point p, float light)
 {
     float bent = pow(clamp(light, 0.0, 1.0), u_contrast);
