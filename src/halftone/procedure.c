@@ -79,16 +79,22 @@ static uint64_t dot_key(int x, int y, int period, int tile)
     return (uint64_t)spot << 24 | (uint64_t)(corner << 20) | turn;
 }
 
-/* Profile of a line along u, whose middle sways by half a texel to both sides: so every height within a texel is met equally often, and the tone does not go
- * in steps of two rows of texels. Each line sways at other places, or all would grow wider in the same columns. */
+/* How far a line's middle is off, in shares of a texel times 2 × wave. Where it lay between texels, the tone would go in steps of two rows. So lines sway by half a
+ * texel to both sides, each at other places, or all would grow wider in the same columns; and the few lines of small levels, which shall be straight, are off
+ * by different parts of half a texel. */
+static int64_t line_sway(int x, int line, int lines, int wave)
+{
+    int at = (x + line * WAVE_APART) % wave;
+    if (lines < 8)
+        return (2 * line + 1) * (int64_t)wave / (2 * lines);
+    return at * 2 < wave ? 4 * at + 2 - wave : 4 * (wave - 1 - at) + 2 - wave;
+}
+
 static uint8_t line_value(int x, int y, int period, int side)
 {
-    int     wave = side < WAVE ? side : WAVE, line = (y + period / 2) / period % (side / period), at = (x + line * WAVE_APART) % wave;
-    int64_t sway = 0; /* in texels times 2 × wave */
-    if (side >= 8 * period)
-        sway = at * 2 < wave ? 4 * at + 2 - wave : 4 * (wave - 1 - at) + 2 - wave;
-    int64_t unit = (int64_t)2 * wave;
-    int64_t share = share_of_half(unit * y + wave + sway, unit * period);
+    int     wave = side < WAVE ? side : WAVE, lines = side / period;
+    int64_t unit = (int64_t)2 * wave, off = line_sway(x, (y + period / 2) / period % lines, lines, wave);
+    int64_t share = period > 1 ? share_of_half(unit * y + wave + off, unit * period) : FINE / 2;
     int64_t value = (255 * share + FINE - 1) / FINE;
     return (uint8_t)(value > 254 ? 254 : value < 1 ? 1 : value);
 }

@@ -163,12 +163,13 @@ static kept_file *list_files(const char *folder, size_t *count)
         char        path[PATH_ROOM];
         struct stat facts;
         kept_file   file;
-        if (!is_ours(entry->d_name) || strlen(entry->d_name) >= sizeof file.name ||
+        size_t      length = strlen(entry->d_name);
+        if (!is_ours(entry->d_name) || length >= sizeof file.name ||
             (size_t)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) >= sizeof path || lstat(path, &facts) != 0 || !S_ISREG(facts.st_mode))
             continue;
         if (!mem_grow((void **)&files, &capacity, *count + 1, sizeof *files))
             break;
-        snprintf(file.name, sizeof file.name, "%s", entry->d_name);
+        memcpy(file.name, entry->d_name, length + 1);
         file.size = (uint64_t)facts.st_size;
         file.changed = facts.st_mtim;
         files[(*count)++] = file;

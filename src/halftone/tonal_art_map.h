@@ -10,21 +10,25 @@ typedef enum tam_placement { TAM_BEST_FIT, TAM_STRIPS, TAM_PLACEMENT_COUNT } tam
 extern const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1];
 
 typedef struct tam_wishes {
-    int           side;      /* of level 0, a power of two, at most 1024; 256 */
+    int           side;      /* of level 0, a power of two, 8 … 1024; 256 */
     int           tones;     /* 2 … 16; 6. Tone i of n inks (i + 1) / (n + 1) of the surface, times `darkest` × (n + 1) / n */
     double        darkest;   /* ink of the last tone, 0.05 … 0.98 */
-    double        width;     /* texels, the same on all levels */
-    double        length;    /* longest stroke in the square; lengths are 30 … 100 % of it */
-    double        opacity;   /* 1: hatching; below: gradation, where strokes cover each other and darken by it, less each time (P20, P32) */
-    bool          cross;     /* from the middle tone on also across */
-    float         uneven;    /* wobble of direction, 0 … 1 */
+    double        width;     /* texels, the same on all levels; both ends run out to nothing */
+    double        length;    /* longest stroke in the square, 0.02 … 1; lengths are 30 … 100 % of it, the longer ones on coarse levels */
+    double        opacity;   /* 1: hatching; below: gradation, where strokes cover each other and each takes this share of what is left up to the darkest
+                              * that graphite gets, half way from `darkest` to black (P20, P32) */
+    bool          cross;     /* from the middle tone on also across, until there is as much of both directions */
+    float         uneven;    /* wobble of direction, 0 … 1; the most is a slope of 0.16 */
     tam_placement placement;
-    const strokes *drawn;    /* not NULL: these are placed in the order of their priorities instead (P39: dots and other shapes) */
+    const strokes *drawn;    /* not NULL: these are placed instead, in the order of their light priorities and down to the level of the others, with round
+                              * ends, until a tone is reached or there are none left (P39: dots and other shapes) */
     uint32_t      seed;
 } tam_wishes;
 
-/* R8, one layer a tone, lightest first; 255 is paper; levels with fewer than 8 texels a side are of the tone's grey. Errors: LMN_USAGE, LMN_MEMORY. `kept`
- * may be NULL; else it gets per stroke what was placed: light = tone it appears in first as 1 − tone index / tones, perspective = by coarsest level. */
+/* R8, one layer a tone, lightest first; 255 is paper; levels with fewer than 8 texels a side are of the tone's grey. Pixel by pixel, ink never gets
+ * less towards darker tones, and strokes of a level are in all finer ones. Errors: LMN_USAGE, LMN_MEMORY. `kept`
+ * may be NULL; else it gets per stroke what was placed: light = tone it appears in first as 1 − tone index / tones, perspective = by coarsest level k,
+ * 1 − 0.75 × 2^−k; layer 1: across. It is the caller's even when it is empty. */
 lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_wishes *wishes, lmn_error *error);
 
 #endif
