@@ -53,13 +53,15 @@ float covered(float width, float away)
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
-    darkness = min(darkness / stroke_ink(), 1.0);
     vec2 rate = vec2(s.right.y, s.up.y);
     float g = max(length(rate), 1e-20);
     /* Pixels along the line for a unit of x. */
     float along = g / max(abs(s.right.x * s.up.y - s.up.x * s.right.y), 1e-20);
     float basis = log2(1.0 / (u_scale * g));
     float waver = u_wobble > 0.0 ? living_noise(s.at * vec2(0.07, 0.13), basis, set, u_change) : 0.0;
+    if (u_uneven > 0.0)
+        darkness *= 1.0 + u_uneven * living_noise(s.at * vec2(0.1, 0.2), basis, set + 7u, u_change);
+    darkness = min(darkness / stroke_ink(), 1.0);
 #if TONE_BY == 0
     float octave = log2(darkness / (u_width * g));
 #else
@@ -99,7 +101,7 @@ float set_darkness(float darkness, int set)
     float left = 1.0 - darkness;
     if (left <= pow(1.0 - most, float(SERIES)))
         return 1.0 - pow(max(left, 0.0), 1.0 / float(SERIES));
-    float before = pow(1.0 - most, float(set));
+    float before = set > 0 ? pow(1.0 - most, float(set)) : 1.0; /* 0 to the power of 0 is anything */
     return clamp(1.0 - left / before, 0.0, most);
 }
 

@@ -30,15 +30,16 @@ static const param params[] = {
                     .doc = "Lights each stroke by itself, as a groove (or, below 0, a ridge) this steep: those towards the light go first."),
     PARAM_BOOL_ROW(screen_values, whole, .def = 0, .variant = true, .only_if = "coordinates=uv",
                    .doc = "Each stroke has the light of its middle, so that it is drawn whole or not at all."),
-    PARAM_TEXT_ROW(screen_values, indication, .is_file = true, .example = "", .check = screen_check_picture,
-                   .doc = "A picture on the texture coordinates that asks for more strokes where it is dark and fewer where it is light; middle grey changes nothing."),
-    PARAM_ENUM_ROW(screen_values, indicate, .names = indication_names, .only_if = "indication", .variant = true,
+    PARAM_TEXT_ROW(screen_values, indication, .is_file = true, .example = "checker", .only_if = "coordinates=uv", .check = screen_check_picture,
+                   .doc = "A picture on the texture coordinates that asks for more strokes where it is dark and fewer where it is light; middle grey changes nothing. checker shows how texture "
+                          "coordinates lie."),
+    PARAM_ENUM_ROW(screen_values, indicate, .names = indication_names, .only_if = "coordinates=uv&indication", .variant = true,
                    .doc = "add: lightens and darkens; limit: the picture is the lightest tone that is allowed, dark places stay as they are."),
-    PARAM_FLOAT_ROW(screen_values, indication_strength, .def = 1, .min = -8, .max = 8, .soft_min = 0, .soft_max = 2, .only_if = "indication",
+    PARAM_FLOAT_ROW(screen_values, indication_strength, .def = 1, .min = -8, .max = 8, .soft_min = 0, .soft_max = 2, .only_if = "coordinates=uv&indication",
                     .doc = "Weight of the indication."),
     PARAM_FLOAT_ROW(screen_values, wobble, .def = 0, .min = 0, .max = 100, .soft_max = 10, .unit = UNIT_PX, .along = true, .doc = "How far strokes waver."),
-    PARAM_FLOAT_ROW(screen_values, uneven, .def = 0, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
-    PARAM_INT_ROW(screen_values, frames, .def = 1, .min = 1, .max = 16, .cpu_only = true, .unit = UNIT_COUNT,
+    PARAM_FLOAT_ROW(screen_values, uneven, .def = 0.04, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
+    PARAM_INT_ROW(screen_values, frames, .def = 1, .min = 1, .max = 16, .cpu_only = true, .only_if = "change>0", .unit = UNIT_COUNT,
                   .doc = "Screens that follow each other in time, each drawn anew; of patterns and blue noise only."),
     PARAM_FLOAT_ROW(screen_values, change, .def = 0, .min = 0, .max = 60, .soft_max = 12,
                     .doc = "How often a second the screen, the waver and the unevenness change; 0 never."),
@@ -49,7 +50,7 @@ static const texture_source textures[] = {
     {.name = "screen", .describe = screen_describe, .make = screen_make, .kept = true},
     {.name = "relief", .when = "relief", .describe = screen_describe, .make = screen_make_relief, .kept = true},
     {.name = "warp", .when = "whole&coordinates=uv", .describe = screen_describe, .make = screen_make_warp, .kept = true},
-    {.name = "indication", .when = "indication", .describe = screen_describe_indication, .make = screen_make_indication},
+    {.name = "indication", .when = "coordinates=uv&indication", .describe = screen_describe_indication, .make = screen_make_indication},
 };
 
 const technique surface_screen = {

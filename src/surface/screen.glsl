@@ -69,7 +69,7 @@ float ink_of(float value, float darkness)
 #endif
 }
 
-#ifdef HAS_WARP
+#if defined(HAS_WARP) && defined(HAS_UV)
 uniform sampler2D t_light_map;
 
 /* How much darker it is at the middle of the stroke that owns a place of the screen than at this place. Seed 001, section 6.6; rows IM-18 to IM-20: the way to the
@@ -102,7 +102,7 @@ float cover_of(float darkness, int ink)
             bare -= share * (1.0 - value);
 #else
             float wanted = darkness;
-#ifdef HAS_WARP
+#if defined(HAS_WARP) && defined(HAS_UV)
             wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
 #endif
             bare *= 1.0 - ink_of(value, wanted * share);
@@ -113,6 +113,16 @@ float cover_of(float darkness, int ink)
 }
 
 #include "surface/halftone/inks.glsl"
+
+/* Unevenness of the tone makes strokes swell and thin (IM-26, IM-29). */
+float uneven_tone()
+{
+    if (u_uneven <= 0.0)
+        return 0.0;
+    stroke_plane s = screen_plane(0, 0);
+    float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
+    return u_uneven * living_noise(s.at, log2(1.0 / (rate * 40.0)), 5u, u_change);
+}
 
 #ifdef HAS_RELIEF
 /* The normal of the stroke here: those of the relief lean along the plane's axes. */
@@ -153,6 +163,7 @@ vec4 surface_colour(surface_point p)
     tone = min(tone, mix(1.0, wanted, clamp(u_indication_strength, 0.0, 1.0)));
 #endif
 #endif
+    tone += uneven_tone();
     s_darkness = clamp(darkness_of(tone), 0.0, 1.0);
     return inked(p, tone);
 }

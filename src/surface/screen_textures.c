@@ -12,6 +12,9 @@ enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8, INDICAT
 static const char *const standard_screen = "cross";
 static const char *const hatch_map_name = "hatch-map";
 
+static const char *const checker_name = "checker";
+static const char *const picture_endings[] = {".png", ".jpg", ".jpeg", ".webp", NULL};
+static const char *const stroke_endings[] = {".stx", ".svg", NULL};
 static const char *const material_name = "material";
 
 static const char *name_of(const screen_values *v)
@@ -45,14 +48,11 @@ static bool ends_in(const char *name, const char *const *endings)
     return index_in(endings, ending) >= 0;
 }
 
-static const char *const picture_endings[] = {".png", ".jpg", ".jpeg", ".webp", NULL};
-static const char *const stroke_endings[] = {".stx", ".svg", NULL};
-
 lmn_status screen_check_picture(const char *name, lmn_error *error)
 {
-    if (ends_in(name, picture_endings))
+    if (ends_in(name, picture_endings) || strcmp(name, checker_name) == 0)
         return LMN_OK;
-    return error_set(error, LMN_USAGE, "'%.200s' is no picture; allowed are .png, .jpg and .webp", name);
+    return error_set(error, LMN_USAGE, "'%.200s' is no picture; allowed are .png, .jpg, .webp and the word checker", name);
 }
 
 lmn_status screen_check_name(const char *name, lmn_error *error)
@@ -283,9 +283,24 @@ static void average_levels(mip_chain *chain)
     }
 }
 
+/* Fields of 16 texels, three quarters and a quarter light. */
+static lmn_status make_checker(mip_chain *out, lmn_error *error)
+{
+    enum { SIDE = 256, FIELD = 16 };
+    lmn_status status = mip_chain_create(out, SIDE, SIDE, 1, 0, MIP_R8, error);
+    if (status != LMN_OK)
+        return status;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        ((uint8_t *)out->data[0])[i] = (i / SIDE / FIELD + i % SIDE / FIELD) & 1 ? 192 : 64;
+    average_levels(out);
+    return LMN_OK;
+}
+
 lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error *error)
 {
     const screen_values *v = values;
+    if (strcmp(v->indication.text, checker_name) == 0)
+        return make_checker(out, error);
     image_pixels pixels;
     lmn_status status = image_load(&pixels, v->indication.text, error);
     if (status != LMN_OK)
