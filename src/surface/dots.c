@@ -1,0 +1,31 @@
+/* dots: points on the surface that are worked out where they are needed, at any zoom as dense and as large on the page. Tone comes by their number or by their size. Requirement R-L3 of
+ * seed 001; for any model, since no texture is laid on it. */
+#include "surface/halftone/halftone.h"
+#include "surface/surface.h"
+
+typedef struct dots {
+    halftone_values common;
+    int32_t tone_by;
+    float   scale, diameter, wobble, uneven, change;
+} dots;
+
+static const char *const tone_names[] = {"number", "size", NULL};
+
+static const param params[] = {
+    HALFTONE_ROWS(COORDINATES_TRIPLANAR),
+    PARAM_ENUM_ROW(dots, tone_by, .names = tone_names, .variant = true,
+                   .doc = "Darker places have more dots (number), as in stippling, or larger ones (size), as in print."),
+    PARAM_FLOAT_ROW(dots, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .only_if = "tone_by=number", .doc = "Diameter of the dots."),
+    PARAM_FLOAT_ROW(dots, scale, .def = 6, .min = 1, .max = 200, .soft_min = 3, .soft_max = 30, .unit = UNIT_PX, .only_if = "tone_by=size",
+                    .doc = "Distance between dots, about."),
+    PARAM_FLOAT_ROW(dots, wobble, .def = 0.5, .min = 0, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .doc = "How far dots stray from their rows, share of their distance."),
+    PARAM_FLOAT_ROW(dots, uneven, .def = 0.05, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
+    PARAM_FLOAT_ROW(dots, change, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
+};
+
+const technique surface_dots = {
+    .name = "dots", .doc = "Dots that stay as dense and as large at any zoom, by their number or their size.",
+    .example = "{\"surface\": {\"technique\": \"dots\"}, \"lines\": \"discontinuity\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(dots),
+    .surface = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
+};
