@@ -33,7 +33,7 @@ double tam_expected(const tam *t, int level, double length)
 {
     const tam_level *l = &t->levels[level];
     double           area = length * l->side * t->brush.width * (1 - TAPER_LOSS * t->brush.taper);
-    double           open = (double)t->limit - mean_ink(l);
+    double           full = mean_ink(l) / (double)t->limit, open = (double)t->limit * (1 - full * full); /* in gaps there is more left than in the mean */
     return area * (double)t->opacity * open / ((double)l->side * l->side);
 }
 
