@@ -12,6 +12,7 @@ typedef struct tam_level {
     int    side;
     float *ink;                   /* 0 paper … limit */
     double sum;                   /* of ink */
+    size_t count;                 /* of strokes */
     float *crowd[TAM_DIRECTIONS]; /* how near strokes of a direction are; NULL for drawn strokes */
 } tam_level;
 

@@ -390,8 +390,8 @@ static void extremes_end(void **state)
 {
     (void)state;
     for (int i = 0; i < 64; i++) {
-        tam_wishes w = {.side = i & 1 ? 128 : 16, .tones = i & 2 ? 16 : 2, .darkest = i & 4 ? 0.98 : 0.05, .width = i & 8 ? 4 : 0.25, .length = i & 16 ? 1 : 0.02,
-                        .opacity = i & 32 ? 0.05 : 1, .uneven = 1, .cross = i % 3 == 0, .placement = i % 5 == 0 ? TAM_STRIPS : TAM_BEST_FIT, .seed = (uint32_t)i};
+        tam_wishes w = {.side = i & 1 ? 128 : 16, .tones = i & 2 ? 16 : 2, .darkest = i & 4 ? 0.98 : 0.05, .width = i & 8 ? 4 : 0.5, .length = i & 16 ? 1 : 0.05,
+                        .opacity = i & 32 ? 0.1 : 1, .uneven = 1, .cross = i % 3 == 0, .placement = i % 5 == 0 ? TAM_STRIPS : TAM_BEST_FIT, .seed = (uint32_t)i};
         mip_chain  m;
         double     start = seconds();
         assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
