@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const command *const commands[] = {&command_draw, &command_info, &command_looks, &command_bench, &command_doctor};
+static const command *const commands[] = {&command_draw, &command_info, &command_looks, &command_strokes, &command_bench, &command_doctor};
 
 const char *const up_axis_choices[] = {"y", "z", NULL};
 

@@ -8,7 +8,7 @@
 #include "message.h"
 #include "options.h"
 
-extern const command command_draw, command_info, command_looks, command_bench, command_doctor;
+extern const command command_draw, command_info, command_looks, command_bench, command_doctor, command_strokes;
 
 /* "y" and "z" for --up-axis; index −1 … 1 gives the axis of the same place. */
 extern const char *const up_axis_choices[];

@@ -7,6 +7,7 @@
 #include "limner/look.h"
 #include "limner/scene.h"
 #include "limner/solid.h"
+#include "limner/strokes.h"
 #include "limner/version.h"
 
 #endif

@@ -19,7 +19,7 @@ static const pattern_room rooms[PATTERN_COUNT] = {
     [PATTERN_CONTOUR] = {pattern_contour, 1600, 0.3, ORDER_EVEN},
     [PATTERN_BRICK] = {pattern_brick, 900, 0.06, ORDER_EVEN},
     [PATTERN_STIPPLE] = {pattern_stipple, 4096, 0, ORDER_DRAWN}, /* dots come in the even order already */
-    [PATTERN_SCRIBBLE] = {pattern_scribble, 9400, 1.6, ORDER_EVEN},
+    [PATTERN_SCRIBBLE] = {pattern_scribble, 12000, 1.5, ORDER_EVEN},
     [PATTERN_RANDOM] = {pattern_random, 500, 0.16, ORDER_EVEN},
 };
 

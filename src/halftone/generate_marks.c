@@ -39,7 +39,7 @@ void pattern_random(generator *g)
 
 /* --- scribble --- */
 
-enum { LOOPS = 9, LOOP_CHORDS = 13, SCRIBBLE_CHORDS = LOOPS * LOOP_CHORDS };
+enum { LOOPS = 9, LOOP_CHORDS = 17, SCRIBBLE_CHORDS = LOOPS * LOOP_CHORDS };
 
 /* A pen that always turns the same way, now tighter, now wider: where it turns slowly it moves on, and so its loops wander, none like another. */
 static void scribble(generator *g, place middle, double heading)

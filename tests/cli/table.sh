@@ -74,7 +74,7 @@ group_usage() {
     row 0 '' '' --help; out '^  doctor'
     row 0 '' '' --version; out '^limner [0-9]+\.[0-9]+\.[0-9]+$'
     local command
-    for command in draw info looks bench doctor; do
+    for command in draw info looks strokes bench doctor; do
         row 0 '' '' $command --help; out "^usage: limner $command"
         row 0 '' '' help $command; out "^usage: limner $command"
         row 1 "unknown option '--nosuch'" '' $command --nosuch
@@ -390,6 +390,65 @@ group_solids() {
     local limner=without_openscad
     row 2 '^limner: in-program.scad: a .scad file is a program that openscad must evaluate' '' draw in-program.scad $small
     row 2 '^hint: install OpenSCAD' '' draw in-program.scad $small
+}
+
+group_strokes() {
+    local pattern
+    for pattern in parallel cross contour brick stipple scribble random; do
+        row 0 '' "$pattern.png" strokes $pattern --size 64; is_png $pattern.png
+        row 0 '' 'x.stx' strokes $pattern -o x.stx --count 600 --seed 3 && cp x.stx in-first.stx
+        row 0 '' 'x.stx' strokes $pattern -o x.stx --count 600 --seed 3
+        cmp -s x.stx in-first.stx || complain "two runs give different files"
+        # Through a file nothing is lost.
+        row 0 '' 'x.stx' strokes in-first.stx -o x.stx
+        cmp -s x.stx in-first.stx || complain "the file is not written as it was read"
+        row 0 '' 'x.svg' strokes in-first.stx -o x.svg && cp x.svg in-first.svg
+        row 0 '' 'x.stx' strokes in-first.svg -o x.stx
+        [ "$(wc -l < x.stx)" = "$(wc -l < in-first.stx)" ] || complain "the drawing has another number of strokes"
+        row 0 '' 'x.png' strokes in-first.stx -o x.png --size 64 && cp x.png in-all.png
+        row 0 '' 'x.png' strokes in-first.stx -o x.png --size 64 --light 0.7
+        cmp -s x.png in-all.png && complain "--light changes nothing"
+        row 0 '' 'x.png' strokes in-first.stx -o x.png --size 64 --distance 0.7
+        cmp -s x.png in-all.png && complain "--distance changes nothing"
+        row 0 '' 'x.png' strokes in-first.stx -o x.png --size 64 --width 5
+        cmp -s x.png in-all.png && complain "--width changes nothing"
+    done
+    row 0 '' '' strokes in-first.stx --size 64
+    [ -s in-first.png ] || complain "there is no in-first.png"
+    rm -f in-first.png
+    row 0 '' 'x.stx' strokes cross -o x.stx && cp x.stx in-cross.stx
+    local options
+    for options in '--length 0.1' '--uneven 0' '--order shuffled' '--order drawn' '--share count' '--share area' '--perspective tied' \
+                   '--perspective layers' '--perspective random' '--count 100' '--seed 9'; do
+        row 0 '' 'x.stx' strokes cross -o x.stx $options
+        cmp -s x.stx in-cross.stx && complain "$options changes nothing"
+    done
+    row 0 '' '' strokes cross -o - --size 32; is_png .stdout
+    row 0 '' '' strokes cross -o - --format stx; out '^# u0 v0 u1 v1 light perspective layer$'
+    row 0 '' '' strokes cross -o - --format svg; out '^<svg '
+    row 0 '' 'x.tmp' strokes cross -o x.tmp --format png --size 32; is_png x.tmp
+    row 1 "there is no pattern 'crss'" '' strokes crss
+    row 1 "did you mean 'cross'" '' strokes crss
+    row 1 'a pattern is one of parallel, cross' '' strokes zzzzzzzz
+    row 1 'no PATTERN.FILE is given' '' strokes
+    row 1 "cannot tell the format from '.gif'" '' strokes cross -o x.gif
+    row 1 'there is no such format' '' strokes cross --format gif
+    row 1 '--count goes with a pattern' '' strokes in-cross.stx --count 5
+    row 1 "--order is 'backwards'; allowed is one of drawn, shuffled, even" '' strokes cross --order backwards
+    row 1 "--uneven is '2'; allowed is a number from 0 to 1" '' strokes cross --uneven 2
+    row 1 "--size is '0'" '' strokes cross --size 0
+    row 2 '^limner: nosuch.stx: cannot open' '' strokes nosuch.stx
+    row 2 "^limner: strokes.gif: strokes are not read from files that end in '.gif'" '' strokes strokes.gif
+    printf '0 0 1 1 1 1 0\n0 0 1 one 1 1 0\n' > in-bad.stx
+    row 2 "^limner: in-bad.stx:2: v1 is 'one'; allowed is a number" '' strokes in-bad.stx
+    row 2 '^hint: a line is u0 v0 u1 v1 light perspective layer' '' strokes in-bad.stx
+    printf '<svg viewBox="0 0 1 1">\n<path d="M0 0 L 1"/></svg>' > in-bad.svg
+    row 2 "^limner: in-bad.svg:2: a path's data is wrong" '' strokes in-bad.svg
+    printf '<svg>' > in-open.svg
+    row 2 '^limner: in-open.svg:1: this is not well-formed SVG' '' strokes in-open.svg
+    : > in-none.stx
+    row 0 '' 'x.png' strokes in-none.stx -o x.png --size 16; is_png x.png
+    row 4 '^limner: nosuch/x.stx: ' '' strokes cross -o nosuch/x.stx
 }
 
 group_doctor() {
