@@ -395,11 +395,13 @@ static void extremes_end(void **state)
         mip_chain  m;
         double     start = seconds();
         assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+        double off = mean_ink(&m, 0, w.tones - 1) - w.darkest;
         if (seconds() - start > 1)
             printf("    extreme %d took %.1f s\n", i, seconds() - start);
         assert_true(seconds() - start < 40);
-        if ((i & 1) && fabs(mean_ink(&m, 0, w.tones - 1) - w.darkest) > 0.02)
-            printf("    extreme %d: %.3f instead of %.3f\n", i, mean_ink(&m, 0, w.tones - 1), w.darkest);
+        /* Faint thin strokes would have to lie more than sixteen times over each texel. */
+        if (i & 1)
+            assert_true(fabs(off) < ((i & 32) && !(i & 8) ? 0.05 : 0.01));
         mip_chain_release(&m);
     }
 }
