@@ -85,8 +85,25 @@ static lmn_status check_wishes(const screen_wishes *w, lmn_error *error)
     return LMN_OK;
 }
 
-/* Marks of the chords `first` to `last`, which are one curve. Returns its length. */
-static double mark_curve(raster *r, size_t first, size_t last)
+/* The diagonal of what the chords `first` to `last` reach over: the length of a straight stroke, and how far a curve goes that wanders. Chords may lie on
+ * different copies of the square, so that their ways are added. */
+static double extent_of(const stroke *items, size_t first, size_t last)
+{
+    double at[2] = {0, 0}, low[2] = {0, 0}, high[2] = {0, 0};
+    for (size_t i = first; i <= last; i++) {
+        at[0] += (double)items[i].u1 - (double)items[i].u0;
+        at[1] += (double)items[i].v1 - (double)items[i].v0;
+        for (int axis = 0; axis < 2; axis++) {
+            low[axis] = fmin(low[axis], at[axis]);
+            high[axis] = fmax(high[axis], at[axis]);
+        }
+    }
+    double du = high[0] - low[0], dv = high[1] - low[1];
+    return sqrt(du * du + dv * dv);
+}
+
+/* Marks of the chords `first` to `last`, which are one curve. */
+static void mark_curve(raster *r, size_t first, size_t last)
 {
     const stroke *items = r->strokes->items;
     double        length = 0, before = 0;
@@ -104,7 +121,6 @@ static double mark_curve(raster *r, size_t first, size_t last)
     }
     for (size_t i = first; i <= last; i++)
         r->marks[i] = (mark){strokes_brush_at(r->strokes, i, &r->wishes->brush), {middle[0], middle[1]}, i == first, i == last};
-    return length;
 }
 
 static void mark_strokes(raster *r)
@@ -113,13 +129,14 @@ static void mark_strokes(raster *r)
     for (size_t first = 0, last; first < s->count; first = last + 1) {
         for (last = first; last + 1 < s->count && stroke_goes_on(&s->items[last], &s->items[last + 1]);)
             last++;
-        double length = mark_curve(r, first, last);
+        double extent = extent_of(s->items, first, last);
+        mark_curve(r, first, last);
         for (size_t i = first; i <= last; i++) {
             float light = s->items[i].light;
             if (r->flat ? light < 0 : !(light > 0))
                 continue;
             r->order[r->count++] = (ranked){light, (uint32_t)i};
-            r->longest = fmax(r->longest, length);
+            r->longest = fmax(r->longest, extent);
             r->dots |= is_dot(&s->items[i]);
         }
     }

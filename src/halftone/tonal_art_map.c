@@ -33,7 +33,7 @@ double tam_expected(const tam *t, int level, double length)
 {
     const tam_level *l = &t->levels[level];
     double           area = length * l->side * t->brush.width * (1 - TAPER_LOSS * t->brush.taper);
-    double           open = (double)t->limit - mean_ink(l);
+    double           full = mean_ink(l) / (double)t->limit, open = (double)t->limit * (1 - full * full); /* in gaps there is more left than in the mean */
     return area * (double)t->opacity * open / ((double)l->side * l->side);
 }
 
@@ -70,6 +70,7 @@ bool tam_put(tam *t, stroke s, int direction)
     for (int k = t->level; k >= 0; k--) {
         tam_level *level = &t->levels[k];
         darkening  d = {level, t->limit, t->opacity};
+        level->count++;
         stroke_draw(&s, level->side, &t->brush, darken, &d);
         if (level->crowd[direction])
             tam_add_crowd(t, level, &s, direction);
@@ -143,12 +144,12 @@ static lmn_status check(const tam_wishes *w, lmn_error *error)
         return error_set(error, LMN_USAGE, "a tonal art map of %d tones; allowed are %d to %d", w->tones, TONES_LEAST, TONES_MOST);
     if (!(w->darkest >= 0.05 && w->darkest <= 0.98))
         return error_set(error, LMN_USAGE, "the darkest tone of a tonal art map is %g; allowed are 0.05 to 0.98", w->darkest);
-    if (!(w->width >= 0.25 && w->width <= w->side / 4.0))
-        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g texels wide; allowed are 0.25 to a quarter of the side", w->width);
-    if (!w->drawn && !(w->length >= 0.02 && w->length <= 1))
-        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g long; allowed are 0.02 to 1", w->length);
-    if (!(w->opacity > 0 && w->opacity <= 1))
-        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the opacity %g; allowed is above 0 up to 1", w->opacity);
+    if (!(w->width >= 0.5 && w->width <= w->side / 4.0))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g texels wide; allowed are 0.5 to a quarter of the side", w->width);
+    if (!w->drawn && !(w->length >= 0.05 && w->length <= 1))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g long; allowed are 0.05 to 1", w->length);
+    if (!(w->opacity >= 0.1 && w->opacity <= 1))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the opacity %g; allowed are 0.1 to 1", w->opacity);
     if (!(w->uneven >= 0 && w->uneven <= 1) || (int)w->placement < 0 || w->placement >= TAM_PLACEMENT_COUNT)
         return error_set(error, LMN_USAGE, "a tonal art map cannot be uneven by %g, or placed by method %d", (double)w->uneven, (int)w->placement);
     return LMN_OK;

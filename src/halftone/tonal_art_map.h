@@ -13,9 +13,9 @@ typedef struct tam_wishes {
     int           side;      /* of level 0, a power of two, 8 … 1024; 256 */
     int           tones;     /* 2 … 16; 6. Tone i of n inks (i + 1) / (n + 1) of the surface, times `darkest` × (n + 1) / n */
     double        darkest;   /* ink of the last tone, 0.05 … 0.98 */
-    double        width;     /* texels, the same on all levels; both ends run out to nothing */
-    double        length;    /* longest stroke in the square, 0.02 … 1; lengths are 30 … 100 % of it, the longer ones on coarse levels */
-    double        opacity;   /* 1: hatching; below: gradation, where strokes cover each other and each takes this share of what is left up to the darkest
+    double        width;     /* texels, 0.5 … side / 4, the same on all levels; both ends run out to nothing */
+    double        length;    /* longest stroke in the square, 0.05 … 1; lengths are 30 … 100 % of it, the longer ones on coarse levels */
+    double        opacity;   /* 0.1 … 1. 1: hatching; below: gradation, where strokes cover each other and each takes this share of what is left up to the darkest
                               * that graphite gets, half way from `darkest` to black (P20, P32) */
     bool          cross;     /* from the middle tone on also across, until there is as much of both directions */
     float         uneven;    /* wobble of direction, 0 … 1; the most is a slope of 0.16 */

@@ -6,10 +6,12 @@
 #include "base/memory.h"
 
 enum {
-    CANDIDATES = 320,   /* tried for one stroke of the best fit */
+    CANDIDATES = 320,   /* tried for one stroke of the best fit, */
+    CANDIDATES_LEAST = 8,
+    CHOSEN_STROKES = 1500, /* while a level has that many; where more lie, each matters less */
     STRIP_CANDIDATES = 8,
     CROWD_STEPS = 4,    /* entries of the table of crowding, a texel */
-    STROKES_A_TEXEL = 2 /* more than that are never needed, whatever the tone */
+    STROKES_A_TEXEL = 16 /* where more would be needed, it stays as light as it is */
 };
 
 static const float  END_STRETCH = 3;   /* how much farther away a stroke seems past its ends */
@@ -142,12 +144,16 @@ static bool put_best(tam *t, double length, int direction, double band, double t
 
 bool tam_fill_best(tam *t)
 {
-    for (size_t i = strokes_most(t); i > 0; i--) {
-        int    direction = direction_of(t);
+    const tam_level *level = &t->levels[t->level];
+    size_t           most = strokes_most(t);
+    while (level->count < most) {
+        int    direction = direction_of(t), candidates = CANDIDATES;
         double length = next_length(t);
         if (length <= 0)
             return true;
-        if (!put_best(t, length, direction, 0, 1, CANDIDATES))
+        if (level->count > CHOSEN_STROKES)
+            candidates = (int)(CANDIDATES * CHOSEN_STROKES / level->count);
+        if (!put_best(t, length, direction, 0, 1, candidates > CANDIDATES_LEAST ? candidates : CANDIDATES_LEAST))
             return false;
     }
     return true;
@@ -174,12 +180,14 @@ bool tam_fill_strips(tam *t)
 {
     const tam_wishes *w = t->wishes;
     double            inside = w->opacity < 1 ? 1 : STRIP_SHARE;
-    for (size_t most = strokes_most(t); most > 0;) {
+    const tam_level  *level = &t->levels[t->level];
+    size_t            most = strokes_most(t);
+    while (level->count < most) {
         double needed = tam_missing(t) / tam_expected(t, t->level, 0.5 * (1 + SHORTEST) * w->length), from = random_unit(&t->random);
         size_t strips = needed > 1 ? (size_t)needed : 1, step = (size_t)((double)strips * GOLDEN) + 1, strip = 0;
         while (common_divisor(strips, step) > 1)
             step--;
-        for (size_t i = 0; i < strips && most > 0; i++, most--, strip = (strip + step) % strips) {
+        for (size_t i = 0; i < strips && level->count < most; i++, strip = (strip + step) % strips) {
             int    direction = direction_of(t);
             double length = next_length(t);
             if (length <= 0)

@@ -12,6 +12,7 @@ typedef struct tam_level {
     int    side;
     float *ink;                   /* 0 paper … limit */
     double sum;                   /* of ink */
+    size_t count;                 /* of strokes */
     float *crowd[TAM_DIRECTIONS]; /* how near strokes of a direction are; NULL for drawn strokes */
 } tam_level;
 
@@ -32,7 +33,7 @@ typedef struct tam {
 double tam_target(const tam_wishes *w, int tone);
 /* Mean ink that is missing at the level being filled. */
 double tam_missing(const tam *t);
-/* Mean ink that a stroke of this length would add to a level now, if it met average ink. */
+/* Mean ink that a stroke of this length would add to a level now, about. */
 double tam_expected(const tam *t, int level, double length);
 /* Draws a stroke into the level being filled and all finer ones, and keeps it. False: memory is gone. */
 bool tam_put(tam *t, stroke s, int direction);

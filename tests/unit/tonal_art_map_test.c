@@ -1,0 +1,684 @@
+/* Tonal art maps: nested to the pixel, of the tones that were asked for, evenly filled; and textures kept on disk. Rows P17 to P20, P32, P39 of the notes on
+ * the pencil city, and Praun's maps in those on seed 003. */
+#include <dirent.h>
+#include <fcntl.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "halftone/random.h"
+#include "halftone/store.h"
+#include "halftone/tonal_art_map.h"
+
+enum { SIDE = 256, TONES = 6 };
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static tam_wishes usual(tam_placement placement)
+{
+    return (tam_wishes){.side = SIDE, .tones = TONES, .darkest = 0.9, .width = 1.5, .length = 0.4, .opacity = 1, .uneven = 0.5f, .placement = placement, .seed = 1};
+}
+
+static double mean_ink(const mip_chain *m, int level, int tone)
+{
+    const uint8_t *t = mip_layer(m, level, tone);
+    size_t         count = mip_level_bytes(m, level) / (size_t)m->layers;
+    double         sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += 255 - t[i];
+    return sum / 255 / (double)count;
+}
+
+/* --- tones ------------------------------------------------------------------------------------------------------------ */
+
+/* A level is as near to its tone as half of the smallest mark allows; `mark` is that mark's ink in texels on a level, at least. */
+static void check_tones(const mip_chain *m, const tam_wishes *w, double mark, const char *what)
+{
+    printf("    %s: largest error of tone by level:", what);
+    for (int k = 0; k < m->levels; k++) {
+        double worst = 0, texels = (double)mip_width(m, k) * mip_width(m, k);
+        for (int tone = 0; tone < w->tones; tone++) {
+            worst = fmax(worst, fabs(mean_ink(m, k, tone) - w->darkest * (tone + 1) / w->tones));
+            if (tone > 0)
+                assert_true(mean_ink(m, k, tone) > mean_ink(m, k, tone - 1));
+        }
+        printf(" %.4f", worst);
+        assert_true(worst <= fmax(0.01, texels < 8 * 8 ? 0 : 0.65 * mark / texels));
+    }
+    printf("\n");
+}
+
+/* Ink of a texel never gets less towards darker tones. */
+static void check_nested(const mip_chain *m)
+{
+    for (int k = 0; k < m->levels; k++)
+        for (int tone = 1; tone < m->layers; tone++) {
+            const uint8_t *lighter = mip_layer(m, k, tone - 1), *darker = mip_layer(m, k, tone);
+            for (size_t i = 0; i < mip_level_bytes(m, k) / (size_t)m->layers; i++)
+                assert_true(darker[i] <= lighter[i]);
+        }
+}
+
+typedef struct picture {
+    float *ink;
+    float  limit, opacity;
+} picture;
+
+static void darken(void *user, size_t index, float coverage)
+{
+    picture *p = user;
+    p->ink[index] += (p->limit - p->ink[index]) * coverage * p->opacity;
+}
+
+/* Each picture is the strokes of its tone and level and no others: so those of a lighter tone and of a coarser level are in it, at the same place, as wide. */
+static void check_strokes(const mip_chain *m, const strokes *kept, const tam_wishes *w, double taper)
+{
+    static float ink[SIDE * SIDE];
+    stroke_brush brush = {.width = w->width, .taper = taper};
+    for (int k = 0; SIDE >> k >= 8; k++)
+        for (int tone = 0; tone < w->tones; tone++) {
+            int     side = SIDE >> k, worst = 0;
+            picture p = {ink, w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1, (float)w->opacity};
+            memset(ink, 0, sizeof ink);
+            for (size_t i = 0; i < kept->count; i++) {
+                const stroke *s = &kept->items[i];
+                if (s->light > 1 - ((float)tone + 0.5f) / (float)w->tones && (double)s->perspective >= 1 - exp2(-k))
+                    stroke_draw(s, side, &brush, darken, &p);
+            }
+            const uint8_t *t = mip_layer(m, k, tone);
+            for (int i = 0; i < side * side; i++) {
+                int off = abs(t[i] - (int)(255.5f - 255 * ink[i]));
+                worst = off > worst ? off : worst;
+            }
+            assert_true(worst <= 1);
+        }
+}
+
+static void maps_are_nested_and_of_their_tones(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        tam_wishes w = usual(i % 2 ? TAM_STRIPS : TAM_BEST_FIT);
+        w.cross = i >= 2;
+        w.opacity = i >= 2 ? 0.3 : 1;
+        mip_chain m;
+        strokes   kept;
+        assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
+        check_tones(&m, &w, 2, i % 2 ? "strips" : "best fit");
+        check_nested(&m);
+        check_strokes(&m, &kept, &w, 0.22);
+        mip_chain_release(&m);
+        strokes_release(&kept);
+    }
+}
+
+static void a_map_is_fast(void **state)
+{
+    (void)state;
+    for (int side = 256; side <= 512; side *= 2) {
+        tam_wishes w = usual(TAM_BEST_FIT);
+        w.side = side;
+        w.cross = true;
+        mip_chain m;
+        double    start = seconds();
+        assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+        double took = seconds() - start;
+        printf("    6 tones, %d texels a side: %.3f s\n", side, took);
+        assert_true(took < 8); /* a second at most, but for checkers */
+        mip_chain_release(&m);
+    }
+}
+
+/* --- strokes ---------------------------------------------------------------------------------------------------------- */
+
+/* P19: in the lightest tone strokes lie apart, and across the middle of each there is its width in ink, on all levels. */
+static void strokes_are_as_wide_on_all_levels(void **state)
+{
+    (void)state;
+    tam_wishes w = usual(TAM_BEST_FIT);
+    mip_chain  m;
+    strokes    kept;
+    assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
+    printf("    width by level:");
+    for (int k = 0; k < 4; k++) {
+        int            side = SIDE >> k, count = 0;
+        const uint8_t *t = mip_layer(&m, k, 0);
+        double         sum = 0;
+        for (size_t i = 0; i < kept.count; i++) {
+            const stroke *s = &kept.items[i];
+            double        length = stroke_length(s);
+            assert_true(length < 0.4001 && length > 0.3 * 0.4 - 1e-4);
+            if (s->light < 1 || (double)s->perspective < 1 - exp2(-k))
+                continue;
+            int x = (int)(0.5f * (s->u0 + s->u1) * (float)side) % side, y = (int)floorf(0.5f * (s->v0 + s->v1) * (float)side);
+            for (int row = y - 2; row <= y + 2; row++)
+                sum += (255 - t[(row + side) % side * side + x]) / 255.0;
+            count++;
+        }
+        printf(" %.2f", sum / count);
+        assert_true(fabs(sum / count - 1.5) < 0.25);
+    }
+    printf("\n");
+    mip_chain_release(&m);
+    strokes_release(&kept);
+}
+
+static double block_variance(const float *ink)
+{
+    double sum = 0, squares = 0;
+    for (int block = 0; block < 64; block++) {
+        double ofblock = 0;
+        for (int i = 0; i < 32 * 32; i++)
+            ofblock += (double)ink[(block / 8 * 32 + i / 32) * SIDE + block % 8 * 32 + i % 32] / (32 * 32);
+        sum += ofblock / 64;
+        squares += ofblock * ofblock / 64;
+    }
+    return squares - sum * sum;
+}
+
+/* P17: the means of blocks vary less than with the same strokes thrown anywhere. */
+static void strokes_are_evenly_spread(void **state)
+{
+    (void)state;
+    static float ink[SIDE * SIDE];
+    for (int placement = 0; placement < TAM_PLACEMENT_COUNT; placement++) {
+        tam_wishes w = usual((tam_placement)placement);
+        mip_chain  m;
+        strokes    kept;
+        assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
+        random_source r = random_start(5, 5);
+        stroke_brush  brush = {.width = 1.5, .taper = 0.22};
+        printf("    %s: variance of blocks, against strokes thrown anywhere:", tam_placement_names[placement]);
+        for (int tone = 0; tone < 4; tone++) {
+            picture p = {ink, 1, 1};
+            for (int i = 0; i < SIDE * SIDE; i++)
+                ink[i] = 1 - ((const uint8_t *)mip_layer(&m, 0, tone))[i] / 255.0f;
+            double ours = block_variance(ink), thrown = 0;
+            for (int again = 0; again < 4; again++) {
+                memset(ink, 0, sizeof ink);
+                for (size_t i = 0; i < kept.count; i++) {
+                    stroke s = kept.items[i];
+                    float  du = s.u1 - s.u0, dv = s.v1 - s.v0;
+                    if (s.light < 1 - ((float)tone + 0.5f) / TONES)
+                        continue;
+                    s.u0 = (float)random_unit(&r);
+                    s.v0 = (float)random_unit(&r);
+                    s.u1 = s.u0 + du;
+                    s.v1 = s.v0 + dv;
+                    stroke_draw(&s, SIDE, &brush, darken, &p);
+                }
+                thrown += block_variance(ink) / 4;
+            }
+            printf(" %.2f", ours / thrown);
+            assert_true(ours < 0.5 * thrown);
+        }
+        printf("\n");
+        mip_chain_release(&m);
+        strokes_release(&kept);
+    }
+}
+
+/* P18: across the border the picture goes on as it does inside. */
+static void borders_are_like_the_inside(void **state)
+{
+    (void)state;
+    tam_wishes w = usual(TAM_BEST_FIT);
+    w.cross = true;
+    mip_chain m;
+    assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+    for (int tone = 0; tone < TONES; tone++)
+        for (int across = 0; across < 2; across++) {
+            const uint8_t *t = mip_layer(&m, 0, tone);
+            double         sums = 0, squares = 0, seam = 0;
+            for (int line = 0; line < SIDE; line++) {
+                double sum = 0;
+                for (int i = 0; i < SIDE; i++) {
+                    int next = (line + 1) % SIDE;
+                    sum += across ? abs(t[i * SIDE + line] - t[i * SIDE + next]) : abs(t[line * SIDE + i] - t[next * SIDE + i]);
+                }
+                seam = sum; /* the last one */
+                sums += sum / SIDE;
+                squares += sum * sum / SIDE;
+            }
+            assert_true(fabs(seam - sums) < 3.5 * sqrt(squares - sums * sums));
+        }
+    mip_chain_release(&m);
+}
+
+/* P20: across from the middle tone on. */
+static void crosses_from_the_middle(void **state)
+{
+    (void)state;
+    tam_wishes w = usual(TAM_BEST_FIT);
+    w.cross = true;
+    mip_chain m;
+    strokes   kept;
+    assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
+    double length[2] = {0, 0};
+    for (size_t i = 0; i < kept.count; i++) {
+        const stroke *s = &kept.items[i];
+        bool          across = fabsf(s->v1 - s->v0) > fabsf(s->u1 - s->u0);
+        assert_int_equal(across, s->layer);
+        assert_true(!across || s->light <= 0.51f);
+        length[across] += stroke_length(s);
+    }
+    assert_true(length[1] > 0.8 * length[0] && length[1] < 1.1 * length[0]);
+    mip_chain_release(&m);
+    strokes_release(&kept);
+}
+
+/* P32: strokes on top of each other darken less each time, and never past the most. */
+static void overlaps_darken_less_and_less(void **state)
+{
+    (void)state;
+    double last = 0, step = 1;
+    for (int count = 1; count <= 12; count++) {
+        strokes s = {.width = 1};
+        for (int i = 0; i < count; i++)
+            assert_true(strokes_add(&s, (stroke){0.2f, 0.5f, 0.8f, 0.5f, 1, 1, 0}));
+        tam_wishes w = {.side = 32, .tones = 2, .darkest = 0.8, .width = 4, .length = 0.5, .opacity = 0.3, .drawn = &s};
+        mip_chain  m;
+        assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+        double ink = 1 - ((const uint8_t *)mip_layer(&m, 0, 1))[16 * 32 + 16] / 255.0;
+        assert_true(ink - last < step && ink > last && ink <= 0.9);
+        assert_true(count > 1 || fabs(ink - 0.27) < 0.003);
+        step = ink - last;
+        last = ink;
+        mip_chain_release(&m);
+        strokes_release(&s);
+    }
+}
+
+/* P39: other shapes, in the order of their priorities, and only as far away as they may. */
+static void drawn_shapes_are_placed(void **state)
+{
+    (void)state;
+    strokes        dots = {0};
+    pattern_wishes p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
+    assert_int_equal(strokes_generate(&dots, &p, NULL), LMN_OK);
+    tam_wishes w = usual(TAM_BEST_FIT);
+    w.darkest = 0.6;
+    w.width = 3;
+    w.drawn = &dots;
+    mip_chain m;
+    strokes   kept;
+    assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
+    check_tones(&m, &w, 7.33, "dots");
+    check_nested(&m);
+    check_strokes(&m, &kept, &w, 0);
+    mip_chain_release(&m);
+    strokes_release(&kept);
+    strokes_release(&dots);
+
+    strokes house = {.width = 1};
+    assert_true(strokes_add(&house, (stroke){0, 0.1f, 0.99f, 0.1f, 1, 1, 0}));         /* the eaves, seen from afar */
+    assert_true(strokes_add(&house, (stroke){0.3f, 0.5f, 0.7f, 0.5f, 0.9f, 0.2f, 1})); /* a window, only from near */
+    w.drawn = &house;
+    assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+    for (int k = 0; k < 4; k++) {
+        int            side = SIDE >> k;
+        const uint8_t *t = mip_layer(&m, k, TONES - 1);
+        assert_true(t[side / 10 * side + side / 2] < 200);
+        assert_true(k == 0 ? t[side / 2 * side + side / 2] < 200 : t[side / 2 * side + side / 2] == 255);
+    }
+    mip_chain_release(&m);
+    strokes_release(&house);
+}
+
+/* --- wishes ----------------------------------------------------------------------------------------------------------- */
+
+static void the_same_wishes_give_the_same_map(void **state)
+{
+    (void)state;
+    tam_wishes w = usual(TAM_BEST_FIT);
+    w.side = 64;
+    mip_chain a, b, c;
+    assert_int_equal(tonal_art_map(&a, NULL, &w, NULL), LMN_OK);
+    assert_int_equal(tonal_art_map(&b, NULL, &w, NULL), LMN_OK);
+    w.seed = 2;
+    assert_int_equal(tonal_art_map(&c, NULL, &w, NULL), LMN_OK);
+    for (int k = 0; k < a.levels; k++)
+        assert_memory_equal(a.data[k], b.data[k], mip_level_bytes(&a, k));
+    assert_memory_not_equal(a.data[0], c.data[0], mip_level_bytes(&a, 0));
+    mip_chain_release(&a);
+    mip_chain_release(&b);
+    mip_chain_release(&c);
+}
+
+static void wrong_wishes_are_refused(void **state)
+{
+    (void)state;
+    tam_wishes wrong[10];
+    for (int i = 0; i < 10; i++)
+        wrong[i] = usual(TAM_BEST_FIT);
+    wrong[0].side = 100;
+    wrong[1].side = 2048;
+    wrong[2].tones = 1;
+    wrong[3].tones = 17;
+    wrong[4].darkest = 0.99;
+    wrong[5].width = (double)NAN;
+    wrong[6].length = 1.5;
+    wrong[7].opacity = 0;
+    wrong[8].uneven = 2;
+    wrong[9].placement = TAM_PLACEMENT_COUNT;
+    for (int i = 0; i < 10; i++) {
+        mip_chain m;
+        lmn_error error;
+        assert_int_equal(tonal_art_map(&m, NULL, &wrong[i], &error), LMN_USAGE);
+        assert_null(m.data[0]);
+    }
+}
+
+/* The most and the least of everything ends, and gives its tones. */
+static void extremes_end(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 64; i++) {
+        tam_wishes w = {.side = i & 1 ? 128 : 16, .tones = i & 2 ? 16 : 2, .darkest = i & 4 ? 0.98 : 0.05, .width = i & 8 ? 4 : 0.5, .length = i & 16 ? 1 : 0.05,
+                        .opacity = i & 32 ? 0.1 : 1, .uneven = 1, .cross = i % 3 == 0, .placement = i % 5 == 0 ? TAM_STRIPS : TAM_BEST_FIT, .seed = (uint32_t)i};
+        mip_chain  m;
+        double     start = seconds();
+        assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+        double off = mean_ink(&m, 0, w.tones - 1) - w.darkest;
+        if (seconds() - start > 1)
+            printf("    extreme %d took %.1f s\n", i, seconds() - start);
+        assert_true(seconds() - start < 40);
+        /* Faint thin strokes would have to lie more than sixteen times over each texel. */
+        if (i & 1)
+            assert_true(fabs(off) < ((i & 32) && !(i & 8) ? 0.05 : 0.01));
+        mip_chain_release(&m);
+    }
+}
+
+static void failing_memory_is_reported(void **state)
+{
+    (void)state;
+    strokes drawn = {.width = 1};
+    for (int i = 0; i < 5; i++)
+        assert_true(strokes_add(&drawn, (stroke){0.1f, 0.2f * (float)i, 0.9f, 0.2f * (float)i, 1, 1, 0}));
+    for (int i = 0; i < 3; i++) {
+        tam_wishes w = usual((tam_placement)(i % 2));
+        w.side = 16;
+        w.cross = true;
+        w.drawn = i == 2 ? &drawn : NULL;
+        lmn_status status = LMN_MEMORY;
+        for (long n = 1; status != LMN_OK && n < 1000; n++) {
+            mip_chain m;
+            strokes   kept;
+            mem_fail_at(n);
+            status = tonal_art_map(&m, &kept, &w, NULL);
+            mem_fail_at(0);
+            assert_true(status == LMN_OK || status == LMN_MEMORY);
+            if (status == LMN_MEMORY)
+                assert_true(!m.data[0] && !kept.items);
+            mip_chain_release(&m);
+            strokes_release(&kept);
+        }
+        assert_int_equal(status, LMN_OK);
+    }
+    strokes_release(&drawn);
+}
+
+/* --- kept on disk ------------------------------------------------------------------------------------------------------ */
+
+static char folder[256];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    const char *temporary = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/limner-store-XXXXXX", temporary ? temporary : "/tmp");
+    if (!mkdtemp(folder))
+        return -1;
+    return setenv("LIMNER_CACHE", folder, 1);
+}
+
+/* Calls for each file; removes them when `path` is NULL, else finds the last one's path. Returns how many. */
+static int visit_files(char *path, size_t room)
+{
+    int  count = 0;
+    DIR *open = opendir(folder);
+    for (struct dirent *entry; open && (entry = readdir(open)) != NULL;) {
+        char one[600];
+        if (entry->d_name[0] == '.')
+            continue;
+        snprintf(one, sizeof one, "%s/%s", folder, entry->d_name);
+        count++;
+        if (path)
+            snprintf(path, room, "%s", one);
+        else
+            unlink(one);
+    }
+    if (open)
+        closedir(open);
+    return count;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    visit_files(NULL, 0);
+    rmdir(folder);
+    return unsetenv("LIMNER_CACHE");
+}
+
+static mip_chain sample(mip_format format, int side, int layers, int levels)
+{
+    mip_chain     m;
+    random_source r = random_start(7, 7);
+    assert_int_equal(mip_chain_create(&m, side, side / 2, layers, levels, format, NULL), LMN_OK);
+    m.clamped = format == MIP_RG8;
+    m.nearest = format == MIP_RG16F;
+    for (int k = 0; k < m.levels; k++)
+        for (size_t i = 0; i < mip_level_bytes(&m, k); i++)
+            ((uint8_t *)m.data[k])[i] = (uint8_t)(random_bits(&r) & 63);
+    return m;
+}
+
+static bool is_same(const mip_chain *a, const mip_chain *b)
+{
+    bool same = a->width == b->width && a->height == b->height && a->layers == b->layers && a->levels == b->levels && a->format == b->format &&
+                a->clamped == b->clamped && a->nearest == b->nearest;
+    for (int k = 0; same && k < a->levels; k++)
+        same = memcmp(a->data[k], b->data[k], mip_level_bytes(a, k)) == 0;
+    return same;
+}
+
+static void what_is_kept_is_found(void **state)
+{
+    (void)state;
+    const char *names[] = {"one", "two 2", ""};
+    for (int format = 0; format < 3; format++) {
+        mip_chain m = sample((mip_format)format, 32, 3, format), found;
+        assert_false(store_find(&found, names[format]));
+        store_keep(&m, names[format]);
+        store_keep(&m, names[format]); /* again is fine */
+        assert_true(store_find(&found, names[format]));
+        assert_true(is_same(&m, &found));
+        mip_chain_release(&found);
+        assert_false(store_find(&found, "three"));
+        assert_null(found.data[0]);
+        mip_chain_release(&m);
+    }
+    assert_int_equal(visit_files(NULL, 0), 3);
+}
+
+static void write_file(const char *path, const unsigned char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fwrite(bytes, 1, size, file) == size);
+    fclose(file);
+}
+
+static void damage_is_not_found(void **state)
+{
+    (void)state;
+    mip_chain m = sample(MIP_R8, 8, 2, 0), found;
+    store_keep(&m, "some description");
+    char path[600], other[600];
+    assert_int_equal(visit_files(path, sizeof path), 1);
+    file_data file;
+    assert_int_equal(file_load(&file, path, NULL), LMN_OK);
+    unsigned char bytes[1024];
+    size_t        size = file.size;
+    assert_true(size < sizeof bytes - 1);
+    memcpy(bytes, file.data, size);
+    bytes[size] = 0;
+    file_data_release(&file);
+    for (size_t i = 0; i < size; i++)
+        for (int bit = 0; bit < 9; bit++) {
+            unsigned char was = bytes[i];
+            bytes[i] = (unsigned char)(bit < 8 ? was ^ (1 << bit) : ~was);
+            write_file(path, bytes, size);
+            assert_false(store_find(&found, "some description"));
+            bytes[i] = was;
+        }
+    for (size_t cut = 0; cut <= size + 1; cut++) {
+        write_file(path, bytes, cut);
+        assert_true(store_find(&found, "some description") == (cut == size));
+        mip_chain_release(&found);
+    }
+    /* Another description of the same hash. */
+    store_keep(&m, "another description");
+    mip_chain_release(&m);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(visit_files(other, sizeof other), 1);
+    write_file(other, bytes, size);
+    assert_false(store_find(&found, "another description"));
+    /* What is not a file. */
+    assert_int_equal(unlink(other), 0);
+    assert_int_equal(mkdir(other, 0700), 0);
+    assert_false(store_find(&found, "another description"));
+    assert_int_equal(rmdir(other), 0);
+}
+
+static void places_are_found_or_done_without(void **state)
+{
+    (void)state;
+    mip_chain m = sample(MIP_R8, 8, 1, 0), found;
+    char      below[600];
+    assert_int_equal(setenv("LIMNER_CACHE", "", 1), 0);
+    store_keep(&m, "x");
+    assert_false(store_find(&found, "x"));
+    char *home = mem_copy_text(getenv("HOME")), *shared = mem_copy_text(getenv("XDG_CACHE_HOME"));
+    unsetenv("LIMNER_CACHE");
+    unsetenv("XDG_CACHE_HOME");
+    unsetenv("HOME");
+    store_keep(&m, "x");
+    assert_false(store_find(&found, "x"));
+    snprintf(below, sizeof below, "%s/file", folder);
+    write_file(below, (const unsigned char *)"x", 1);
+    setenv("HOME", below, 1); /* no folder can be made there */
+    store_keep(&m, "x");
+    assert_false(store_find(&found, "x"));
+    unlink(below);
+    setenv("XDG_CACHE_HOME", folder, 1);
+    store_keep(&m, "x");
+    assert_true(store_find(&found, "x"));
+    mip_chain_release(&found);
+    snprintf(below, sizeof below, "%s/limner", folder);
+    setenv("LIMNER_CACHE", below, 1);
+    assert_true(store_find(&found, "x"));
+    mip_chain_release(&found);
+    char kept_folder[256];
+    memcpy(kept_folder, folder, sizeof folder);
+    snprintf(folder, sizeof folder, "%.200s/limner", kept_folder);
+    assert_int_equal(visit_files(NULL, 0), 1);
+    rmdir(folder);
+    memcpy(folder, kept_folder, sizeof folder);
+    if (home)
+        setenv("HOME", home, 1);
+    else
+        unsetenv("HOME");
+    if (shared)
+        setenv("XDG_CACHE_HOME", shared, 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
+    mem_free(home);
+    mem_free(shared);
+    setenv("LIMNER_CACHE", folder, 1);
+    mip_chain_release(&m);
+}
+
+/* Old files make room; others' never. The large ones are holes, which take no room on the disk. */
+static void the_oldest_go_first(void **state)
+{
+    (void)state;
+    const char *names[] = {"0000000000000001.texture", "0000000000000002.texture", "0000000000000003.texture.AbCdEf", "notes.texture", "0000000000000004.txt"};
+    char        paths[5][600];
+    for (int i = 0; i < 5; i++) {
+        snprintf(paths[i], sizeof paths[i], "%s/%s", folder, names[i]);
+        write_file(paths[i], (const unsigned char *)"", 0);
+        assert_int_equal(truncate(paths[i], 100 << 20), 0);
+        struct timespec when[2] = {{1000 + 10 * (i ^ 1), 0}, {1000 + 10 * (i ^ 1), 0}}; /* the second is older than the first */
+        assert_int_equal(utimensat(AT_FDCWD, paths[i], when, 0), 0);
+    }
+    mip_chain m = sample(MIP_R8, 8, 1, 0), found;
+    store_keep(&m, "x");
+    assert_true(access(paths[1], F_OK) != 0);
+    assert_true(access(paths[0], F_OK) == 0 && access(paths[2], F_OK) == 0 && access(paths[3], F_OK) == 0 && access(paths[4], F_OK) == 0);
+    assert_true(store_find(&found, "x"));
+    mip_chain_release(&found);
+    mip_chain_release(&m);
+    visit_files(NULL, 0);
+}
+
+static void the_store_does_without_memory(void **state)
+{
+    (void)state;
+    mip_chain m = sample(MIP_R8, 16, 2, 0), found;
+    for (long n = 1; n < 40; n++) {
+        mem_fail_at(n);
+        store_keep(&m, "x");
+        bool there = store_find(&found, "x");
+        mem_fail_at(0);
+        if (there)
+            assert_true(is_same(&m, &found));
+        mip_chain_release(&found);
+    }
+    assert_true(store_find(&found, "x"));
+    mip_chain_release(&found);
+    mip_chain_release(&m);
+    visit_files(NULL, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(maps_are_nested_and_of_their_tones),
+        cmocka_unit_test(a_map_is_fast),
+        cmocka_unit_test(strokes_are_as_wide_on_all_levels),
+        cmocka_unit_test(strokes_are_evenly_spread),
+        cmocka_unit_test(borders_are_like_the_inside),
+        cmocka_unit_test(crosses_from_the_middle),
+        cmocka_unit_test(overlaps_darken_less_and_less),
+        cmocka_unit_test(drawn_shapes_are_placed),
+        cmocka_unit_test(the_same_wishes_give_the_same_map),
+        cmocka_unit_test(wrong_wishes_are_refused),
+        cmocka_unit_test(extremes_end),
+        cmocka_unit_test(failing_memory_is_reported),
+        cmocka_unit_test_setup_teardown(what_is_kept_is_found, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(damage_is_not_found, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(places_are_found_or_done_without, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(the_oldest_go_first, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(the_store_does_without_memory, make_folder, remove_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
