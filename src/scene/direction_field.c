@@ -1,5 +1,7 @@
 /* Curvature as the change of normals: over a triangle, the gradient of the normals that its corners have, times its area, needs no division and is therefore as
- * good on slivers as elsewhere. Summed over a disc only the disc's border remains, so what irregular triangles do to single ones cancels out. */
+ * good on slivers as elsewhere. Summed over a disc only the disc's border remains, so what irregular triangles do to single ones cancels out. The sum of bent edges
+ * (Alliez et al. 2003), tried on the same discs, is as good on regular triangles, and far worse on irregular ones: on a dense ellipsoid with jittered vertices 95 % of its
+ * directions are within 13.5 degrees, of these within 2.2. */
 #include <string.h>
 
 #include "base/memory.h"

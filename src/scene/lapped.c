@@ -7,7 +7,7 @@
 enum {
     MOST_TIMES = 14,      /* so many times the triangles in patches; what is left comes once more */
     ENOUGH = 60000,       /* triangles in patches that are no worry, however few the surface has */
-    CELLS = 8, ALL_CELLS = 64, /* parts of a triangle along an edge and in all: outlines of several patches together may have it */
+    MOST_ROWS = 8,        /* of parts of a large triangle, as many as bits: outlines of several patches together may have it */
     LEFT_OVER_RADII = 16,
     STRETCH_CELLS = 4096
 };
@@ -27,6 +27,7 @@ typedef struct lapping {
     patch_ground     ground;
     double           radius;          /* as the surface is scaled */
     uint32_t        *order;           /* triangles shuffled */
+    outline          outline;         /* of the patch at hand */
     uint64_t        *cells;           /* per triangle: which parts some outline has */
     bool            *hopeless;        /* per triangle: its parts are too large for an outline */
     uint32_t        *copies;          /* per triangle of the primitive: the next copy, NOWHERE */
@@ -143,34 +144,40 @@ static double longest_edge(const field_surface *s, uint32_t triangle)
     return longest;
 }
 
-/* The corners of a part, as shares of the second and third corner. Rows of 15, 13 … 1 parts, every other one upside down. */
-static void cell_corners(int cell, flat_place shares[3])
+/* Small triangles are covered whole or not: taking them apart would only take time. */
+static int cell_rows(const lapping *l, uint32_t triangle)
 {
-    int row = 0, row_size = 2 * CELLS - 1;
+    double length = longest_edge(&l->surface, triangle) / l->radius;
+    return length < 0.15 ? 1 : length < 0.6 ? 4 : MOST_ROWS;
+}
+
+static uint64_t all_cells(int rows)
+{
+    return UINT64_MAX >> (64 - rows * rows);
+}
+
+/* The corners of a part, as shares of the second and third corner. With 8 rows these have 15, 13 … 1 parts, every other one upside down. */
+static void cell_corners(int cell, int rows, flat_place shares[3])
+{
+    int row = 0, row_size = 2 * rows - 1;
     for (; cell >= row_size; row_size -= 2, row++)
         cell -= row_size;
     int column = cell / 2, upside_down = cell % 2;
     for (int k = 0; k < 3; k++) {
         int x = column + (upside_down ? k != 1 : k == 1), y = row + (upside_down ? k != 0 : k == 2);
-        shares[k] = (flat_place){(double)x / CELLS, (double)y / CELLS};
+        shares[k] = (flat_place){(double)x / rows, (double)y / rows};
     }
 }
 
-static bool holds_cell(const lapping *l, const flat_place places[3], int cell)
+static bool holds_cell(const lapping *l, const flat_place places[3], int cell, int rows)
 {
     flat_place shares[3], corners[3];
-    cell_corners(cell, shares);
+    cell_corners(cell, rows, shares);
     for (int k = 0; k < 3; k++) {
         double b = shares[k].x, c = shares[k].y, a = 1 - b - c;
         corners[k] = (flat_place){a * places[0].x + b * places[1].x + c * places[2].x, a * places[0].y + b * places[1].y + c * places[2].y};
     }
-    return outline_holds(l->patch_count, l->radius, corners);
-}
-
-/* Small triangles are covered whole or not: taking them apart would only take time. */
-static bool is_small(const lapping *l, uint32_t triangle)
-{
-    return longest_edge(&l->surface, triangle) < 0.15 * l->radius;
+    return outline_holds(&l->outline, corners);
 }
 
 static void cover_triangle(lapping *l, uint32_t triangle, const flat_place places[3])
@@ -178,25 +185,25 @@ static void cover_triangle(lapping *l, uint32_t triangle, const flat_place place
     uint64_t *cells = &l->cells[triangle];
     if (l->ground.covered[triangle])
         return;
-    if (outline_holds(l->patch_count, l->radius, places))
-        *cells = UINT64_MAX;
-    else if (!is_small(l, triangle))
-        for (int k = 0; k < ALL_CELLS; k++)
-            if (!(*cells >> k & 1) && holds_cell(l, places, k))
+    int rows = cell_rows(l, triangle);
+    if (outline_holds(&l->outline, places))
+        *cells = all_cells(rows);
+    else if (rows > 1)
+        for (int k = 0; k < rows * rows; k++)
+            if (!(*cells >> k & 1) && holds_cell(l, places, k, rows))
                 *cells |= UINT64_C(1) << k;
-    l->ground.covered[triangle] = *cells == UINT64_MAX;
+    l->ground.covered[triangle] = *cells == all_cells(rows);
 }
 
 /* Where in a triangle a patch is to have its middle: in a part that is not covered. */
 static flat_place bare_place(const lapping *l, uint32_t triangle, int *cell)
 {
     flat_place shares[3];
-    *cell = (int)(mix_bits(triangle + l->patch_count) % ALL_CELLS);
-    if (is_small(l, triangle))
-        return (flat_place){1.0 / 3, 1.0 / 3};
+    int rows = cell_rows(l, triangle), count = rows * rows;
+    *cell = (int)(mix_bits(triangle + l->patch_count) % (uint32_t)count);
     while (l->cells[triangle] >> *cell & 1)
-        *cell = (*cell + 1) % ALL_CELLS;
-    cell_corners(*cell, shares);
+        *cell = (*cell + 1) % count;
+    cell_corners(*cell, rows, shares);
     return (flat_place){(shares[0].x + shares[1].x + shares[2].x) / 3, (shares[0].y + shares[1].y + shares[2].y) / 3};
 }
 
@@ -206,13 +213,14 @@ static bool take_patch(lapping *l, uint32_t seed, int cell, bool *full)
     patch_ground *g = &l->ground;
     flat_place places[3];
     size_t kept = 0, most = (size_t)MOST_TIMES * l->surface.triangle_count;
+    l->outline = outline_of(l->patch_count, l->radius);
     patch_places(g, seed, places);
-    l->hopeless[seed] = is_small(l, seed) ? !outline_holds(l->patch_count, l->radius, places) : !holds_cell(l, places, cell);
+    l->hopeless[seed] = !holds_cell(l, places, cell, cell_rows(l, seed));
     if (l->hopeless[seed])
         return true;
     for (size_t i = 0; i < g->triangle_count; i++) {
         patch_places(g, g->triangles[i], places);
-        if (outline_touches(l->patch_count, l->radius, places))
+        if (outline_touches(&l->outline, places))
             g->triangles[kept++] = g->triangles[i];
     }
     g->triangle_count = kept;
@@ -244,7 +252,7 @@ static bool cover_with_patches(lapping *l)
                 continue;
             flat_place middle = bare_place(l, seed, &cell);
             /* A part that is longer than twice the radius has no room in any outline. */
-            l->hopeless[seed] = longest_edge(&l->surface, seed) > 2 * CELLS * l->radius;
+            l->hopeless[seed] = longest_edge(&l->surface, seed) > 2 * MOST_ROWS * l->radius;
             if (l->hopeless[seed])
                 continue;
             good = patch_grow(&l->ground, seed, middle, l->radius) && take_patch(l, seed, cell, &full);

@@ -58,8 +58,16 @@ double patch_stretch(const patch_ground *g, uint32_t triangle);
 /* Where its corners lie. */
 void patch_places(const patch_ground *g, uint32_t triangle, flat_place out[3]);
 
+/* The outline of one patch, with what is the same at all angles. */
+typedef struct outline {
+    double     radius;
+    flat_place third, seventh; /* cosine and sine of how far its waves are turned */
+} outline;
+
+outline outline_of(uint32_t patch, double radius);
+
 /* How a triangle lies to an outline. */
-bool outline_holds(uint32_t patch, double radius, const flat_place corners[3]);   /* all of it is inside for certain */
-bool outline_touches(uint32_t patch, double radius, const flat_place corners[3]); /* some of it may be inside */
+bool outline_holds(const outline *o, const flat_place corners[3]);   /* all of it is inside for certain */
+bool outline_touches(const outline *o, const flat_place corners[3]); /* some of it may be inside */
 
 #endif

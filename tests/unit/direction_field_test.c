@@ -311,6 +311,8 @@ static void faces_of_a_cube_have_one_direction_each(void **state)
         /* Along one of the cube's own edges. */
         const float *t = direction_field_at(&f, &p, c);
         assert_true(fabs(t[3]) + fabs(t[4]) + fabs(t[5]) < 1e-4);
+        /* All are as long as they are wide: x before y before z. */
+        assert_true(t[0] > 0.04f || (t[0] == 0 && t[1] > 0.04f));
     }
     direction_field_release(&f);
     primitive_release(&p);
@@ -323,19 +325,19 @@ static place3 bowl_at(double u, double v)
     return (place3){r * cos(a), r * sin(a), z};
 }
 
-/* Half a cylinder that goes on as a plane: the plane has the cylinder's direction. */
+/* Half a cylinder that goes on as a plane: the plane has the cylinder's direction, though it is longer the other way. */
 static place3 hook_at(double u, double v)
 {
     double s = 8 * u;
     if (s < field_pi)
-        return (place3){sin(s), 1 - cos(s), 2 * v};
-    return (place3){-(s - field_pi), 2, 2 * v};
+        return (place3){sin(s), 1 - cos(s), 12 * v};
+    return (place3){-(s - field_pi), 2, 12 * v};
 }
 
 static void flat_places_take_after_what_bends_beside_them(void **state)
 {
     (void)state;
-    primitive p = grid_surface(hook_at, 80, 20, false, false, 0);
+    primitive p = grid_surface(hook_at, 80, 120, false, false, 0);
     direction_field f = make_field(&p);
     check_tensors(&p, &f, false);
     for (uint32_t v = 0; v < p.vertex_count; v++)
@@ -400,8 +402,8 @@ static void windings_and_copies_do_not_matter(void **state)
     memcpy(q.positions, p.positions, p.vertex_count * sizeof *p.positions);
     for (uint32_t t = 0; t < p.index_count / 3; t++)
         for (uint32_t k = 0; k < 3; k++) {
-            q.indices[3 * t + k] = p.indices[3 * t + (hashed(t) < 0.5 ? k : 2 - k)];
-            q.indices[p.index_count + 3 * t + k] = p.indices[3 * t + 2 - k];
+            q.indices[6 * t + k] = p.indices[3 * t + (hashed(t) < 0.5 ? k : 2 - k)];
+            q.indices[6 * t + 3 + k] = p.indices[3 * t + (hashed(t + 9999) < 0.5 ? k : 2 - k)];
         }
     direction_field a = make_field(&p), b = make_field(&q);
     double worst = 0;
