@@ -131,7 +131,7 @@ void used_textures_declare(text *prelude, const technique_use *use, const used_t
         for (; name[k] && k + 1 < sizeof capitals; k++)
             capitals[k] = (char)toupper((unsigned char)name[k]);
         capitals[k] = '\0';
-        text_append(prelude, "#define HAS_%s\nuniform mediump sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
+        text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
     }
 }
 
