@@ -6,7 +6,11 @@
 
 #include "base/memory.h"
 
-enum { FAINT = INK_MOST / 8, NOBODY = -1 }; /* less ink does not join marks */
+enum {
+    FAINT = INK_MOST / 8, /* less ink does not join marks */
+    POINT_APART = 16,     /* texels of a mark of which one tells where it is */
+    NOBODY = -1
+};
 
 static int32_t root_of(int32_t *parent, int32_t at)
 {
@@ -46,22 +50,52 @@ static void number_marks(marks *m, int side)
     }
 }
 
-/* An order in which marks that come after each other lie apart; a mark lies where its first texel is, and one of its middle ones. */
+/* Every so many texels of each mark stand for it; sorted by mark. `first` is where each mark's points begin. */
+static void place_points(spread_point *points, size_t *first, const marks *m, int side)
+{
+    size_t texels = (size_t)side * (size_t)side, sum = 0;
+    for (size_t i = 0; i < texels; i++)
+        if (m->label[i] != NOBODY)
+            first[m->label[i]]++;
+    for (size_t mark = 0; mark < m->count; mark++) {
+        size_t own = (first[mark] + POINT_APART - 1) / POINT_APART;
+        first[mark] = sum * POINT_APART;
+        sum += own;
+    }
+    for (size_t i = 0; i < texels; i++) {
+        if (m->label[i] == NOBODY)
+            continue;
+        size_t mark = (size_t)m->label[i], at = first[mark]++;
+        if (at % POINT_APART == 0)
+            points[at / POINT_APART] = (spread_point){((float)(i % (size_t)side) + 0.5f) / (float)side, ((float)(i / (size_t)side) + 0.5f) / (float)side, mark};
+    }
+}
+
+static size_t count_points(const marks *m, size_t texels)
+{
+    size_t inked = 0;
+    for (size_t i = 0; i < texels; i++)
+        inked += m->label[i] != NOBODY;
+    return inked / POINT_APART + m->count;
+}
+
+/* An order in which marks that come after each other lie apart. */
 static bool order_marks(marks *m, int side)
 {
-    size_t        texels = (size_t)side * (size_t)side;
-    spread_point *points = mem_calloc(m->count, sizeof *points);
+    size_t        texels = (size_t)side * (size_t)side, most = count_points(m, texels);
+    spread_point *points = mem_calloc(most, sizeof *points);
+    size_t       *first = mem_calloc(m->count, sizeof *first);
     m->order = mem_calloc(m->count, sizeof *m->order);
     m->ink = mem_calloc(m->count, sizeof *m->ink);
-    m->gone = mem_calloc(m->count, 1);
-    bool enough = points && m->order && m->ink && m->gone;
-    for (size_t i = 0, next = 0; enough && i < texels && next < m->count; i++)
-        if (m->label[i] == (int32_t)next) {
-            points[next] = (spread_point){((float)(i % (size_t)side) + 0.5f) / (float)side, ((float)(i / (size_t)side) + 0.5f) / (float)side, next};
-            next++;
-        }
-    enough = enough && (m->count == 0 || spread_order(m->order, m->count, points, m->count, m->count, 1));
+    m->gone = mem_calloc(m->count, sizeof *m->gone);
+    bool enough = points && first && m->order && m->ink && m->gone;
+    if (enough && m->count > 0) {
+        place_points(points, first, m, side);
+        size_t last = first[m->count - 1];
+        enough = spread_order(m->order, m->count, points, (last + POINT_APART - 1) / POINT_APART, m->count, 1);
+    }
     mem_free(points);
+    mem_free(first);
     return enough;
 }
 

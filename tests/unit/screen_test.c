@@ -576,6 +576,36 @@ static void light_takes_layers_away_from_the_last(void **state)
     mip_chain_release(&m);
 }
 
+/* Painted marks stay whole or go, on every level; ink stays about what it was. Dashes of 12 x 2 texels, all in the same place of squares of 16. */
+static void painted_marks_go_as_a_whole(void **state)
+{
+    (void)state;
+    enum { BOARD = 256 };
+    uint8_t *pixels = mem_calloc(BOARD * BOARD, 4);
+    assert_non_null(pixels);
+    for (int i = 0; i < BOARD * BOARD; i++)
+        pixels[4 * i + 3] = i % BOARD % 16 < 12 && i / BOARD % 16 < 2 ? 255 : 0;
+    screen_layer layer = {pixels, BOARD, BOARD};
+    mip_chain    m;
+    assert_int_equal(screen_of_layers(&m, &layer, 1, 4, BOARD, DETAIL_KEPT, NULL), LMN_OK);
+    for (int k = 0; k < 4; k++) {
+        int            side = BOARD >> k, cell = 16 >> k, there = 0;
+        const uint8_t *t = level_of(&m, k);
+        for (int y = 0; y < side; y += cell)
+            for (int x = 0; x < side; x += cell) {
+                int inked = 0, full = (k < 3 ? 12 >> k : 2) * (k < 1 ? 2 : 1);
+                for (int i = 0; i < cell * cell; i++)
+                    inked += t[(y + i / cell) * side + x + i % cell] == 0;
+                assert_true(inked == 0 || inked == full);
+                there += inked > 0;
+            }
+        printf("    painted marks on level %d: %d of 256\n", k, there);
+        assert_true(fabs(mean_ink(&m, k) / mean_ink(&m, 0) - 1) < 0.1);
+    }
+    mip_chain_release(&m);
+    mem_free(pixels);
+}
+
 static void pictures_are_resampled_and_checked(void **state)
 {
     (void)state;
@@ -690,6 +720,7 @@ int main(void)
         cmocka_unit_test(blue_noise_is_blue),
         cmocka_unit_test(dots_lie_on_a_turned_grid),
         cmocka_unit_test(light_takes_layers_away_from_the_last),
+        cmocka_unit_test(painted_marks_go_as_a_whole),
         cmocka_unit_test(pictures_are_resampled_and_checked),
         cmocka_unit_test(wrong_wishes_are_refused),
         cmocka_unit_test(failing_memory_is_reported),
