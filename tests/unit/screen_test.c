@@ -179,6 +179,33 @@ static void strokes_stay_at_their_place(void **state)
     strokes_release(&s);
 }
 
+/* IM-13: a level is the strokes that explicit drawing shows at 1 − 2^−k, but for their ends: on level 0 to the grey. */
+static void levels_are_what_is_drawn_explicitly(void **state)
+{
+    (void)state;
+    static uint8_t explicit[256 * 256];
+    strokes        s = random_strokes(150, 0.3, 0.3);
+    screen_wishes  w = wishes_of(256, 1.5, false);
+    mip_chain      m;
+    assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
+    for (int k = 0; k < 4; k++) {
+        int    side = 256 >> k, differ = 0, worst = 0;
+        size_t ends = 0;
+        strokes_draw(&s, side, &w.brush, 0, 1 - exp2f((float)-k), explicit);
+        for (int i = 0; i < side * side; i++) {
+            int off = abs(explicit[i] - level_of(&m, k)[i]);
+            differ += off > 1;
+            worst = off > worst ? off : worst;
+            assert_true(level_of(&m, k)[i] >= explicit[i] - 1); /* never more */
+        }
+        for (size_t i = 0; i < s.count; i++)
+            ends += (double)s.items[i].perspective >= 1 - exp2(-k) ? 2 : 0;
+        assert_true(k == 0 ? worst <= 1 : differ <= (int)ends * 6);
+    }
+    mip_chain_release(&m);
+    strokes_release(&s);
+}
+
 /* Ink covers the same share at any distance as long as levels have room, and levels are not means of the finer ones (IM-01, IM-02). */
 static void density_stays_over_distance(void **state)
 {
@@ -370,6 +397,30 @@ static void whole_strokes_under_steep_light(void **state)
     }
     mip_chain_release(&m);
     mip_chain_release(&warp);
+    strokes_release(&s);
+}
+
+/* The chords of a curve are one stroke, with one reference: half of the way along. */
+static void curves_have_one_reference(void **state)
+{
+    (void)state;
+    strokes s = {.width = 1};
+    assert_true(strokes_add(&s, (stroke){0.2f, 0.2f, 0.5f, 0.2f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (stroke){0.5f, 0.2f, 0.5f, 0.4f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (stroke){0.5f, 0.4f, 0.6f, 0.4f, 1, 1, 0}));
+    screen_wishes w = wishes_of(64, 2, false);
+    mip_chain     m;
+    assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
+    const float *t = m.data[0];
+    int          owned = 0;
+    for (int i = 0; i < 64 * 64; i++) {
+        if (t[2 * i] == 0 && t[2 * i + 1] == 0)
+            continue;
+        owned++;
+        assert_true(fabs((i % 64 + 0.5) / 64 + (double)t[2 * i] - 0.5) < 1e-5 && fabs((i / 64 + 0.5) / 64 + (double)t[2 * i + 1] - 0.2) < 1e-5);
+    }
+    assert_true(owned > 64);
+    mip_chain_release(&m);
     strokes_release(&s);
 }
 
@@ -705,6 +756,7 @@ int main(void)
         cmocka_unit_test(hatch_lines_lie_on_every_second),
         cmocka_unit_test(hatch_keeps_tone_and_spacing_at_any_distance),
         cmocka_unit_test(strokes_stay_at_their_place),
+        cmocka_unit_test(levels_are_what_is_drawn_explicitly),
         cmocka_unit_test(density_stays_over_distance),
         cmocka_unit_test(dots_keep_density_too),
         cmocka_unit_test(minimum_gets_dark),
@@ -712,6 +764,7 @@ int main(void)
         cmocka_unit_test(equalising_keeps_the_order),
         cmocka_unit_test(warp_refers_to_one_point_a_stroke),
         cmocka_unit_test(whole_strokes_under_steep_light),
+        cmocka_unit_test(curves_have_one_reference),
         cmocka_unit_test(normals_lean_to_the_axis),
         cmocka_unit_test(thresholds_follow_the_light),
         cmocka_unit_test(thresholds_are_their_formulas),
