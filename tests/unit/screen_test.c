@@ -316,6 +316,24 @@ static void equalising_keeps_the_order(void **state)
     strokes_release(&s);
 }
 
+/* A group of equal texels takes the middle of its share; paper stays paper. */
+static void equal_texels_take_the_middle(void **state)
+{
+    (void)state;
+    mip_chain m;
+    assert_int_equal(mip_chain_create(&m, 4, 1, 1, 1, MIP_R8, NULL), LMN_OK);
+    const uint8_t before[2][4] = {{7, 7, 255, 255}, {200, 30, 10, 30}}, after[2][4] = {{64, 64, 255, 255}, {224, 128, 32, 128}};
+    for (int i = 0; i < 2; i++) {
+        memcpy(m.data[0], before[i], 4);
+        assert_int_equal(screen_equalise(&m, NULL), LMN_OK);
+        assert_memory_equal(m.data[0], after[i], 4);
+    }
+    mip_chain_release(&m);
+    assert_int_equal(mip_chain_create(&m, 4, 1, 1, 1, MIP_RG8, NULL), LMN_OK);
+    assert_int_equal(screen_equalise(&m, NULL), LMN_USAGE);
+    mip_chain_release(&m);
+}
+
 /* --- warp maps and normals ------------------------------------------------------------------------------------------ */
 
 typedef struct touch {
@@ -397,6 +415,22 @@ static void whole_strokes_under_steep_light(void **state)
     }
     mip_chain_release(&m);
     mip_chain_release(&warp);
+    strokes_release(&s);
+}
+
+static void of_equal_strokes_the_first_is_on_top(void **state)
+{
+    (void)state;
+    strokes s = {.width = 1};
+    assert_true(strokes_add(&s, (stroke){0.2f, 0.5f, 0.8f, 0.5f, 0.7f, 1, 0}));
+    assert_true(strokes_add(&s, (stroke){0.6f, 0.3f, 0.6f, 0.8f, 0.7f, 1, 0}));
+    screen_wishes w = wishes_of(64, 4, false);
+    mip_chain     m;
+    assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
+    const float *t = m.data[0];
+    int          crossing = 32 * 64 + 38;
+    assert_true(fabs((38 + 0.5) / 64 + (double)t[2 * crossing] - 0.5) < 1e-5);
+    mip_chain_release(&m);
     strokes_release(&s);
 }
 
@@ -762,6 +796,8 @@ int main(void)
         cmocka_unit_test(minimum_gets_dark),
         cmocka_unit_test(equalised_screens_are_linear),
         cmocka_unit_test(equalising_keeps_the_order),
+        cmocka_unit_test(equal_texels_take_the_middle),
+        cmocka_unit_test(of_equal_strokes_the_first_is_on_top),
         cmocka_unit_test(warp_refers_to_one_point_a_stroke),
         cmocka_unit_test(whole_strokes_under_steep_light),
         cmocka_unit_test(curves_have_one_reference),
