@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "halftone/generate.h"
 #include "halftone/strokes.h"
 
 enum { SIDE = 128 };
@@ -231,6 +232,11 @@ static void test_svg_shapes(void **state)
     s = read_svg("<svg width='200mm' height='100mm'><line x2='755.905512' y2='377.952756'/></svg>");
     assert_true(has_stroke(&s, 0, 0.5, 1, 0, 0));
     strokes_release(&s);
+    s = read_svg("<svg viewBox='0 0 10 10'><g><line x2='1'/><g/><g transform='rotate(90,5 5)'><line x1='5' y1='5' x2='7' y2='4'/></g></g></svg>");
+    assert_int_equal(s.count, 2);
+    assert_true(has_stroke(&s, 0, 0, 0.1, 0, 0) || has_stroke(&s, 0, 1, 0.1, 1, 0)); /* v 1 is v 0 */
+    assert_true(has_stroke(&s, 0.5, 0.5, 0.6, 0.3, 1)); /* in the second group */
+    strokes_release(&s);
     s = read_svg("<svg><g><g><path d='M10 10h20v10z'/></g></g></svg>"); /* bounds are the square */
     assert_int_equal(s.count, 3);
     assert_true(has_stroke(&s, 0, 0.5, 1, 0.5, 0));
@@ -289,6 +295,15 @@ static void test_svg_curves(void **state)
     strokes_release(&s);
     s = read_svg("<svg viewBox='0 0 4 4'><path d='M0 0Q.5 0 1 1T2 0'/></svg>");
     assert_true(s.count > 4 && fabs((double)s.items[s.count - 1].u1 - 0.5) < 1e-6);
+    strokes_release(&s);
+    s = read_svg("<svg viewBox='0 0 4 4'><path d='M0 2Q1 0 2 2T4 2'/></svg>"); /* as far up as down */
+    double low = 1, high = 0;
+    for (size_t i = 0; i < s.count; i++) {
+        low = fmin(low, (double)s.items[i].v0);
+        high = fmax(high, (double)s.items[i].v0);
+    }
+    assert_near(low, 0.25, 2e-3);
+    assert_near(high, 0.75, 2e-3);
     strokes_release(&s);
     s = read_svg("<svg viewBox='0 0 10 10'><path d='M5 5z m1 1 2 0-.5.5H1V2'/></svg>");
     assert_int_equal(s.count, 5);
@@ -532,6 +547,45 @@ static void test_seamless(void **state)
                 assert_true(abs(a[y * SIDE + x] - b[moved]) <= 1);
             }
         strokes_release(&s);
+    }
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    return *(const float *)a < *(const float *)b ? -1 : *(const float *)a > *(const float *)b;
+}
+
+/* Rows are as far apart across the border as within the square, and what sways them goes on there. */
+static void test_pattern_repeats(void **state)
+{
+    (void)state;
+    strokes s = pattern(PATTERN_CROSS, 400, 0, 1);
+    for (int32_t layer = 0; layer < 4; layer++) {
+        float places[401];
+        size_t count = 0;
+        for (size_t i = 0; i < s.count; i++) {
+            const stroke *t = &s.items[i];
+            double across[] = {(double)t->v0, (double)t->u0, (double)t->v0 - (double)t->u0, (double)t->v0 + (double)t->u0};
+            if (t->layer == layer)
+                places[count++] = (float)(across[layer] - floor(across[layer] + 1e-6));
+        }
+        assert_true(count > 60 && count < 400);
+        qsort(places, count, sizeof *places, compare_floats);
+        places[count] = places[0] + 1;
+        double widest = 0, narrowest = 1;
+        for (size_t i = 0; i < count; i++) {
+            double gap = (double)places[i + 1] - (double)places[i];
+            widest = fmax(widest, gap);
+            narrowest = gap > 1e-4 ? fmin(narrowest, gap) : narrowest; /* strokes of one row */
+        }
+        assert_near(widest, narrowest, 1e-4);
+    }
+    strokes_release(&s);
+    random_source chance = random_start(1, 2);
+    sway w = sway_of(&chance, 0.1, 4);
+    for (double u = 0; u < 1; u += 0.1) {
+        assert_near(sway_at(&w, (place){u, 0.3}), sway_at(&w, (place){u + 1, 0.3}), 1e-9);
+        assert_near(sway_at(&w, (place){u, 0.3}), sway_at(&w, (place){u, -1.7}), 1e-9);
     }
 }
 
@@ -941,7 +995,7 @@ int main(void)
         cmocka_unit_test(test_stx_round_trip), cmocka_unit_test(test_stx_reads), cmocka_unit_test(test_stx_refuses),
         cmocka_unit_test(test_wrap), cmocka_unit_test(test_svg_shapes), cmocka_unit_test(test_svg_curves),
         cmocka_unit_test(test_svg_round_trip), cmocka_unit_test(test_svg_refuses), cmocka_unit_test(test_svg_hostile),
-        cmocka_unit_test(test_draw_exact), cmocka_unit_test(test_draw_taper), cmocka_unit_test(test_seamless),
+        cmocka_unit_test(test_draw_exact), cmocka_unit_test(test_draw_taper), cmocka_unit_test(test_seamless), cmocka_unit_test(test_pattern_repeats),
         cmocka_unit_test(test_preview), cmocka_unit_test(test_spread), cmocka_unit_test(test_share_length),
         cmocka_unit_test(test_share_area), cmocka_unit_test(test_perspective), cmocka_unit_test(test_indication),
         cmocka_unit_test(test_curves), cmocka_unit_test(test_priority_corners), cmocka_unit_test(test_patterns),
