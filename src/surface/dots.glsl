@@ -64,7 +64,7 @@ float cover_of(float darkness, int ink)
             part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, log2(1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0)), 9u, u_change).x;
         int wanted = part > 0.002 ? 1 : 0;
         for (int once = 0; once < wanted; once++)
-            bare *= 1.0 - dots_at(turned_plane(s, radians(u_angle + 30.0 * float(ink))), min(part, 1.0), s.key + 16u);
+            bare *= 1.0 - dots_at(turned_plane(s, turns_added(u_angle, turn_of_ink(ink))), min(part, 1.0), s.key + 16u);
     }
     return 1.0 - bare;
 }

@@ -62,6 +62,7 @@ float line_cover(float width, float grown, float away, uint key, float at, float
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
+    darkness = max(darkness, 1e-4);
     vec2 rate = vec2(s.right.y, s.up.y);
     float g = max(length(rate), 1e-20);
     /* Pixels along the line for a unit of x. */
@@ -113,19 +114,40 @@ float set_darkness(float darkness, int set)
     return clamp(1.0 - left / before, 0.0, most);
 }
 
+float plane_cover(int i, int set, float part, vec2 turn)
+{
+    stroke_plane s = plane_of(s_point, s_rest, i, set);
+    return lines_at(turned_plane(s, turn), part * s.weight, s.key + 16u * uint(set));
+}
+
+/* What a set of lines leaves bare. The first plane goes without a loop and the others in one that mostly runs not at all: on software drivers loops cost more than
+ * what is in them, and sets are written out where they are called, with constants. */
+float bare_of_set(float darkness, int set, vec2 turn)
+{
+    float part = set_darkness(darkness, set);
+    float bare = 1.0 - plane_cover(0, set, part, turn);
+    int planes = part > 0.002 ? planes_at(s_rest, set) : 1;
+    for (int i = 1; i < planes; i++)
+        bare *= 1.0 - plane_cover(i, set, part, turn);
+    return bare;
+}
+
 float cover_of(float darkness, int ink)
 {
-    float bare = 1.0;
-    for (int set = 0; set < SERIES; set++) {
-        float part = set_darkness(darkness, set);
-        int some = part > 0.002 ? PLANES : 0;
-        for (int i = 0; i < some; i++) {
-            stroke_plane s = plane_of(s_point, s_rest, i, set);
-            int wanted = part * s.weight > 0.002 ? 1 : 0;
-            for (int once = 0; once < wanted; once++)
-                bare *= 1.0 - lines_at(turned_plane(s, radians(u_angle + u_turn * float(set) + 30.0 * float(ink))), part * s.weight, s.key + 16u * uint(set));
-        }
-    }
+    vec2 turn = turns_added(u_angle, turn_of_ink(ink));
+    float bare = bare_of_set(darkness, 0, turn);
+#if SERIES > 1
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 1, turn);
+#endif
+#if SERIES > 2
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 2, turn);
+#endif
+#if SERIES > 3
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 3, turn);
+#endif
     return 1.0 - bare;
 }
 

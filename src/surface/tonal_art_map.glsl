@@ -28,7 +28,7 @@ float cover_of(float darkness, int ink)
 {
     float bare = 1.0;
     for (int i = 0; i < PLANES; i++) {
-        stroke_plane s = turned_plane(plane_of(s_point, s_rest, i, 0), radians(u_angle + 30.0 * float(ink)));
+        stroke_plane s = turned_plane(plane_of(s_point, s_rest, i, 0), turns_added(u_angle, turn_of_ink(ink)));
         float level = screen_level(s, u_tones_facts.x, u_scale);
         for (int k = 0; k < 2; k++) {
             screen_octave o = octave_of(s, level, k, -1e9);
