@@ -655,12 +655,14 @@ static void strokes_beside_pictures(void)
 
 /* --- time -------------------------------------------------------------------------------------------------------- */
 
+enum { TIMED = 256 };
+
 static bool take_time(shot *out, const char *surface, double time)
 {
     halftone_scene s = {0};
-    shot_view      view = halftone_view(128, 128, 40);
+    shot_view      view = halftone_view(TIMED, TIMED, 40);
     view.time_s = time;
-    halftone_add_wall(&s, "wall", (halftone_wall){0, 0, 0, 4, 4, 1});
+    halftone_add_wall(&s, "wall", (halftone_wall){0, 0, 0, 8, 8, 1});
     bool ok = halftone_shot(out, &s, "time.gltf", halftone_look(surface), NULL, &view);
     halftone_release(&s);
     return ok;
@@ -692,8 +694,8 @@ static void frames_follow_each_other(void)
         whole = i == 10 ? difference(&first, &now) : whole;
         if (i == 40)
             check_at_most("IM-28", difference(&first, &now), 0.001, "difference after all frames: they begin again");
-        mean = halftone_mean(&now, 0, 0, 128, 128);
-        spread = fmax(spread, fabs(mean - halftone_mean(&first, 0, 0, 128, 128)));
+        mean = halftone_mean(&now, 0, 0, TIMED, TIMED);
+        spread = fmax(spread, fabs(mean - halftone_mean(&first, 0, 0, TIMED, TIMED)));
         shot_release(&before);
         before = now;
     }
@@ -713,8 +715,8 @@ static void unevenness_lives(void)
     if (take_time(&rough, surface, 0.3) && take_time(&later, surface, 1.9)) {
         check_at_least("IM-29", difference(&even, &rough), 0.01, "mean change by unevenness");
         check_at_least("IM-29", difference(&later, &rough), 0.01, "mean change over time");
-        check_near("IM-29", halftone_mean(&rough, 0, 0, 128, 128), halftone_mean(&even, 0, 0, 128, 128), 0.03, "mean ink stays");
-        check_near("IM-29", halftone_mean(&later, 0, 0, 128, 128), halftone_mean(&even, 0, 0, 128, 128), 0.03, "mean ink stays, later");
+        check_near("IM-29", halftone_mean(&rough, 0, 0, TIMED, TIMED), halftone_mean(&even, 0, 0, TIMED, TIMED), 0.03, "mean ink stays");
+        check_near("IM-29", halftone_mean(&later, 0, 0, TIMED, TIMED), halftone_mean(&even, 0, 0, TIMED, TIMED), 0.03, "mean ink stays, later");
         shot_release(&later);
     }
     shot_release(&rough);
@@ -751,7 +753,7 @@ static void wobble_has_its_size(void)
             return;
         snprintf(surface, sizeof surface, "screen\",\"screen\":\"lines\",\"uneven\":0,\"shadow\":0.8,\"light\":0.8,\"scale\":40,\"wobble\":%g", amounts[i]);
         if (take_time(&wavy, surface, 0)) {
-            for (int x = 0; x < 128; x++) {
+            for (int x = 0; x < TIMED; x++) {
                 double a[16], b[16];
                 int    n = middles(&straight, x, a, 16), m = middles(&wavy, x, b, 16);
                 for (int k = 0; k < n; k++) {
@@ -790,7 +792,7 @@ static void nothing_shines_through(void)
     if (halftone_shot(&a, &both, "both.gltf", look, NULL, &view) && halftone_shot(&b, &front, "front.gltf", look, NULL, &view)) {
         for (int y = 42; y < 118; y++)
             for (int x = 42; x < 118; x++) {
-                wrong += memcmp(&a.picture[4 * (y * 160 + x)], &b.picture[4 * (y * 160 + x)], 4) != 0;
+                wrong += abs(a.picture[4 * (y * 160 + x)] - b.picture[4 * (y * 160 + x)]) > 8;
                 inked += halftone_ink(&b, x, y) > 0.5;
             }
         check_at_least("IM-32", inked, 500, "inked pixels of the nearer wall");
@@ -870,7 +872,7 @@ static void deferred_is_forward(void)
 static void approaching(const char *technique, const char *keys)
 {
     enum { SIDE = 192, BLOCK = 16 };
-    double worst = 0, before_zoom = 100;
+    double worst = 0;
     shot   before, now;
     char   surface[256];
     snprintf(surface, sizeof surface, "%s\",%s\"uneven\":0,\"shadow\":0.5,\"light\":0.5", technique, keys);
@@ -882,25 +884,21 @@ static void approaching(const char *technique, const char *keys)
         /* Two pictures one per cent apart, at places all over an octave. */
         if (!halftone_shot(&before, &scene, "approach.gltf", halftone_look(surface), NULL, &view))
             break;
-        before_zoom = zoom;
         view = halftone_view(SIDE, SIDE, zoom * 1.01);
         if (!halftone_shot(&now, &scene, "approach.gltf", halftone_look(surface), NULL, &view)) {
             shot_release(&before);
             break;
         }
-        for (int y = 0; y + BLOCK <= SIDE - 8; y += BLOCK)
-            for (int x = 0; x + BLOCK <= SIDE - 8; x += BLOCK) {
-                /* From the lower left corner, which stays. */
-                int i0 = (int)floor(x * 1.01 + 0.5), j0 = (int)floor(y * 1.01 + 0.5);
-                if (i0 + BLOCK > SIDE || j0 + BLOCK > SIDE)
-                    continue;
-                double a = halftone_mean(&before, x, SIDE - y - BLOCK, BLOCK, BLOCK), b = halftone_mean(&now, i0, SIDE - j0 - BLOCK, BLOCK, BLOCK);
+        for (int y = 0; y + BLOCK <= SIDE - 2; y += BLOCK)
+            for (int x = 0; x + BLOCK <= SIDE - 2; x += BLOCK) {
+                /* The lower left corner of the picture stays. */
+                double a = halftone_box(&before, x, SIDE - y - BLOCK, BLOCK, BLOCK);
+                double b = halftone_box(&now, x * 1.01, SIDE - (y + BLOCK) * 1.01, BLOCK * 1.01, BLOCK * 1.01);
                 worst = fmax(worst, fabs(a - b));
             }
         shot_release(&before);
         shot_release(&now);
     }
-    (void)before_zoom;
     check_at_most("coherence", worst, 0.08, "%s (%s): change of a block's ink in a step of 1 %% nearer", technique, keys);
     halftone_release(&scene);
 }

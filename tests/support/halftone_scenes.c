@@ -295,8 +295,8 @@ const char *halftone_look_with(const char *surface, const char *scene, const cha
     char       *text = texts[next];
     next = (next + 1) % 4;
     snprintf(text, sizeof texts[0],
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{%s},\"rules\":[{\"surface\":{\"ink\":\"#000000\",\"paper\":\"#ffffff\",\"texture\":0,"
-             "\"technique\":\"%s}%s}]}", scene, surface, more);
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{%s},\"rules\":[{\"surface\":{%s\"technique\":\"%s}%s}]}", scene,
+             strncmp(surface, "textured", 8) == 0 || strstr(surface, "\"ink\"") ? "" : "\"ink\":\"#000000\",\"paper\":\"#ffffff\",", surface, more);
     return text;
 }
 
@@ -317,6 +317,25 @@ double halftone_mean(const shot *s, int x, int y, int width, int height)
         for (int i = x; i < x + width; i++)
             sum += halftone_ink(s, i, j);
     return sum / (width * height);
+}
+
+static double overlap(double from, double to, int at)
+{
+    return fmax(fmin(to, at + 1) - fmax(from, at), 0);
+}
+
+double halftone_box(const shot *s, double x, double y, double width, double height)
+{
+    double sum = 0, area = 0;
+    for (int j = (int)floor(y); j < y + height; j++)
+        for (int i = (int)floor(x); i < x + width; i++) {
+            if (i < 0 || j < 0 || i >= s->width || j >= s->height)
+                continue;
+            double share = overlap(x, x + width, i) * overlap(y, y + height, j);
+            sum += share * halftone_ink(s, i, j);
+            area += share;
+        }
+    return area > 0 ? sum / area : 0;
 }
 
 static double texel_at(const mip_chain *c, int layer, int level, int x, int y)

@@ -58,7 +58,7 @@ halftone_part *halftone_add_tube(halftone_scene *s, const char *name, halftone_t
 /* Parallel rays along -z: the middle of pixel (x, y from the bottom) is at ((x + 0.5), (y + 0.5)) / pixels of the world. */
 shot_view halftone_view(int width, int height, double pixels);
 
-/* A look with black ink on white paper, no unevenness and no own brightness; `surface` begins with the technique's name, then more keys: "screen\",\"x\":1". */
+/* A look with black ink on white paper, unless it names an ink; `surface` begins with the technique's name, then more keys: "screen\",\"x\":1". */
 const char *halftone_look(const char *surface);
 /* The same with a scene's JSON (without braces) as well, and everything after the surface in the rule. */
 const char *halftone_look_with(const char *surface, const char *scene, const char *more);
@@ -67,6 +67,8 @@ const char *halftone_look_with(const char *surface, const char *scene, const cha
 double halftone_ink(const shot *s, int x, int y);
 /* Mean over a rectangle. */
 double halftone_mean(const shot *s, int x, int y, int width, int height);
+/* The same with parts of pixels. */
+double halftone_box(const shot *s, double x, double y, double width, double height);
 
 /* The value 0 … 1 of a chain that repeats, trilinear; v upwards. */
 double halftone_sample(const mip_chain *chain, int layer, double u, double v, double level);
