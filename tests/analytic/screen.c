@@ -224,18 +224,6 @@ static void edges_stay_sharp(void)
 
 /* --- over distance ----------------------------------------------------------------------------------------------- */
 
-/* A wall that fills the picture however far it is: `octave` 0 is 100 px a unit. */
-static bool take_far(shot *out, const char *surface, double octave, int side, double uv)
-{
-    double         pixels = 100 / exp2(octave), reach = side / pixels;
-    halftone_scene s = {0};
-    shot_view      view = halftone_view(side, side, pixels);
-    halftone_add_wall(&s, "wall", (halftone_wall){-reach, -reach, 0, 3 * reach, 3 * reach, uv});
-    bool ok = halftone_shot(out, &s, "far.gltf", halftone_look(surface), NULL, &view);
-    halftone_release(&s);
-    return ok;
-}
-
 static double pixel_contrast(const shot *s)
 {
     double sum = 0, square = 0, count = (double)s->width * s->height;
@@ -257,7 +245,7 @@ static void averaged_screens_grey_out(void)
         double got[2] = {0, 0};
         snprintf(surface, sizeof surface, "screen\",\"screen\":\"parallel\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"width\":1.2,\"detail\":\"%s\"", ways[i]);
         for (int k = 0; k < 2; k++)
-            if (take_far(&s, surface, k ? 6 : 2, 128, 0.25)) {
+            if (halftone_far(&s, surface, k ? 6 : 2, 128, 0.25)) {
                 got[k] = pixel_contrast(&s);
                 shot_release(&s);
             }
@@ -304,7 +292,7 @@ static void hatch_map_over_distance(void)
     double      low = 1e9, high = 0, step = 0, swell = 0, off = 0, thin = 1e9, wide = 0, before = 0, strength = 0;
     for (int i = 0; i <= 48; i++) {
         shot s;
-        if (!take_far(&s, look, i / 8.0, 256, 0.09765625))
+        if (!halftone_far(&s, look, i / 8.0, 256, 0.09765625))
             return;
         lines_seen seen = lines_in(&s, 0, 0, 16, 256);
         shot_release(&s);
@@ -381,30 +369,6 @@ static void hatch_map_in_the_depth(void)
     check_at_most("IM-03", step, 0.05, "step of the mean ink between rows");
 }
 
-/* Heights of runs of ink in columns whose middle is dark. */
-static double width_of_strokes(const shot *s, double *within)
-{
-    double sum = 0;
-    int    runs = 0, good = 0;
-    for (int x = 0; x < s->width; x++)
-        for (int y = 0; y < s->height; y++) {
-            double width = 0, most = 0;
-            int    from = y;
-            while (y < s->height && halftone_ink(s, x, y) > 0.08) {
-                width += halftone_ink(s, x, y);
-                most = fmax(most, halftone_ink(s, x, y));
-                y++;
-            }
-            if (most < 0.5 || from == 0 || y == s->height)
-                continue;
-            runs++;
-            sum += width;
-            good += width >= 0.5 && width <= 1.5;
-        }
-    *within = runs ? (double)good / runs : 0;
-    return runs ? sum / runs : 0;
-}
-
 static void strokes_over_distance(void)
 {
     static const char *const places[] = {"uv", "triplanar"};
@@ -415,9 +379,9 @@ static void strokes_over_distance(void)
         for (int k = 0; k <= 6; k++) {
             shot   s;
             double within;
-            if (!take_far(&s, surface, k, 256, p ? 1 : 0.0625))
+            if (!halftone_far(&s, surface, k, 256, p ? 1 : 0.0625))
                 return;
-            double ink = halftone_mean(&s, 0, 0, 256, 256), width = width_of_strokes(&s, &within);
+            double ink = halftone_mean(&s, 0, 0, 256, 256), width = halftone_width(&s, &within);
             shot_release(&s);
             check_note("%s, 1:%d: ink %.4f, width %.3f px, %.3f of columns within 1 +- 0.5", places[p], 1 << k, ink, width, within);
             first = k ? first : ink;
@@ -439,7 +403,7 @@ static void far_strokes_are_near_ones(void)
     for (int k = 1; k <= 4; k++) {
         shot far, near;
         int  inked = 0, alone = 0;
-        if (!take_far(&far, surface, k, 128, 0.125) || !take_far(&near, surface, k - 1, 256, 0.125))
+        if (!halftone_far(&far, surface, k, 128, 0.125) || !halftone_far(&near, surface, k - 1, 256, 0.125))
             return;
         for (int y = 1; y < 127; y++)
             for (int x = 1; x < 127; x++) {

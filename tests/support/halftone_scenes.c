@@ -390,6 +390,42 @@ int halftone_command(const char *command, const char *arguments, char *out, size
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/* Heights of runs of ink in columns whose middle is dark. */
+double halftone_width(const shot *s, double *within)
+{
+    double sum = 0;
+    int    runs = 0, good = 0;
+    for (int x = 0; x < s->width; x++)
+        for (int y = 0; y < s->height; y++) {
+            double width = 0, most = 0;
+            int    from = y;
+            while (y < s->height && halftone_ink(s, x, y) > 0.08) {
+                width += halftone_ink(s, x, y);
+                most = fmax(most, halftone_ink(s, x, y));
+                y++;
+            }
+            if (most < 0.5 || from == 0 || y == s->height)
+                continue;
+            runs++;
+            sum += width;
+            good += width >= 0.5 && width <= 1.5;
+        }
+    *within = runs ? (double)good / runs : 0;
+    return runs ? sum / runs : 0;
+}
+
+/* A wall that fills the picture however far it is: `octave` 0 is 100 px a unit. */
+bool halftone_far(shot *out, const char *surface, double octave, int side, double uv)
+{
+    double         pixels = 100 / exp2(octave), reach = side / pixels;
+    halftone_scene s = {0};
+    shot_view      view = halftone_view(side, side, pixels);
+    halftone_add_wall(&s, "wall", (halftone_wall){-reach, -reach, 0, 3 * reach, 3 * reach, uv});
+    bool ok = halftone_shot(out, &s, "far.gltf", halftone_look(surface), NULL, &view);
+    halftone_release(&s);
+    return ok;
+}
+
 void halftone_begin(void)
 {
     setenv("LIMNER_CACHE", "", 1);

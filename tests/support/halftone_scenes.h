@@ -76,6 +76,11 @@ double halftone_sample(const mip_chain *chain, int layer, double u, double v, do
 /* Draws; the file is written to the program's folder first. */
 bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const char *look, const char *const *changes, const shot_view *view);
 
+/* A wall that fills the picture however far it is: `octave` 0 is 100 px a unit. */
+bool halftone_far(shot *out, const char *surface, double octave, int side, double uv);
+/* Mean height of runs of ink in columns whose middle is dark, and the share of those of 0.5 to 1.5 px. */
+double halftone_width(const shot *s, double *within);
+
 /* Runs the command with these arguments; what it says on both streams (at most room - 1 bytes). The exit status, -1 when it did not end by itself. */
 int halftone_command(const char *command, const char *arguments, char *out, size_t room);
 
