@@ -105,7 +105,7 @@ float cover_of(float darkness, int ink)
 #if defined(HAS_WARP) && defined(HAS_UV)
             wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
 #endif
-            bare *= 1.0 - ink_of(value, wanted * share);
+            bare *= 1.0 - ink_of(value, darkness_of_share(wanted, share));
 #endif
         }
     }

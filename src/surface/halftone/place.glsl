@@ -75,6 +75,12 @@ stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, ui
                         vec2(dot(r.up, along), dot(r.up, across)), weight, key);
 }
 
+/* How dark strokes of one plane must be, so that those of all planes, which lie over each other, are as dark as wanted. */
+float darkness_of_share(float darkness, float share)
+{
+    return share > 0.9999 ? darkness : 1.0 - pow(max(1.0 - darkness, 1e-4), share);
+}
+
 /* Both angles, as cosine and sine. */
 vec2 turns_added(vec2 a, vec2 b)
 {
@@ -147,9 +153,11 @@ int planes_at(rest_place r, int series)
     return 1;
 }
 
+/* Models count downwards from the top of a picture, strokes upwards. */
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
-    return stroke_plane(s_uv, dFdx(s_uv), dFdy(s_uv), 1.0, 0u);
+    const vec2 UPWARDS = vec2(1.0, -1.0);
+    return stroke_plane(vec2(s_uv.x, 1.0 - s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u);
 }
 #elif COORDINATES == 4
 /* Planes through the model of a few fixed directions; each place takes those two whose lines come nearest to the way its surface bends. So strokes lie in
