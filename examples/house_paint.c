@@ -183,18 +183,18 @@ static void draw_stone(void)
 
 static void draw_grass(void)
 {
-    for (int k = 0; k < 26; k++) { /* tufts, evenly enough */
-        double x = fmod(k * 0.618034, 1) + about(0, 0.03), y = (k + 0.5) / 26, own = hash(k, 77);
+    for (int k = 0; k < 34; k++) { /* tufts, evenly enough */
+        double x = fmod(k * 0.618034, 1) + about(0, 0.03), y = (k + 0.5) / 34, own = hash(k, 77), size = about(1, 0.3);
         for (int j = -2; j <= 2; j++)
-            draw(0, own, x + 0.008 * j, y, x + 0.02 * j + about(0, 0.006), y + about(0.045, 0.012));
+            draw(0, own, x + 0.007 * j, y + 0.004 * j * j, x + size * (0.02 * j + about(0, 0.006)), y + size * (about(0.11, 0.02) - 0.008 * j * j));
     }
-    for (int k = 0; k < 170; k++) {
+    for (int k = 0; k < 150; k++) {
         double x = fmod(k * 0.754878, 1), y = fmod(k * 0.569840, 1);
-        draw(1, hash(k, 5), x, y, x + about(0, 0.014), y + about(0.035, 0.01));
+        draw(1, hash(k, 5), x, y, x + about(0.01, 0.014), y + about(0.08, 0.02));
     }
-    for (int k = 0; k < 420; k++) {
+    for (int k = 0; k < 330; k++) {
         double x = fmod(k * 0.754878 + 0.3, 1), y = fmod(k * 0.569840 + 0.6, 1);
-        draw(2 + k % 2, hash(k, 6), x, y, x + about(0.06, 0.02), y + about(0.008, 0.01));
+        draw(2 + k % 2, hash(k, 6), x, y, x + about(0.02, 0.02), y + about(0.09, 0.03));
     }
 }
 
