@@ -67,7 +67,7 @@ static lmn_status add(made_textures *all, gpu *g, const texture_source *source, 
     made_texture item = {.description = description};
     if (status == LMN_OK) {
         item.texture = put_up(g, &chain);
-        const float facts[4] = {(float)chain.width, (float)chain.layers, (float)chain.levels, chain.fact};
+        const float facts[4] = {(float)(chain.width > chain.height ? chain.width : chain.height), (float)chain.layers, (float)chain.levels, chain.fact};
         memcpy(item.facts, facts, sizeof facts);
         status = gpu_check(g, error);
     }
