@@ -158,7 +158,7 @@ vec4 surface_colour(surface_point p)
 #endif
     float tone = tone_of_light(p, light_of(p));
 #if defined(HAS_INDICATION) && defined(HAS_UV)
-    float wanted = texture(t_indication, vec3(s_uv, 0.0)).r;
+    float wanted = texture(t_indication, vec3(s_uv_unique, 0.0)).r;
 #if INDICATE == 0
     tone += u_indication_strength * (wanted - 128.0 / 255.0);
 #else
