@@ -84,14 +84,14 @@ void hatch_wall(shape *s, double half, double degrees)
 
 void hatch_model(shape *s)
 {
-    shape_sphere(s, "head", dvec_of(0, 0, 0), 1, 64, 128, false);
+    shape_sphere(s, "head", dvec_of(0, 0, 0), 1, 40, 80, false);
     shape_part *p = &s->parts[s->count - 1];
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         float *v = p->positions[i], bump = 1 + 0.1f * sinf(4 * v[0] + 1) * sinf(5 * v[1]) * cosf(3 * v[2]);
         for (int k = 0; k < 3; k++)
             v[k] *= bump;
     }
-    shape_torus(s, "ring", 1.35, 0.16, 96, 32);
+    shape_torus(s, "ring", 1.35, 0.16, 64, 20);
     shape_place(s, dvec_of(1, 0.2, 0), 25, dvec_of(0, -0.1, 0));
     shape_box(s, "crate", dvec_of(-1.9, -0.6, 0.2), dvec_of(-1.2, 0.5, 0.9));
     shape_box(s, "bar", dvec_of(0.9, -1.1, -0.2), dvec_of(1.3, 1.2, 0.2));
@@ -296,41 +296,73 @@ bool hatch_was_at(const shot *to, const shot *from, int x, int y, double *from_x
     return true;
 }
 
-static double between(const shot *s, double x, double y)
+/* Ink smoothed with weights 1 2 1 both ways: edges of a pixel's width cannot be read between pixels, these can. */
+static double *smoothed(const shot *s)
 {
-    int    left = (int)floor(x), top = (int)floor(y);
-    double u = x - left, v = y - top;
-    return (1 - v) * ((1 - u) * hatch_ink(s, left, top) + u * hatch_ink(s, left + 1, top)) +
-           v * ((1 - u) * hatch_ink(s, left, top + 1) + u * hatch_ink(s, left + 1, top + 1));
+    double *out = check_alloc((size_t)s->width * (size_t)s->height, sizeof *out);
+    for (int y = 1; y + 1 < s->height; y++)
+        for (int x = 1; x + 1 < s->width; x++) {
+            double sum = 0;
+            for (int k = 0; k < 9; k++)
+                sum += (2 - abs(k % 3 - 1)) * (2 - abs(k / 3 - 1)) * hatch_ink(s, x + k % 3 - 1, y + k / 3 - 1);
+            out[y * s->width + x] = sum / 16;
+        }
+    return out;
+}
+
+static double between(const double *values, int width, double x, double y)
+{
+    int           left = (int)floor(x), top = (int)floor(y);
+    double        u = x - left, v = y - top;
+    const double *at = &values[top * width + left];
+    return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[width] + u * at[width + 1]);
+}
+
+/* Is the surface around a pixel whole and not too steep? */
+static bool in_the_open(const shot *s, int x, int y)
+{
+    if (x < 2 || y < 2 || x + 2 >= s->width || y + 2 >= s->height)
+        return false;
+    double depth = depth_at(s, x, y);
+    for (int k = 0; k < 25; k++)
+        if (!(fabs(depth_at(s, x + k % 5 - 2, y + k / 5 - 2) - depth) < 0.03 * depth))
+            return false;
+    return s->normal[y * s->width + x][2] > 0.4f;
+}
+
+static void compare_block(hatch_change *out, double sums[5], const shot *to, const shot *from, const double *now, const double *then, int left, int top)
+{
+    double block = 0;
+    int    whole = 0;
+    for (int k = 0; k < 256; k++) {
+        int    x = left + k % 16, y = top + k / 16;
+        double fx, fy;
+        if (!in_the_open(to, x, y) || !hatch_was_at(to, from, x, y, &fx, &fy) || !in_the_open(from, (int)(fx + 0.5), (int)(fy + 0.5)))
+            continue;
+        double a = now[y * to->width + x], b = between(then, from->width, fx, fy);
+        out->changed += fabs(a - b) > 0.25;
+        out->mean += fabs(a - b);
+        out->pixels++;
+        block += a - b;
+        whole++;
+        sums[0] += a, sums[1] += b, sums[2] += a * a, sums[3] += b * b, sums[4] += a * b;
+    }
+    if (whole == 256)
+        out->block = fmax(out->block, fabs(block / 256));
 }
 
 hatch_change hatch_compare(const shot *to, const shot *from)
 {
     hatch_change out = {0};
-    double       a = 0, b = 0, aa = 0, bb = 0, ab = 0;
-    for (int by = 0; by < to->height; by += 16)
-        for (int bx = 0; bx < to->width; bx += 16) {
-            double block = 0;
-            int    whole = 0;
-            for (int k = 0; k < 256; k++) {
-                int    x = bx + k % 16, y = by + k / 16;
-                double fx, fy;
-                if (x >= to->width || y >= to->height || !hatch_was_at(to, from, x, y, &fx, &fy))
-                    continue;
-                double now = hatch_ink(to, x, y), then = between(from, fx, fy), step = now - then;
-                out.changed += fabs(step) > 0.25;
-                out.mean += fabs(step);
-                out.pixels++;
-                block += step;
-                whole++;
-                a += now, b += then, aa += now * now, bb += then * then, ab += now * then;
-            }
-            if (whole == 256)
-                out.block = fmax(out.block, fabs(block / 256));
-        }
+    double       sums[5] = {0}, *now = smoothed(to), *then = smoothed(from);
+    for (int y = 0; y < to->height; y += 16)
+        for (int x = 0; x < to->width; x += 16)
+            compare_block(&out, sums, to, from, now, then, x, y);
     double n = out.pixels ? out.pixels : 1;
     out.changed /= n;
     out.mean /= n;
-    out.correlation = (ab - a * b / n) / sqrt(fmax((aa - a * a / n) * (bb - b * b / n), 1e-12));
+    out.correlation = (sums[4] - sums[0] * sums[1] / n) / sqrt(fmax((sums[2] - sums[0] * sums[0] / n) * (sums[3] - sums[1] * sums[1] / n), 1e-12));
+    free(now);
+    free(then);
     return out;
 }

@@ -55,7 +55,7 @@ double hatch_edge_width(const shot *s, int x0, int y0, int x1, int y1);
 /* Where a pixel of `to` was in `from`: false where it was hidden or out of the picture. Nothing moved but the viewer. */
 bool hatch_was_at(const shot *to, const shot *from, int x, int y, double *from_x, double *from_y);
 
-/* What changed from one frame to the next where the same surface is seen. */
+/* What changed from one frame to the next where the same surface is seen, two pixels from its rims, and not too steep (at most 66 degrees), ink smoothed over a pixel. */
 typedef struct hatch_change {
     double changed;    /* share of pixels that differ by more than a quarter */
     double mean;       /* mean absolute difference */
