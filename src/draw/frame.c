@@ -114,6 +114,7 @@ void frame_draw(frame *f, gpu_texture *out)
 {
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
+    shadow_draw(f);
     if (!gpu_failed(f->g)) {
         clear_page(f);
         draw_figures(f);
@@ -122,4 +123,6 @@ void frame_draw(frame *f, gpu_texture *out)
     }
     gpu_target_release(f->g, f->page);
     gpu_target_release(f->g, f->page_depth);
+    gpu_target_release(f->g, f->shadow);
+    f->shadow = NULL;
 }

@@ -29,6 +29,8 @@ typedef struct frame {
     bool             profile;         /* finish after each pass and keep its time */
     frame_maps      *maps;            /* collects the figures' buffers when not NULL */
     gpu_texture     *page, *page_depth;
+    gpu_texture     *shadow;          /* depth of what the first light sees; NULL: it throws no shadow */
+    view_camera      shadow_camera;   /* the light's eye */
     float            clip_plane[4];   /* eye space, while a mirror's view is drawn */
     int              layers;          /* drawn by the deepest stack */
     const char      *producer;        /* of layers; NULL: there were none */

@@ -100,6 +100,14 @@ void      watch_stop(frame *f, stopwatch w, const char *group, const char *name)
 void lights_declare(text *prelude, const frame *f);
 void lights_set(frame *f);
 
+/* --- shadow.c --- */
+/* Draws what the first light sees, where the look wants shadows and the light has a direction. The caller gives f->shadow back. */
+void shadow_draw(frame *f);
+/* From eye space of this frame to the shadow map. */
+void shadow_set(frame *f);
+/* The first light's direction in eye space, towards it; false when it has a place instead. */
+bool lights_first_direction(const frame *f, double out[3]);
+
 /* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);
 /* The same, coarse pictures in the size that the figure's perturbation asks for. */
@@ -141,6 +149,8 @@ void raster_enlarged(frame *f, figure_state *s, float pixels);
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */
 void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit);
+/* The depth of what is drawn at all, in a picture of the frame's size. */
+void raster_depth(frame *f, gpu_texture *depth);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 

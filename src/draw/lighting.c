@@ -73,7 +73,7 @@ static light_list list_lights(const frame *f)
 void lights_declare(text *prelude, const frame *f)
 {
     light_list l = list_lights(f);
-    text_append(prelude, "#define LIGHT_COUNT %d\n", l.count);
+    text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, f->shadow ? "#define HAS_SHADOW\n" : "");
 }
 
 void lights_set(frame *f)
@@ -81,4 +81,14 @@ void lights_set(frame *f)
     light_list l = list_lights(f);
     gpu_set_vec4_array(f->g, "u_light_position", l.positions[0], l.count);
     gpu_set_vec4_array(f->g, "u_light_colour", l.colours[0], l.count);
+    if (f->shadow)
+        shadow_set(f);
+}
+
+bool lights_first_direction(const frame *f, double out[3])
+{
+    light_list l = list_lights(f);
+    for (int k = 0; k < 3; k++)
+        out[k] = (double)l.positions[0][k];
+    return l.positions[0][3] < 0.5f;
 }

@@ -67,7 +67,7 @@ static lmn_status add(made_textures *all, gpu *g, const texture_source *source, 
     made_texture item = {.description = description};
     if (status == LMN_OK) {
         item.texture = put_up(g, &chain);
-        const float facts[4] = {(float)chain.width, (float)chain.layers, (float)chain.levels, chain.fact};
+        const float facts[4] = {(float)(chain.width > chain.height ? chain.width : chain.height), (float)chain.layers, (float)chain.levels, chain.fact};
         memcpy(item.facts, facts, sizeof facts);
         status = gpu_check(g, error);
     }
@@ -131,7 +131,7 @@ void used_textures_declare(text *prelude, const technique_use *use, const used_t
         for (; name[k] && k + 1 < sizeof capitals; k++)
             capitals[k] = (char)toupper((unsigned char)name[k]);
         capitals[k] = '\0';
-        text_append(prelude, "#define HAS_%s\nuniform mediump sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
+        text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
     }
 }
 

@@ -10,7 +10,7 @@ enum { MADE_TEXTURES_MAX = 6 }; /* of one technique */
 typedef struct made_texture {
     char        *description;
     gpu_texture *texture;
-    float        facts[4]; /* width, layers, levels, the chain's own */
+    float        facts[4]; /* longer side, layers, levels, the chain's own */
     uint64_t     used;    /* when, by the store's clock */
 } made_texture;
 

@@ -625,6 +625,16 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
     draw_parts(f, &pass, &(raster_job){.stack = stack, .solids = &stack->solids, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
 }
 
+void raster_depth(frame *f, gpu_texture *depth)
+{
+    gpu_pass pass = {.depth = depth, .clear = true};
+    figure all = {.rule = f->plan->figures[0].rule, .designated = f->plan->selected};
+    figure_state s = {.figure = &all, .near = f->camera.near, .far = f->camera.far};
+    solid_layers solids = {.ready = false};
+    draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = f->plan->selected});
+    solids_release(f, &solids);
+}
+
 void raster_mask(frame *f, layer_stack *stack, const bool *parts)
 {
     stopwatch w = watch_start(f);

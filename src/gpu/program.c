@@ -19,7 +19,7 @@ typedef struct source {
 
 static const char desktop_head[] = "#version 330 core\n", fast_head[] = "#version 430 core\n";
 static const char es_head[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-                              "precision highp usampler2D;\n";
+                              "precision highp usampler2D;\nprecision highp sampler2DArray;\n";
 
 static bool append_file(gpu *g, source *s, const char *path, int depth);
 

@@ -5,6 +5,9 @@
 
 const char *const stroke_pattern_names[PATTERN_COUNT + 1] = {"parallel", "cross", "contour", "brick", "stipple", "scribble", "random", NULL};
 
+/* Enough places to choose from for any picture; more would only take time. */
+enum { THROWN_MAX = 400000 };
+
 /* What suits a pattern, and how its light priorities are shared out. */
 typedef struct pattern_room {
     void (*generate)(generator *g);
@@ -40,6 +43,7 @@ void generate_curve(generator *g, const place *points, size_t count, int32_t lay
 void generate_places(generator *g, place *out, size_t count, double uneven)
 {
     size_t thrown = count * (size_t)(1 + 15 * (1 - uneven) * (1 - uneven));
+    thrown = thrown <= THROWN_MAX ? thrown : count < THROWN_MAX ? THROWN_MAX : count;
     spread_point *points = mem_calloc(thrown, sizeof *points);
     size_t *order = mem_calloc(count, sizeof *order);
     for (size_t i = 0; points && i < thrown; i++) {

@@ -9,7 +9,7 @@
 
 const char *const perspective_order_names[5] = {"tied", "random", "even", "layers", NULL};
 
-enum { POINTS_A_LINE = 6, MANY_LINES = 20000, AREA_SIDE = 1024, AREA_SIDE_MAX = 4096 };
+enum { POINTS_A_LINE = 16, POINTS_MAX = 100000, AREA_SIDE = 1024, AREA_SIDE_MAX = 4096 };
 
 typedef struct line {
     size_t  first, count; /* strokes */
@@ -65,13 +65,14 @@ static spread_point point_on(const strokes *s, const line *l, double share)
     return (spread_point){t->u0, t->v0, 0};
 }
 
-/* Long lines are spread by several points, or strokes whose middles are far apart could lie on each other. */
+/* Long lines are spread by points along them, as far apart as the lines are if they lie side by side: else strokes could lie beside each other
+ * whose points are far apart. */
 static size_t points_on(const line *l, size_t line_count)
 {
-    double spacings = l->length * sqrt((double)line_count);
-    if (line_count > MANY_LINES)
-        return 1;
-    return spacings >= POINTS_A_LINE - 1 ? POINTS_A_LINE : 1 + (size_t)spacings;
+    double wanted = 1 + l->length * l->length * (double)line_count;
+    size_t most = POINTS_MAX / line_count < POINTS_A_LINE ? POINTS_MAX / line_count : POINTS_A_LINE;
+    most = most ? most : 1;
+    return wanted < (double)most ? (size_t)wanted : most;
 }
 
 /* Puts lines into the order in which they are most evenly spread. */

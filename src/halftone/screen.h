@@ -65,9 +65,10 @@ extern const char *const screen_procedure_names[PROCEDURE_COUNT + 1];
  * LMN_MEMORY. */
 lmn_status screen_of_procedure(mip_chain *out, screen_procedure procedure, int side, int period, lmn_error *error);
 
-/* A painted screen (IM-12). RGBA pixels, row 0 on top. One picture: its luminance over white is the screen. Several layers: layer i, the first the most important, is
- * compressed to g_i … 1 with g_i even in 0 … 1 − 1/gain, the first on top. Levels by `detail` (KEPT: darkest of four with the ink thinned back to its
- * share, since a bitmap has no strokes: stretches of lines go, not single texels). Pictures are resampled to `side`. Errors: LMN_FORMAT (not square), LMN_LIMIT, LMN_MEMORY. */
+/* A painted screen (IM-12). RGBA pixels, row 0 on top. One picture: its luminance over white is the screen. Several layers: layer i, the first the most
+ * important, is compressed to g_i … 1 with g_i even in 0 … 1 − 1/gain, the first on top. Levels by `detail` (KEPT: darkest of four, and whole marks, texels that
+ * hang together, are left out until there is as much ink as on level 0; where nearly everything hangs together, stretches of lines). Pictures are
+ * resampled to `side`. Errors: LMN_FORMAT (not square), LMN_LIMIT, LMN_MEMORY. */
 typedef struct screen_layer {
     const uint8_t *rgba;
     uint32_t       width, height;

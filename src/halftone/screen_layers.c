@@ -10,6 +10,8 @@
 
 enum { SIDE_MOST = 4096, LAYERS_MOST = 64, PATCH = 8 };
 
+static const double MUCH = 1.15; /* times the ink of level 0 that a level may have before texels are taken away */
+
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
 /* The luminance of a pixel over white, as it is coded: the painter's grey is the threshold. 0 … 1, by the weights of Rec. 709. */
@@ -117,9 +119,9 @@ static int by_ink(const void *a, const void *b)
     return left->index < right->index ? -1 : left->index > right->index;
 }
 
-/* The darkest of four is as wide as before and has about twice the ink. So that each tone has its share again, the texels get the values of the level 0
- * in their order; of equally dark ones those around which there was more ink stay, and then those of some patches, so that strokes end rather than
- * fall apart. `up_to`: texels of level 0 that are at least as dark. */
+/* The darkest of four is as wide as before and has about twice the ink. Where that does not come from many marks, of which some can go, texels go: so that each
+ * tone has its share again, they get the values of the level 0 in their order; of equally dark ones those around which there was more ink stay, and then
+ * those of some patches, so that strokes end rather than fall apart. `up_to`: texels of level 0 that are at least as dark. */
 static bool thin(uint16_t *ink, const uint16_t *mean, int side, const uint32_t *up_to, size_t whole)
 {
     size_t   count = (size_t)side * (size_t)side;
@@ -172,21 +174,44 @@ static void add_up(uint32_t *up_to, const uint16_t *ink, size_t count)
         up_to[t] += up_to[t + 1];
 }
 
+static double mean_of(const uint16_t *ink, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += ink[i];
+    return sum / INK_MOST / (double)count;
+}
+
+/* A coarser level with as much ink and lines as wide: first whole marks go, and where that is not enough, texels. */
+static bool keep_detail(painting *p, marks *m, int side, double share, size_t whole)
+{
+    size_t count = (size_t)side * (size_t)side;
+    reduce(p->ink, side, p->mean, p->next);
+    marks_reduce(m, p->next, p->ink, side);
+    marks_thin(m, p->next, side, share);
+    return mean_of(p->next, count) <= MUCH * share || thin(p->next, p->mean, side, p->up_to, whole);
+}
+
 static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
 {
     size_t whole = (size_t)out->width * (size_t)out->width;
+    double share = mean_of(p->ink, whole);
+    marks  m = {0};
+    bool   good = detail != DETAIL_KEPT || marks_find(&m, p->ink, out->width);
     add_up(p->up_to, p->ink, whole);
     ink_encode(out->data[0], p->ink, whole);
-    for (int k = 1; k < out->levels; k++) {
+    for (int k = 1; good && k < out->levels; k++) {
         int    side = mip_width(out, k);
         size_t count = (size_t)side * (size_t)side;
-        reduce(p->ink, side, p->mean, p->next);
-        if (detail == DETAIL_KEPT && !thin(p->next, p->mean, side, p->up_to, whole))
-            return false;
+        if (detail == DETAIL_KEPT)
+            good = keep_detail(p, &m, side, share, whole);
+        else
+            reduce(p->ink, side, p->mean, p->next);
         memcpy(p->ink, detail == DETAIL_AVERAGE ? p->mean : p->next, count * sizeof *p->ink);
         ink_encode(out->data[k], p->ink, count);
     }
-    return true;
+    marks_release(&m);
+    return good;
 }
 
 /* --- all of it ---------------------------------------------------------------------------------------------------- */

@@ -79,8 +79,9 @@ lmn_status screen_hatch_map(mip_chain *out, int side, int spacing, bool centred,
     memset(out, 0, sizeof *out);
     int least = centred ? 3 : 2;
     if (spacing < least || side < spacing || side % spacing || !is_power_of_two(side / spacing))
-        return error_set(error, LMN_LIMIT, "a hatch map of %d texels with lines %d apart; allowed are %d texels or more, and sides that are 1, 2, 4, 8 … times as large",
-                         side, spacing, least);
+        return error_set(error, LMN_LIMIT,
+                         "a hatch map of %d texels with lines %d apart; allowed are %d texels or more, and sides that are 1, 2, 4, 8 … times as large", side,
+                         spacing, least);
     lmn_status status = mip_chain_create(out, 1, side, 1, 0, MIP_R8, error);
     if (status != LMN_OK)
         return status;

@@ -21,4 +21,22 @@ lmn_status blue_noise_ranks(uint32_t *ranks, int side, lmn_error *error);
 /* The place of a texel in Bayer's order, 0 … side² − 1; side is a power of two. */
 uint32_t bayer_rank(uint32_t x, uint32_t y, int side);
 
+/* --- screen_components.c: marks of painted screens, texels that hang together --- */
+
+typedef struct marks {
+    int32_t *label; /* a texel's mark on the level at hand, or −1 */
+    size_t  *order; /* marks that follow each other lie apart */
+    double  *ink;   /* of each mark */
+    bool    *gone;
+    size_t   count;
+} marks;
+
+/* The marks of a square of a power of two texels that repeats. False: memory is gone; then, too, release. */
+bool marks_find(marks *m, const uint16_t *ink, int side);
+void marks_release(marks *m);
+/* The next coarser level: the darkest of four that belongs to a mark. `ink` may be `finer`. */
+void marks_reduce(marks *m, uint16_t *ink, const uint16_t *finer, int half);
+/* Takes away whole marks until the mean ink is about `share`, 0 … 1. */
+void marks_thin(marks *m, uint16_t *ink, int side, double share);
+
 #endif

@@ -26,7 +26,7 @@ typedef struct spread {
     double             *key;
     size_t             *rank;       /* who comes first among equals */
     float              *weight;     /* of an item's room */
-    size_t              heap_count, item_points; /* item_points: at most so many an item */
+    size_t              heap_count;
 } spread;
 
 static size_t cell_of(const spread *s, const spread_point *p)
@@ -82,14 +82,35 @@ static void sort_into_cells(spread *s)
         s->cell_points[--s->cell_start[cell_of(s, &s->points[i - 1])]] = i - 1;
 }
 
+static double shortest(double way)
+{
+    way = fabs(way);
+    way -= floor(way);
+    return way > 0.5 ? 1 - way : way;
+}
+
+static double distance_between(const spread_point *a, const spread_point *b)
+{
+    double du = shortest((double)a->u - (double)b->u), dv = shortest((double)a->v - (double)b->v);
+    return sqrt(du * du + dv * dv);
+}
+
+/* The most that any point of what is left is away from what is placed. Distances only shrink, so an old answer is never too small. */
+static double farthest_point(const spread *s)
+{
+    float most = 0;
+    for (size_t i = 0; i < s->point_count; i++)
+        if (s->room[s->points[i].item] >= 0 && s->near[i] > most)
+            most = s->near[i];
+    return (double)most;
+}
+
 static void count_points(spread *s)
 {
     for (size_t i = 0; i < s->point_count; i++)
         s->item_start[s->points[i].item + 1]++;
-    for (size_t i = 0; i < s->item_count; i++) {
-        s->item_points = s->item_start[i + 1] > s->item_points ? s->item_start[i + 1] : s->item_points;
+    for (size_t i = 0; i < s->item_count; i++)
         s->item_start[i + 1] += s->item_start[i];
-    }
 }
 
 static double weighed_room(const spread *s, size_t item)
@@ -138,13 +159,6 @@ static size_t take_farthest(spread *s)
     return item;
 }
 
-static double shortest(double way)
-{
-    way = fabs(way);
-    way -= floor(way);
-    return way > 0.5 ? 1 - way : way;
-}
-
 static void near_cell(spread *s, size_t cell, const spread_point *to)
 {
     for (size_t k = s->cell_start[cell]; k < s->cell_start[cell + 1]; k++) {
@@ -152,8 +166,7 @@ static void near_cell(spread *s, size_t cell, const spread_point *to)
         const spread_point *p = &s->points[i];
         if (s->room[p->item] < 0)
             continue;
-        double du = shortest((double)p->u - (double)to->u), dv = shortest((double)p->v - (double)to->v);
-        float distance = (float)sqrt(du * du + dv * dv);
+        float distance = (float)distance_between(p, to);
         if (distance < s->near[i]) {
             s->room[p->item] -= (double)(s->near[i] - distance);
             /* Differences of floats add up with errors; below 0 would mean placed. */
@@ -203,15 +216,20 @@ static void begin(spread *s, uint32_t seed)
 bool spread_order(size_t *order, size_t wanted, const spread_point *points, size_t point_count, size_t item_count, uint32_t seed)
 {
     spread s = {.points = points, .point_count = point_count, .item_count = item_count};
+    double radius = farthest;
+    size_t measured = 0;
     bool good = allocate(&s);
     if (good)
         begin(&s, seed);
     for (size_t k = 0; good && k < wanted && k < item_count; k++) {
         order[k] = take_farthest(&s);
-        /* No item left has more room than the next in the heap, hence none of its points more than all of that together. */
-        double most = s.heap_count > 0 ? s.key[s.heap[0]] / least_weight * (double)s.item_points : 0;
-        for (size_t i = s.item_start[order[k]]; s.heap_count > 0 && i < s.item_start[order[k] + 1]; i++)
-            bring_near(&s, &points[i], fmin(most, farthest));
+        for (size_t i = s.item_start[order[k]]; i < s.item_start[order[k] + 1]; i++)
+            bring_near(&s, &points[i], radius);
+        /* Now and then it is worth to look how near all has come. */
+        if (k >= measured + measured / 4) {
+            radius = farthest_point(&s);
+            measured = k + 1;
+        }
     }
     release(&s);
     return good;

@@ -201,6 +201,11 @@ void svg_arc(svg_pen *pen, double rx, double ry, double degrees, bool large, boo
         turned += 2 * half_turn;
     if (!sweep && turned > 0)
         turned -= 2 * half_turn;
+    /* Radii far beyond what doubles square leave nothing to turn by. */
+    if (!isfinite(turned) || !isfinite(mx) || !isfinite(my)) {
+        svg_line(pen, to);
+        return;
+    }
     svg_transform circle = {c * rx, s * rx, -s * ry, c * ry, c * mx - s * my + (from.x + to.x) / 2, s * mx + c * my + (from.y + to.y) / 2};
     int pieces = (int)ceil(fabs(turned) / (half_turn / 2) - 1e-9);
     pieces = pieces < 1 ? 1 : pieces > 4 ? 4 : pieces;

@@ -117,17 +117,31 @@ static bool near_enough(const stroke *s, int level)
     return (double)s->perspective >= 1 - 1.0 / (double)(1 << level);
 }
 
-/* Places as many as the level being filled needs, or as there are. */
+/* Length of a stroke, or of the curve that begins with it, with what its round ends cover. */
+static double whole_length(const tam *t, size_t index)
+{
+    const strokes *s = t->wishes->drawn;
+    double         length = stroke_length(&s->items[index]);
+    for (size_t i = index; i + 1 < s->count && stroke_goes_on(&s->items[i], &s->items[i + 1]); i++)
+        length += stroke_length(&s->items[i + 1]);
+    return length + 0.8 * t->brush.width / t->levels[t->level].side;
+}
+
+/* Places as many as the level being filled needs, or as there are; curves as a whole. */
 static bool fill_drawn(tam *t, queue *q)
 {
-    size_t left = 0;
+    const stroke *items = t->wishes->drawn->items;
+    size_t        left = 0, before = SIZE_MAX; /* the stroke that was placed last */
     for (size_t i = 0; i < q->count; i++) {
-        const stroke *s = &t->wishes->drawn->items[q->items[i].index];
-        double        length = stroke_length(s) + 0.8 * t->brush.width / t->levels[t->level].side; /* round ends cover about that much */
-        bool          wanted = near_enough(s, t->level) && tam_missing(t) > 0.5 * tam_expected(t, t->level, length);
-        if (!wanted)
+        size_t index = q->items[i].index;
+        bool   goes_on = index > 0 && before == index - 1 && stroke_goes_on(&items[index - 1], &items[index]);
+        if (!near_enough(&items[index], t->level) ||
+            !(goes_on || (tam_missing(t) > 0 && tam_missing(t) > 0.5 * tam_expected(t, t->level, whole_length(t, index))))) {
             q->items[left++] = q->items[i];
-        else if (!tam_put(t, *s, TAM_ALONG))
+            continue;
+        }
+        before = index;
+        if (!tam_put(t, items[index], TAM_ALONG))
             return false;
     }
     q->count = left;

@@ -5,10 +5,24 @@
 uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
 uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 
+#ifdef HAS_SHADOW
+#include "light/shadow.glsl"
+#endif
+
 vec3 towards_light(int i, vec3 eye)
 {
     vec4 light = u_light_position[i];
     return light.w > 0.5 ? normalize(light.xyz - eye) : light.xyz;
+}
+
+/* Share of a light that is not kept off by what lies between. Only the first one has shadows. */
+float unshadowed(int i, surface_point p)
+{
+#ifdef HAS_SHADOW
+    return i == 0 ? lit_share(p.eye, p.normal, towards_light(0, p.eye)) : 1.0;
+#else
+    return 1.0;
+#endif
 }
 
 /* Sum of the lights' diffuse terms. */
@@ -16,7 +30,7 @@ vec3 diffuse_light(surface_point p)
 {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LIGHT_COUNT; i++)
-        sum += u_light_colour[i].rgb * max(dot(p.normal, towards_light(i, p.eye)), 0.0);
+        sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * unshadowed(i, p));
     return sum;
 }
 
@@ -27,7 +41,8 @@ float wrapped_light(surface_point p)
     float total = 0.0;
     for (int i = 0; i < LIGHT_COUNT; i++) {
         float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
-        sum += strength * (0.5 * dot(p.normal, towards_light(i, p.eye)) + 0.5);
+        float turned = dot(p.normal, towards_light(i, p.eye));
+        sum += strength * (0.5 * (turned > 0.0 ? turned * unshadowed(i, p) : turned) + 0.5);
         total += strength;
     }
     return total > 0.0 ? sum / total : 0.0;
@@ -39,5 +54,5 @@ float highlight(surface_point p, float shininess)
 {
     vec3 light = towards_light(0, p.eye);
     float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
-    return strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
+    return unshadowed(0, p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
 }

@@ -16,6 +16,7 @@ typedef struct scene_values {
     float     fill, crease_angle;
     int32_t   lights;
     float     light_scale;
+    bool      shadows;
     param_words cut, cut_keep;
     float     cut_hatch, cut_angle, cut_width;
     colour    cut_colour, cut_fill;

@@ -22,6 +22,8 @@ static const param params[] = {
                    .doc = "studio: the two lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,
                     .doc = "Multiplies all lights."),
+    PARAM_BOOL_ROW(scene_values, shadows, .def = 0, .cpu_only = true,
+                   .doc = "The first light throws shadows, if it shines from one direction; with halftones they are denser strokes."),
     PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%", .check = check_cut,
                    .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or box=50%,0%,50%:100%,100%,100%; see draw.md."),
     PARAM_TEXT_ROW(scene_values, cut_keep, .example = "ball", .is_selector = true, .only_if = "cut",

@@ -56,8 +56,9 @@ static bool may_use(const patch_ground *g, uint32_t triangle)
     return !g->only_uncovered || !g->covered[triangle];
 }
 
-/* Steers a carried axis to the field, as much as the field is sure. The field's line has two ends: the one nearer to the carried axis counts. */
-static point3 steer(const patch_ground *g, uint32_t element, point3 axis)
+/* Steers a carried axis to the field, as much as the field is sure. The field's line has two ends: the one nearer to the carried axis counts. Beyond the patch, where only
+ * the ends of long triangles lie, the field is none of its business: steered there, such triangles would be sheared. */
+static point3 steer(const patch_ground *g, uint32_t element, point3 axis, double distance)
 {
     point3 n = g->surface->normals[element], d = g->axes[element];
     axis = point_unit_or(point_sub(axis, point_scale(n, point_dot(n, axis))), d);
@@ -67,7 +68,7 @@ static point3 steer(const patch_ground *g, uint32_t element, point3 axis)
         sine = -sine;
     }
     double angle = atan2(sine, cosine);
-    angle *= (double)g->sure[element] * (1 - smooth_step(0.8, 1.3, fabs(angle)));
+    angle *= (double)g->sure[element] * (1 - smooth_step(0.8, 1.3, fabs(angle))) * (1 - smooth_step(g->radius, 1.5 * g->radius, distance));
     return point_add(point_scale(axis, cos(angle)), point_scale(point_cross(n, axis), sin(angle)));
 }
 
@@ -111,7 +112,7 @@ static bool offer_around(patch_ground *g, uint32_t element, double radius)
 }
 
 /* Lays an element by its settled neighbours. */
-static bool settle(patch_ground *g, uint32_t element)
+static bool settle(patch_ground *g, uint32_t element, double distance)
 {
     const field_surface *s = g->surface;
     point3 axis = {0, 0, 0};
@@ -136,7 +137,7 @@ static bool settle(patch_ground *g, uint32_t element)
                 weights += weight;
             }
         if (turn == 0)
-            g->vertices[l].axis = steer(g, element, axis);
+            g->vertices[l].axis = steer(g, element, axis, distance);
     }
     g->vertices[l].place = weights > 0 ? (flat_place){sum.x / weights, sum.y / weights} : (flat_place){0, 0};
     g->vertices[l].settled = true;
@@ -170,7 +171,7 @@ static bool lay_seed(patch_ground *g, uint32_t seed)
             return false;
         point3 away = point_sub(s->positions[corners[k]], middle);
         g->vertices[l].place = (flat_place){point_dot(away, axis), point_dot(away, point_cross(n, axis))};
-        g->vertices[l].axis = steer(g, corners[k], carry_tangent(axis, n, s->normals[corners[k]]));
+        g->vertices[l].axis = steer(g, corners[k], carry_tangent(axis, n, s->normals[corners[k]]), point_length(away));
         g->vertices[l].settled = true;
     }
     return true;
@@ -306,16 +307,18 @@ bool patch_grow(patch_ground *g, uint32_t seed, flat_place middle, double radius
 {
     const field_surface *s = g->surface;
     g->middle = middle;
+    g->radius = radius;
     if (!lay_seed(g, seed))
         return false;
     for (uint32_t k = 0; k < 3; k++)
         if (!offer_around(g, s->corners[3 * (size_t)seed + k], radius))
             return false;
     while (g->near.count > 0) {
-        uint32_t element = near_pop(&g->near).element;
+        near_place next = near_pop(&g->near);
+        uint32_t element = next.element;
         if (settled(g, element))
             continue;
-        if (!settle(g, element) || !offer_around(g, element, radius))
+        if (!settle(g, element, next.distance) || !offer_around(g, element, radius))
             return false;
     }
     if (!gather(g, seed, radius) || !list_edges(g))

@@ -44,6 +44,7 @@ typedef struct patch_ground {
     uint32_t     *triangles; /* of the patch; the first is the seed */
     flat_place   *kept;
     flat_place    middle;    /* where in the seed 0 is */
+    double        radius;
     size_t        vertex_count, vertex_room, edge_count, edge_room, triangle_count, triangle_room, kept_room;
     near_queue    near;
 } patch_ground;

@@ -36,7 +36,7 @@ float dots_at(stroke_plane s, float darkness, uint set)
     vec2 at = s.at;
     if (u_wobble > 0.0) {
         float wave = log2(1.0 / (rate * 18.0));
-        at += u_wobble * 0.7 * (TONE_BY == 0 ? 8.0 : apart) * rate * vec2(living_noise(s.at, wave, set, u_change), living_noise(s.at, wave, set + 1u, u_change));
+        at += u_wobble * 0.7 * (TONE_BY == 0 ? 8.0 : apart) * rate * living_noise(s.at, wave, set, u_change);
     }
     vec2 cell = at * cells;
     /* From cells to pixels. */
@@ -61,7 +61,7 @@ float cover_of(float darkness, int ink)
         stroke_plane s = plane_of(s_point, s_rest, i, 0);
         float part = darkness * s.weight;
         if (u_uneven > 0.0)
-            part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, log2(1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0)), 9u, u_change);
+            part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, log2(1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0)), 9u, u_change).x;
         int wanted = part > 0.002 ? 1 : 0;
         for (int once = 0; once < wanted; once++)
             bare *= 1.0 - dots_at(turned_plane(s, radians(u_angle + 30.0 * float(ink))), min(part, 1.0), s.key + 16u);

@@ -16,7 +16,7 @@ static const param params[] = {
     PARAM_ENUM_ROW(hatch, tone_by, .names = tone_names, .variant = true,
                    .doc = "Darker places have more lines (number), as in pen drawings, or wider ones (width), as in engravings."),
     PARAM_FLOAT_ROW(hatch, scale, .def = 6, .min = 1, .max = 200, .soft_min = 2, .soft_max = 30, .unit = UNIT_PX,
-                    .doc = "Distance between lines where they are closest; by width, everywhere about."),
+                    .doc = "Distance of lines at which the next set begins to cross them; only deep shade brings them closer. By width: distance everywhere, about."),
     PARAM_FLOAT_ROW(hatch, width, .def = 1.2, .min = 0.1, .max = 64, .soft_max = 6, .unit = UNIT_PX, .only_if = "tone_by=number", .doc = "Width of the lines."),
     PARAM_INT_ROW(hatch, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "Sets of lines that cross each other in dark places."),

@@ -50,6 +50,15 @@ float covered(float width, float away)
     return clamp(0.5 * width + 0.5 - away, 0.0, min(width, 1.0));
 }
 
+/* The share of the pixel that a line covers. `grown`: share of their length that its strokes have yet. */
+float line_cover(float width, float grown, float away, uint key, float at, float along)
+{
+    width *= 1.0 + u_loose * (number_of(key) - 0.5);
+    if (u_length > 0.0)
+        width *= stroke_share(at, along, key, grown) / max(grown, 1e-3); /* strokes that come grow both ways, in length and in width */
+    return covered(width, away);
+}
+
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
@@ -58,10 +67,8 @@ float lines_at(stroke_plane s, float darkness, uint set)
     /* Pixels along the line for a unit of x. */
     float along = g / max(abs(s.right.x * s.up.y - s.up.x * s.right.y), 1e-20);
     float basis = log2(1.0 / (u_scale * g));
-    float waver = u_wobble > 0.0 ? living_noise(s.at * vec2(0.07, 0.13), basis, set, u_change) : 0.0;
-    if (u_uneven > 0.0)
-        darkness *= 1.0 + u_uneven * living_noise(s.at * vec2(0.1, 0.2), basis, set + 7u, u_change);
-    darkness = min(darkness / stroke_ink(), 1.0);
+    vec2 noise = u_wobble + u_uneven > 0.0 ? living_noise(s.at * vec2(0.07, 0.13), basis, set, u_change) : vec2(0.0);
+    darkness = min(darkness * (1.0 + u_uneven * noise.y) / stroke_ink(), 1.0);
 #if TONE_BY == 0
     float octave = log2(darkness / (u_width * g));
 #else
@@ -69,25 +76,26 @@ float lines_at(stroke_plane s, float darkness, uint set)
 #endif
     float low = floor(octave), share = octave - low;
     float cells = exp2(low), period = 1.0 / (cells * g); /* pixels between old lines */
-    float cell = (s.at.y + waver * u_wobble * u_scale * g) * cells, inside = fract(cell);
+    float cell = (s.at.y + noise.x * u_wobble * u_scale * g) * cells;
 #if TONE_BY == 0
     float old_part = exp2(-share);
 #else
     float old_part = 1.0 / (1.0 + share);
 #endif
     float old_width = darkness * period * old_part, new_width = darkness * period * (1.0 - old_part);
-    uint key_old = line_key(floor(cell + 0.5) * 2.0, low + 1.0, set), key_new = line_key(floor(cell) * 2.0 + 1.0, low + 1.0, set);
-    float away_old = min(inside, 1.0 - inside) * period, away_new = abs(inside - 0.5) * period;
-    if (u_loose > 0.0) {
-        old_width *= 1.0 + u_loose * (number_of(key_old) - 0.5);
-        new_width *= 1.0 + u_loose * (number_of(key_new) - 0.5);
-    }
-    if (u_length > 0.0) {
-        float grown = sqrt(new_width / max(old_width, 1e-6)); /* strokes that come grow both ways */
-        old_width *= stroke_share(s.at.x, along, key_old, 1.0);
-        new_width *= stroke_share(s.at.x, along, key_new, grown) / max(grown, 1e-3);
-    }
-    return min(covered(old_width, away_old) + covered(new_width, away_new), 1.0);
+#if TONE_BY == 0
+    /* Lines are thin: only the nearest one can be here. */
+    float index = floor(cell * 2.0 + 0.5);
+    bool coming = fract(index * 0.5) > 0.25;
+    return line_cover(coming ? new_width : old_width, coming ? sqrt(new_width / max(old_width, 1e-6)) : 1.0, abs(cell * 2.0 - index) * 0.5 * period,
+                      line_key(index, low + 1.0, set), s.at.x, along);
+#else
+    float inside = fract(cell);
+    float old_lines = line_cover(old_width, 1.0, min(inside, 1.0 - inside) * period, line_key(floor(cell + 0.5) * 2.0, low + 1.0, set), s.at.x, along);
+    float new_lines = line_cover(new_width, sqrt(new_width / max(old_width, 1e-6)), abs(inside - 0.5) * period,
+                                 line_key(floor(cell) * 2.0 + 1.0, low + 1.0, set), s.at.x, along);
+    return min(old_lines + new_lines, 1.0);
+#endif
 }
 
 /* Sets of lines share what is dark: each as far as its own lines may come together, and beyond that all alike. */

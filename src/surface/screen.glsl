@@ -39,7 +39,7 @@ vec2 wavered(stroke_plane s)
         return s.at;
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
     float octave = log2(1.0 / (rate * 60.0));
-    return s.at + u_wobble * rate * vec2(living_noise(s.at, octave, 3u, u_change), living_noise(s.at, octave, 4u, u_change));
+    return s.at + u_wobble * rate * living_noise(s.at, octave, 3u, u_change);
 }
 
 /* The screen's value: frames follow each other, each fading into the next. */
@@ -121,7 +121,7 @@ float uneven_tone()
         return 0.0;
     stroke_plane s = screen_plane(0, 0);
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
-    return u_uneven * living_noise(s.at, log2(1.0 / (rate * 40.0)), 5u, u_change);
+    return u_uneven * living_noise(s.at, log2(1.0 / (rate * 40.0)), 5u, u_change).x;
 }
 
 #ifdef HAS_RELIEF

@@ -95,7 +95,7 @@ typedef struct perturbation {
     const struct pass *map; /* writes TARGET_FIELD */
 } perturbation;
 
-/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its width, layers, levels
+/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its longer side, layers, levels
  * and fact as vec4 u_NAME_facts, and HAS_NAME, in capitals. */
 typedef struct texture_source {
     const char *name;

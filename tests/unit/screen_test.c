@@ -179,6 +179,33 @@ static void strokes_stay_at_their_place(void **state)
     strokes_release(&s);
 }
 
+/* IM-13: a level is the strokes that explicit drawing shows at 1 − 2^−k, but for their ends: on level 0 to the grey. */
+static void levels_are_what_is_drawn_explicitly(void **state)
+{
+    (void)state;
+    static uint8_t explicit[256 * 256];
+    strokes        s = random_strokes(150, 0.3, 0.3);
+    screen_wishes  w = wishes_of(256, 1.5, false);
+    mip_chain      m;
+    assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
+    for (int k = 0; k < 4; k++) {
+        int    side = 256 >> k, differ = 0, worst = 0;
+        size_t ends = 0;
+        strokes_draw(&s, side, &w.brush, 0, 1 - exp2f((float)-k), explicit);
+        for (int i = 0; i < side * side; i++) {
+            int off = abs(explicit[i] - level_of(&m, k)[i]);
+            differ += off > 1;
+            worst = off > worst ? off : worst;
+            assert_true(level_of(&m, k)[i] >= explicit[i] - 1); /* never more */
+        }
+        for (size_t i = 0; i < s.count; i++)
+            ends += (double)s.items[i].perspective >= 1 - exp2(-k) ? 2 : 0;
+        assert_true(k == 0 ? worst <= 1 : differ <= (int)ends * 6);
+    }
+    mip_chain_release(&m);
+    strokes_release(&s);
+}
+
 /* Ink covers the same share at any distance as long as levels have room, and levels are not means of the finer ones (IM-01, IM-02). */
 static void density_stays_over_distance(void **state)
 {
@@ -289,6 +316,24 @@ static void equalising_keeps_the_order(void **state)
     strokes_release(&s);
 }
 
+/* A group of equal texels takes the middle of its share; paper stays paper. */
+static void equal_texels_take_the_middle(void **state)
+{
+    (void)state;
+    mip_chain m;
+    assert_int_equal(mip_chain_create(&m, 4, 1, 1, 1, MIP_R8, NULL), LMN_OK);
+    const uint8_t before[2][4] = {{7, 7, 255, 255}, {200, 30, 10, 30}}, after[2][4] = {{64, 64, 255, 255}, {224, 128, 32, 128}};
+    for (int i = 0; i < 2; i++) {
+        memcpy(m.data[0], before[i], 4);
+        assert_int_equal(screen_equalise(&m, NULL), LMN_OK);
+        assert_memory_equal(m.data[0], after[i], 4);
+    }
+    mip_chain_release(&m);
+    assert_int_equal(mip_chain_create(&m, 4, 1, 1, 1, MIP_RG8, NULL), LMN_OK);
+    assert_int_equal(screen_equalise(&m, NULL), LMN_USAGE);
+    mip_chain_release(&m);
+}
+
 /* --- warp maps and normals ------------------------------------------------------------------------------------------ */
 
 typedef struct touch {
@@ -370,6 +415,46 @@ static void whole_strokes_under_steep_light(void **state)
     }
     mip_chain_release(&m);
     mip_chain_release(&warp);
+    strokes_release(&s);
+}
+
+static void of_equal_strokes_the_first_is_on_top(void **state)
+{
+    (void)state;
+    strokes s = {.width = 1};
+    assert_true(strokes_add(&s, (stroke){0.2f, 0.5f, 0.8f, 0.5f, 0.7f, 1, 0}));
+    assert_true(strokes_add(&s, (stroke){0.6f, 0.3f, 0.6f, 0.8f, 0.7f, 1, 0}));
+    screen_wishes w = wishes_of(64, 4, false);
+    mip_chain     m;
+    assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
+    const float *t = m.data[0];
+    int          crossing = 32 * 64 + 38;
+    assert_true(fabs((38 + 0.5) / 64 + (double)t[2 * crossing] - 0.5) < 1e-5);
+    mip_chain_release(&m);
+    strokes_release(&s);
+}
+
+/* The chords of a curve are one stroke, with one reference: half of the way along. */
+static void curves_have_one_reference(void **state)
+{
+    (void)state;
+    strokes s = {.width = 1};
+    assert_true(strokes_add(&s, (stroke){0.2f, 0.2f, 0.5f, 0.2f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (stroke){0.5f, 0.2f, 0.5f, 0.4f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (stroke){0.5f, 0.4f, 0.6f, 0.4f, 1, 1, 0}));
+    screen_wishes w = wishes_of(64, 2, false);
+    mip_chain     m;
+    assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
+    const float *t = m.data[0];
+    int          owned = 0;
+    for (int i = 0; i < 64 * 64; i++) {
+        if (t[2 * i] == 0 && t[2 * i + 1] == 0)
+            continue;
+        owned++;
+        assert_true(fabs((i % 64 + 0.5) / 64 + (double)t[2 * i] - 0.5) < 1e-5 && fabs((i / 64 + 0.5) / 64 + (double)t[2 * i + 1] - 0.2) < 1e-5);
+    }
+    assert_true(owned > 64);
+    mip_chain_release(&m);
     strokes_release(&s);
 }
 
@@ -576,6 +661,36 @@ static void light_takes_layers_away_from_the_last(void **state)
     mip_chain_release(&m);
 }
 
+/* Painted marks stay whole or go, on every level; ink stays about what it was. Dashes of 12 x 2 texels, all in the same place of squares of 16. */
+static void painted_marks_go_as_a_whole(void **state)
+{
+    (void)state;
+    enum { BOARD = 256 };
+    uint8_t *pixels = mem_calloc(BOARD * BOARD, 4);
+    assert_non_null(pixels);
+    for (int i = 0; i < BOARD * BOARD; i++)
+        pixels[4 * i + 3] = i % BOARD % 16 < 12 && i / BOARD % 16 < 2 ? 255 : 0;
+    screen_layer layer = {pixels, BOARD, BOARD};
+    mip_chain    m;
+    assert_int_equal(screen_of_layers(&m, &layer, 1, 4, BOARD, DETAIL_KEPT, NULL), LMN_OK);
+    for (int k = 0; k < 4; k++) {
+        int            side = BOARD >> k, cell = 16 >> k, there = 0;
+        const uint8_t *t = level_of(&m, k);
+        for (int y = 0; y < side; y += cell)
+            for (int x = 0; x < side; x += cell) {
+                int inked = 0, full = (k < 3 ? 12 >> k : 2) * (k < 1 ? 2 : 1);
+                for (int i = 0; i < cell * cell; i++)
+                    inked += t[(y + i / cell) * side + x + i % cell] == 0;
+                assert_true(inked == 0 || inked == full);
+                there += inked > 0;
+            }
+        printf("    painted marks on level %d: %d of 256\n", k, there);
+        assert_true(fabs(mean_ink(&m, k) / mean_ink(&m, 0) - 1) < 0.1);
+    }
+    mip_chain_release(&m);
+    mem_free(pixels);
+}
+
 static void pictures_are_resampled_and_checked(void **state)
 {
     (void)state;
@@ -675,13 +790,17 @@ int main(void)
         cmocka_unit_test(hatch_lines_lie_on_every_second),
         cmocka_unit_test(hatch_keeps_tone_and_spacing_at_any_distance),
         cmocka_unit_test(strokes_stay_at_their_place),
+        cmocka_unit_test(levels_are_what_is_drawn_explicitly),
         cmocka_unit_test(density_stays_over_distance),
         cmocka_unit_test(dots_keep_density_too),
         cmocka_unit_test(minimum_gets_dark),
         cmocka_unit_test(equalised_screens_are_linear),
         cmocka_unit_test(equalising_keeps_the_order),
+        cmocka_unit_test(equal_texels_take_the_middle),
+        cmocka_unit_test(of_equal_strokes_the_first_is_on_top),
         cmocka_unit_test(warp_refers_to_one_point_a_stroke),
         cmocka_unit_test(whole_strokes_under_steep_light),
+        cmocka_unit_test(curves_have_one_reference),
         cmocka_unit_test(normals_lean_to_the_axis),
         cmocka_unit_test(thresholds_follow_the_light),
         cmocka_unit_test(thresholds_are_their_formulas),
@@ -690,6 +809,7 @@ int main(void)
         cmocka_unit_test(blue_noise_is_blue),
         cmocka_unit_test(dots_lie_on_a_turned_grid),
         cmocka_unit_test(light_takes_layers_away_from_the_last),
+        cmocka_unit_test(painted_marks_go_as_a_whole),
         cmocka_unit_test(pictures_are_resampled_and_checked),
         cmocka_unit_test(wrong_wishes_are_refused),
         cmocka_unit_test(failing_memory_is_reported),

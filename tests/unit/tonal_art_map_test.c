@@ -556,16 +556,16 @@ static void damage_is_not_found(void **state)
         mip_chain_release(&found);
     }
     /* Another description of the same hash. */
-    store_keep(&m, "another description");
+    store_keep(&m, "like description");
     mip_chain_release(&m);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(visit_files(other, sizeof other), 1);
     write_file(other, bytes, size);
-    assert_false(store_find(&found, "another description"));
+    assert_false(store_find(&found, "like description"));
     /* What is not a file. */
     assert_int_equal(unlink(other), 0);
     assert_int_equal(mkdir(other, 0700), 0);
-    assert_false(store_find(&found, "another description"));
+    assert_false(store_find(&found, "like description"));
     assert_int_equal(rmdir(other), 0);
 }
 

@@ -8,13 +8,15 @@ float number_of(uint hash)
     return float(hash >> 8u) / 16777215.0;
 }
 
-float cell_noise(ivec2 cell, uint seed)
+/* Two independent values. */
+vec2 cell_noise(ivec2 cell, uint seed)
 {
-    return number_of(hash_of(uvec3(uvec2(cell), 0u), seed)) * 2.0 - 1.0;
+    uint hash = hash_of(uvec3(uvec2(cell), 0u), seed);
+    return vec2(hash & 0xFFFFu, hash >> 16u) * (2.0 / 65535.0) - 1.0;
 }
 
 /* Smooth noise in the plane, −1 … 1. */
-float plane_noise(vec2 at, uint seed)
+vec2 plane_noise(vec2 at, uint seed)
 {
     vec2 low = floor(at), t = at - low;
     t = t * t * (3.0 - 2.0 * t);
@@ -24,7 +26,7 @@ float plane_noise(vec2 at, uint seed)
 }
 
 /* Noise of as many waves on the page at any zoom: two octaves that hand over to each other. */
-float zoomed_noise(vec2 at, float octave, uint seed)
+vec2 zoomed_noise(vec2 at, float octave, uint seed)
 {
     float low = floor(octave), share = octave - low;
     float scale = exp2(low);
@@ -32,9 +34,12 @@ float zoomed_noise(vec2 at, float octave, uint seed)
 }
 
 /* The same, which changes so many times a second, smoothly. */
-float living_noise(vec2 at, float octave, uint seed, float change)
+vec2 living_noise(vec2 at, float octave, uint seed, float change)
 {
     float step = floor(u_time * change), share = u_time * change - step;
-    float first = zoomed_noise(at, octave, seed + 0x9e37u * uint(step));
-    return share > 0.0 ? mix(first, zoomed_noise(at, octave, seed + 0x9e37u * uint(step + 1.0)), share) : first;
+    vec2 noise = zoomed_noise(at, octave, seed + 0x9e37u * uint(step));
+    int moves = share > 0.0 ? 1 : 0;
+    for (int once = 0; once < moves; once++)
+        noise = mix(noise, zoomed_noise(at, octave, seed + 0x9e37u * uint(step + 1.0)), share);
+    return noise;
 }

@@ -1,0 +1,102 @@
+/* Shadows of the first light: the scene's depth as the light sees it. */
+#include "draw/frame_private.h"
+
+#include <math.h>
+
+#include "light/light.h"
+
+enum { SHADOW_SIDE = 2048 };
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static void scale_to(double v[3], double length)
+{
+    double own = sqrt(dot(v, v));
+    for (int k = 0; k < 3; k++)
+        v[k] *= length / (own > 0 ? own : 1);
+}
+
+/* An eye that looks along the light, with parallel rays, at the whole box. `back`: world axes, towards the light. */
+static view_camera camera_of_light(box3 box, const double back[3])
+{
+    double seed[3] = {0, 0, 0}, right[3], up[3];
+    seed[fabs(back[0]) < 0.6 ? 0 : 1] = 1;
+    cross(seed, back, right);
+    scale_to(right, 1);
+    cross(back, right, up);
+    double middle[3] = {((double)box.min.x + (double)box.max.x) / 2, ((double)box.min.y + (double)box.max.y) / 2, ((double)box.min.z + (double)box.max.z) / 2};
+    double half[3] = {((double)box.max.x - (double)box.min.x) / 2, ((double)box.max.y - (double)box.min.y) / 2, ((double)box.max.z - (double)box.min.z) / 2};
+    double reach = sqrt(dot(half, half)), side = 0;
+    const double *axes[2] = {right, up};
+    for (int i = 0; i < 2; i++)
+        side = fmax(side, half[0] * fabs(axes[i][0]) + half[1] * fabs(axes[i][1]) + half[2] * fabs(axes[i][2]));
+    view_camera c = {.orthographic = true, .aspect = 1, .half_height = side > 0 ? side * 1.01 : 1, .view = mat4_identity()};
+    for (int k = 0; k < 3; k++) {
+        c.eye[k] = middle[k] + back[k] * 2 * reach;
+        c.target[k] = middle[k];
+        c.up[k] = up[k];
+        c.view.m[4 * k] = right[k];
+        c.view.m[4 * k + 1] = up[k];
+        c.view.m[4 * k + 2] = back[k];
+    }
+    c.view.m[12] = -dot(right, c.eye);
+    c.view.m[13] = -dot(up, c.eye);
+    c.view.m[14] = -dot(back, c.eye);
+    camera_set_range(&c, reach > 0 ? reach * 0.99 : 0.5, reach > 0 ? reach * 3.01 : 2);
+    return c;
+}
+
+void shadow_draw(frame *f)
+{
+    const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
+    double towards[3], back[3];
+    if (!v->shadows || box3_is_empty(f->plan->box) || !lights_first_direction(f, towards))
+        return;
+    for (int k = 0; k < 3; k++) /* the view's rotation, backwards */
+        back[k] = dot(&f->camera.view.m[4 * k], towards);
+    scale_to(back, 1);
+    stopwatch w = watch_start(f);
+    frame light = *f;
+    light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
+    light.width = light.height = SHADOW_SIDE;
+    light.maps = NULL;
+    gpu_texture *depth = gpu_target_acquire(f->g, SHADOW_SIDE, SHADOW_SIDE, GPU_DEPTH32F);
+    if (!gpu_failed(f->g))
+        raster_depth(&light, depth);
+    f->shadow = depth;
+    watch_stop(f, w, "scene", "shadow");
+}
+
+void shadow_set(frame *f)
+{
+    /* World from eye: the view is a rotation and a shift. */
+    mat4 world = mat4_identity();
+    const double *view = f->camera.view.m;
+    for (int row = 0; row < 3; row++) {
+        world.m[12 + row] = 0;
+        for (int k = 0; k < 3; k++) {
+            world.m[4 * k + row] = view[4 * row + k];
+            world.m[12 + row] -= view[4 * row + k] * view[12 + k];
+        }
+    }
+    mat4 clip = mat4_multiply(&f->shadow_camera.view, &world);
+    clip = mat4_multiply(&f->shadow_camera.projection, &clip);
+    float matrix[16];
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double last = column == 3 ? 1 : 0; /* w, for parallel rays */
+            matrix[4 * column + row] = (float)(row == 3 ? last : 0.5 * clip.m[4 * column + row] + 0.5 * last);
+        }
+    gpu_set_mat4(f->g, "u_shadow_from_eye", matrix);
+    gpu_set_vec2(f->g, "u_shadow_texel", 1.0f / SHADOW_SIDE, (float)(2 * f->shadow_camera.half_height / SHADOW_SIDE));
+    gpu_set_texture(f->g, "t_shadow", f->shadow, false);
+}

@@ -1,0 +1,18 @@
+/* How much of the key light reaches a place: its depth as the light sees it against what is nearest there. */
+uniform sampler2D t_shadow;      /* depth from the light */
+uniform mat4 u_shadow_from_eye;  /* to 0 … 1 in all three */
+uniform vec2 u_shadow_texel;     /* side of a texel: of the map, and in eye space */
+
+/* Four comparisons, mixed as a filter would mix them: the border of a shadow is one texel wide. */
+float lit_share(vec3 eye, vec3 normal, vec3 light)
+{
+    /* Off the surface by as much as a texel of it can rise. */
+    float slope = sqrt(max(1.0 - dot(normal, light) * dot(normal, light), 0.0));
+    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.5 + 1.5 * slope)), 1.0)).xyz;
+    vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), share = texel - low;
+    ivec2 place = ivec2(low), last = textureSize(t_shadow, 0) - 1;
+    vec4 nearest = vec4(texelFetch(t_shadow, clamp(place, ivec2(0), last), 0).r, texelFetch(t_shadow, clamp(place + ivec2(1, 0), ivec2(0), last), 0).r,
+                        texelFetch(t_shadow, clamp(place + ivec2(0, 1), ivec2(0), last), 0).r, texelFetch(t_shadow, clamp(place + 1, ivec2(0), last), 0).r);
+    vec4 lit = step(vec4(at.z), nearest);
+    return mix(mix(lit.x, lit.y, share.x), mix(lit.z, lit.w, share.x), share.y);
+}
