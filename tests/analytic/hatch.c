@@ -220,6 +220,42 @@ static void distance_in_perspective(void)
         }
 }
 
+/* Strokes counted along lines that are all of one octave: what lies between two gaps is as long as is said, in the mean. */
+static void lengths(void)
+{
+    shot_view view = hatch_front(320, 1.25);
+    double    way = 0, shortest = INFINITY, longest = 0;
+    int       gaps = 0;
+    for (int k = 0; k < 8; k++) {
+        double length = 40 * pow(2, k / 8.0), covered = 1 - (3 + 0.01) / length;
+        char   settings[240];
+        shot   s;
+        snprintf(settings, sizeof settings, NESTED ",\"series\":1,\"coordinates\":\"triplanar\",\"width\":4,\"gap\":3,\"taper\":0.01,\"length\":%.9g", length);
+        if (wall_shot(&s, 1.5, 0, even(0.2501 * covered, settings), &view))
+            for (int y = 8; y < 312; y++) {
+                double row = hatch_mean(&s, 0, y, 320, y + 1);
+                int    run = -1;
+                if (row < 0.6)
+                    continue;
+                for (int x = 0; x < 320; x++) {
+                    bool inked = hatch_ink(&s, x, y) > 0.5, next = x < 319 && hatch_ink(&s, x + 1, y) > 0.5;
+                    way += inked / length;
+                    run = inked && run >= 0 ? run + 1 : run;
+                    if (inked && !next) {
+                        gaps++;
+                        shortest = run > 0 ? fmin(shortest, run / length) : shortest;
+                        longest = fmax(longest, run / length);
+                    }
+                    if (!inked && next)
+                        run = 0;
+                }
+            }
+        shot_release(&s);
+    }
+    check_at_least("IM-11", gaps, 1000, "strokes counted");
+    check_near("IM-11", way / (gaps ? gaps : 1), 1, 0.15, "  their mean length over what was asked for (%.2f to %.2f)", shortest, longest);
+}
+
 /* --- 3: tone ------------------------------------------------------------------------------------------------------- */
 
 typedef struct ramp_case {
@@ -502,7 +538,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"formulas", formulas}, {"perspective", formulas_in_perspective}, {"edges", edges},   {"zoom", zoom},           {"distance", distance_in_perspective},
-        {"ramp", ramp},         {"tone", tone_parameters},                {"polarity", polarity}, {"nesting", nesting},     {"borders", no_octave_border},
+        {"lengths", lengths}, {"ramp", ramp},         {"tone", tone_parameters},                {"polarity", polarity}, {"nesting", nesting},     {"borders", no_octave_border},
         {"uneven", unevenness}, {"change", change},
     };
     int status = check_main(argc, argv, "hatch", cases, sizeof cases / sizeof *cases);
