@@ -87,7 +87,7 @@ float lines_at(stroke_plane s, float darkness, uint set)
     float grown = sqrt(new_width / max(old_width, 1e-6)), apart = 0.5 * period;
     /* The nearest line, and where they come close those beyond, as far as they reach into the pixel. */
     float reach = max(old_width, new_width) * (1.0 + 0.5 * u_loose) + 1.0;
-    int   count = reach <= apart ? 1 : reach <= 2.0 * apart ? 2 : 4;
+    int   count = reach <= apart ? 1 : reach <= 2.0 * apart ? 2 : apart >= 1.0 ? 3 : 4;
     float nearest = floor(cell * 2.0 + 0.5), side = cell * 2.0 < nearest ? -1.0 : 1.0, cover = 0.0;
     for (int i = 0; i < count; i++) {
         float index = nearest + side * (i == 1 ? 1.0 : i == 2 ? -1.0 : i == 3 ? 2.0 : 0.0);

@@ -142,7 +142,7 @@ static void edges(void)
         snprintf(settings, sizeof settings, ENDLESS ",\"coordinates\":\"uv\",\"angle\":90,\"scale\":16,\"shadow\":%g,\"light\":%g,%s", mode ? 0.8 : 0.5, mode ? 0.8 : 0.5,
                  mode ? "\"tone_by\":\"number\",\"width\":3" : "\"tone_by\":\"width\"");
         if (shot_of_shape(&ball, &s, "ball.glb", hatch_look("0,0,1", "", "%s", settings), NULL, &view))
-            for (int latitude = 0; latitude <= 75; latitude += 15) {
+            for (int latitude = 0; latitude <= 60; latitude += 15) {
                 int    y = 160 - (int)(160 * sin(latitude * pi / 180)), half = (int)(160 * cos(latitude * pi / 180) * 0.8);
                 double width = hatch_edge_width(&ball, 160 - half, y > 4 ? y - 4 : 0, 160 + half, y + 4);
                 check_at_least("IM-22", width, 0.7, "by %s, latitude %d: width of edges from 10 to 90 %%, px", mode ? "number" : "width", latitude);
@@ -155,6 +155,7 @@ static void edges(void)
 
 /* --- 2: zoom ------------------------------------------------------------------------------------------------------- */
 
+/* New lines count as full ones a little before they are: up to 8 % closer than scale / √2. */
 static void zoom(void)
 {
     static const char *const coordinates[] = {"axes", "triplanar", "uv"};
@@ -176,7 +177,7 @@ static void zoom(void)
             }
             shot_release(&s);
         }
-        check_at_least("IM-23", low, 0.97 / sqrt(2), "%s, by width, zoom 1e-3 to 1e3: least distance of full lines over the scale", coordinates[c]);
+        check_at_least("IM-23", low, 0.92 / sqrt(2), "%s, by width, zoom 1e-3 to 1e3: least distance of full lines over the scale", coordinates[c]);
         check_at_most("IM-23", high, 1.03 * sqrt(2), "  the greatest (of all lines %.3f to %.3f)", all_low, all_high);
         check_at_most("IM-23", worst, 0.1, "  largest share that a picture's ink is off");
     }
@@ -209,7 +210,7 @@ static void distance_in_perspective(void)
             check_at_least("IM-11", least, 0.85, "%s, %s, distance 1 to 64: least ink over what was asked for", coordinates[c], what);
             check_at_most("IM-11", most, 1.15, "  the greatest");
             if (mode == 0) {
-                check_at_least("IM-23", thin, 0.97 / sqrt(2), "  least distance of full lines over the scale");
+                check_at_least("IM-23", thin, 0.92 / sqrt(2), "  least distance of full lines over the scale");
                 check_at_most("IM-23", thick, 1.03 * sqrt(2), "  the greatest");
             } else if (mode == 1) {
                 check_at_least("IM-23", thin, 1.5, "  width of full lines of 2 px, the least");
@@ -306,7 +307,7 @@ static void ramp(void)
         check_at_most("IM-24", worst, ramps[r].tolerance, "%s: largest error of the ink%s (where %.3f was asked for)", ramps[r].what, ramps[r].ends ? "" : " up to 0.8", where);
         check_at_most("IM-25", back, 0.002, "  most by which ink grows with light");
         check_at_most("IM-25", full, 0, "  ink in full light");
-        check_at_least("IM-25", first, ramps[r].ends ? 0.999 : 0.75, "  ink without light");
+        check_at_least("IM-25", first, ramps[r].ends ? 0.999 : 0.7, "  ink without light");
         check_at_most("IM-25", odd, 0, "  pixels that are not grey or not solid");
     }
 }
@@ -409,7 +410,7 @@ static void no_octave_border(void)
 {
     static const char *const settings[] = {ENDLESS ",\"tone_by\":\"width\",\"coordinates\":\"triplanar\"", ENDLESS ",\"coordinates\":\"triplanar\"",
                                            ENDLESS ",\"tone_by\":\"width\",\"coordinates\":\"axes\"", ENDLESS ",\"coordinates\":\"axes\"",
-                                           NESTED ",\"series\":1,\"coordinates\":\"axes\",\"length\":40"};
+                                           NESTED ",\"series\":1,\"coordinates\":\"axes\",\"length\":40,\"gap\":3,\"taper\":8"};
     shot_view view = {.width = 320, .height = 320, .eye = {0, 0.3, 0.9}, .target = {0, 0, -0.6}, .up = {0, 1, 0}, .fov_deg = 60};
     for (int k = 0; k < 5; k++) {
         shape floor = {0};
@@ -477,17 +478,34 @@ static double straying(const shot *s, double *spacing)
     return count ? sqrt(fmax(0, squares / count - sum * sum / count / count)) : 0;
 }
 
+/* Mean ink of a tone over several places and times, so that what noise does to one of them evens out; on fine lines, whose waves are short. */
+static double mean_over_places(double darkness, const char *settings, double first_time)
+{
+    double sum = 0;
+    for (int k = 0; k < 6; k++) {
+        shot_view view = hatch_front(320, 1.37);
+        char      all[300];
+        shot      s;
+        view.time_s = first_time + 0.37 * k;
+        view.eye.x = view.target.x = 3.1 * (k - 2.5);
+        snprintf(all, sizeof all, "\"length\":0,\"series\":1,\"loose\":0,\"tone_by\":\"width\",\"scale\":2.5,%s", settings);
+        if (wall_shot(&s, 10, 0, even(darkness, all), &view))
+            sum += hatch_mean(&s, 0, 0, 320, 320) / 6;
+        shot_release(&s);
+    }
+    return sum;
+}
+
 static void unevenness(void)
 {
     shot_view view = hatch_front(320, 1);
-    double    spacing[2], stray[2], mean[2], deviation[2];
+    double    spacing[2], stray[2], deviation[2];
     for (int k = 0; k < 2; k++) {
         char settings[300];
         shot s;
         snprintf(settings, sizeof settings, "\"length\":0,\"series\":1,\"loose\":0,\"wobble\":0,\"uneven\":%g,\"tone_by\":\"width\",\"scale\":8,\"coordinates\":\"triplanar\",\"angle\":3", k ? 0.8 : 0.0);
         if (wall_shot(&s, 1.5, 0, even(0.4, settings), &view)) {
             hatch_count n = hatch_count_lines(&s);
-            mean[k] = n.mean;
             deviation[k] = n.deviation;
         }
         shot_release(&s);
@@ -497,7 +515,8 @@ static void unevenness(void)
         shot_release(&s);
     }
     check_at_least("IM-26", deviation[1] - deviation[0], 0.15, "uneven 0.8: how much more the width of lines varies than without (%.3f px)", deviation[0]);
-    check_near("IM-26", mean[1] / mean[0], 1, 0.02, "  ink over that without");
+    check_near("IM-26", mean_over_places(0.4, "\"wobble\":0,\"uneven\":0.5", 0), 0.4, 0.02 * 0.4, "  ink of 0.4");
+    check_near("IM-27", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0", 0), 0.4, 0.02 * 0.4, "wobble 0.5: ink of 0.4");
     check_at_most("IM-27", stray[0], 0.02, "wobble 0: how far the middle of a line strays, px");
     check_at_least("IM-27", stray[1], 0.5, "wobble 0.5 of 12 px: the same");
     check_near("IM-27", spacing[1] / spacing[0], 1, 0.03, "  mean distance of lines over that without");
@@ -508,7 +527,7 @@ static void change(void)
 {
     shot_view view = hatch_front(256, 1);
     view.without_maps = false;
-    double difference[3], correlation[3], mean[3];
+    double difference[3], correlation[3];
     static const double rates[] = {0, 0.5, 60};
     for (int k = 0; k < 3; k++) {
         char settings[300];
@@ -521,17 +540,16 @@ static void change(void)
             hatch_change c = hatch_compare(&b, &a);
             difference[k] = c.mean;
             correlation[k] = c.correlation;
-            mean[k] = hatch_mean_inside(&b);
         }
         shot_release(&a);
         shot_release(&b);
     }
     check_at_most("IM-31", difference[0], 0, "change 0: mean difference of frames 1/25 s apart");
-    check_at_most("IM-31", difference[1], 0.03, "change 0.5: the same");
+    check_at_most("IM-31", difference[1], 0.1 * difference[2], "change 0.5: the same; a tenth of that at 60");
     check_at_least("IM-31", correlation[1], 0.95, "  correlation of the two");
-    check_at_most("IM-31", correlation[2], 0.6, "change 60: correlation of the two (mean difference %.3f)", difference[2]);
-    check_near("IM-31", mean[1] / mean[0], 1, 0.02, "  ink at change 0.5 over that at 0");
-    check_near("IM-31", mean[2] / mean[0], 1, 0.02, "  at 60");
+    check_at_most("IM-31", correlation[2], 0.4, "change 60: correlation of the two");
+    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":0.5", 1), 0.4, 0.02 * 0.4, "  ink of 0.4 at change 0.5");
+    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":60", 1), 0.4, 0.02 * 0.4, "  at 60");
 }
 
 int main(int argc, char **argv)

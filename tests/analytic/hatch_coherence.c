@@ -36,7 +36,7 @@ typedef struct motion {
 
 static const motion motions[] = {{"turning by 0.5 degrees", 0.5, 0, 0}, {"approaching by 1 %", 0, 0.01, 0}, {"light turning by 1 degree", 0, 0, 1}};
 
-enum { FRAMES = 2 };
+enum { FRAMES = 3 };
 
 /* Lights are given as the viewer sees them; this one stays where it is. */
 static dvec seen_from(const shot_view *view, dvec direction)
@@ -71,33 +71,44 @@ static hatch_change largest_change(const motion *m, const char *settings)
     return most;
 }
 
-/* Lines of 3 px have edges of one: what bilinear sampling does to those is less than a quarter. A pixel changes by more than a quarter where an edge moves by as much. When
- * the viewer turns by half a degree or comes nearer by a hundredth, rates on the page change by some hundredths, so edges move by 3 px · ln 2 · 0.02 at most; what is left
- * are places where planes hand over and steep ones. With the light, what the darkness changes by, over a quarter, may change. */
+/* Smoothed, a pixel changes by more than a quarter where an edge moves by about as much of a pixel. When the viewer turns by half a degree or comes nearer by a hundredth, rates on
+ * the page change by a hundredth or two, and lines of 3 px get wider or thinner by 3 px · ln 2 · 0.02 = 0.04 px: only tips, and places where planes hand over, may change as
+ * much: 0.3 % of what is seen. With the light, darkness changes by 0.0175 at most, which is all the ink there is to change pixels by a quarter with: 7 % if it were all in
+ * new lines, and a tenth of that when lines only grow. */
 static void frames(void)
 {
-    static const struct { const char *what, *settings; double limit, light_limit; } rows[] = {
-        {"by number, endless", "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1," WIDE, 0.005, 0.04},
-        {"by width, endless", "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"tone_by\":\"width\",\"scale\":12", 0.005, 0.04},
-        {"by number, strokes", WIDE, 0.02, 0.04},
-        {"by number, strokes, triplanar", "\"coordinates\":\"triplanar\"," WIDE, 0.02, 0.04},
-        {"by number, strokes, curvature", "\"coordinates\":\"curvature\"," WIDE, 0.02, 0.04},
-        {"by number, strokes, lapped", "\"coordinates\":\"lapped\"," WIDE, 0.02, 0.04},
-        {"by width, strokes", "\"tone_by\":\"width\",\"scale\":12", 0.02, 0.04},
+    static const struct { const char *what, *settings; } rows[] = {
+        {"by number, endless", "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1," WIDE},
+        {"by width, endless", "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"tone_by\":\"width\",\"scale\":12"},
+        {"by number, strokes", WIDE},
+        {"by number, strokes, triplanar", "\"coordinates\":\"triplanar\"," WIDE},
+        {"by number, strokes, curvature", "\"coordinates\":\"curvature\"," WIDE},
+        {"by number, strokes, lapped", "\"coordinates\":\"lapped\"," WIDE},
+        {"by width, strokes", "\"tone_by\":\"width\",\"scale\":12"},
     };
-    hatch_change door[3];
-    for (int m = 0; m < 3; m++)
-        door[m] = largest_change(&motions[m], "\"coordinates\":\"screen\"," WIDE);
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
         for (int m = 0; m < 3; m++) {
             hatch_change c = largest_change(&motions[m], rows[r].settings);
-            bool         light = motions[m].light != 0;
-            check_at_most("EX-09", c.changed, light ? rows[r].light_limit : rows[r].limit, "%s, %s: share of pixels that change by more than a quarter (on the screen %.4f)", rows[r].what,
-                          motions[m].what, door[m].changed);
-            check_at_most("EX-09", c.block, 0.06, "  largest change of the ink of 16 x 16 px (on the screen %.4f), correlation %.3f", door[m].block, c.correlation);
-            if (!light)
-                check_at_most("EX-09", c.changed, 0.25 * door[m].changed, "  a quarter of what changes with lines on the screen");
+            check_at_most("EX-09", c.changed, m == 2 ? 0.007 : 0.003, "%s, %s: share of pixels that change by more than a quarter", rows[r].what, motions[m].what);
+            check_at_most("EX-09", c.block, 0.06, "  largest change of the ink of 16 x 16 px (correlation %.3f, %d pixels)", c.correlation, c.pixels);
         }
+}
+
+/* Larger steps, against lines that are fixed to the picture (the shower door). */
+static void shower_door(void)
+{
+    static const motion far[] = {{"turning by 3 degrees", 3, 0, 0}, {"approaching by 6 %", 0, 0.06, 0}};
+    static const char *const coordinates[] = {"axes", "triplanar", "curvature"};
+    for (int m = 0; m < 2; m++) {
+        hatch_change door = largest_change(&far[m], "\"coordinates\":\"screen\"," WIDE);
+        for (int k = 0; k < 3; k++) {
+            char settings[160];
+            snprintf(settings, sizeof settings, "\"coordinates\":\"%s\"," WIDE, coordinates[k]);
+            hatch_change c = largest_change(&far[m], settings);
+            check_at_most("EX-09", c.changed, 0.25 * door.changed, "%s, %s: share of pixels that change, against a quarter of that on the screen", coordinates[k], far[m].what);
+            check_at_least("EX-09", c.correlation, 0.9, "  correlation of the frames (on the screen %.3f)", door.correlation);
+        }
+    }
 }
 
 /* What wavers and what is uneven goes with the object. */
@@ -110,8 +121,8 @@ static void unevenness_is_fixed(void)
         snprintf(look, sizeof look, "\"length\":0,\"series\":1,\"loose\":0,\"tone_by\":\"width\",\"scale\":12,%s", settings[k]);
         c[k] = largest_change(&motions[0], look);
     }
-    check_at_most("IM-27", c[1].changed, c[0].changed + 0.02, "wobble 0.6, turning by 0.5 degrees: share of pixels that change by more than a quarter");
-    check_at_most("IM-26", c[2].changed, c[0].changed + 0.02, "uneven 0.8: the same");
+    check_at_most("IM-27", c[1].changed, c[0].changed + 0.003, "wobble 0.6, turning by 0.5 degrees: share of pixels that change by more than a quarter");
+    check_at_most("IM-26", c[2].changed, c[0].changed + 0.003, "uneven 0.8: the same");
 }
 
 /* --- paths --------------------------------------------------------------------------------------------------------- */
@@ -269,9 +280,24 @@ static void parts(void)
             }
             make_odd(&s, (oddity)kind);
             snprintf(what, sizeof what, "%s, %.40s", oddity_names[kind], settings[k]);
-            check_tone(what, &s, settings[k], &view, 0.06);
+            check_tone(what, &s, settings[k], &view, k == 1 ? 0.1 : 0.06); /* few strokes fit */
             shape_release(&s);
         }
+}
+
+/* Within a closed shape surfaces are seen from behind. */
+static void check_inside(const char *what, const shape *s, const char *settings, const shot_view *view)
+{
+    shot drawing;
+    if (shot_of_shape(&drawing, s, "inside.glb", hatch_look("0,0,1", "", "\"shadow\":0.6,\"light\":0.6,%s", settings), NULL, view)) {
+        int seen = 0;
+        for (int i = 0; i < drawing.width * drawing.height; i++)
+            seen += !isinf(drawing.depth[i]);
+        check_at_least("parts", seen, 10000, "%s: pixels of the surface", what);
+        check_near("parts", hatch_mean_inside(&drawing), 0.4, 0.024, "  ink");
+        check_at_most("parts", hatch_odd_pixels(&drawing), 0, "  pixels that are not grey or not solid");
+    }
+    shot_release(&drawing);
 }
 
 /* Open, closed and broken meshes, seen from without and within. */
@@ -302,7 +328,10 @@ static void meshes(void)
             }
             snprintf(settings, sizeof settings, "\"coordinates\":\"%s\",\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"tone_by\":\"width\",\"scale\":5", coordinates[c]);
             snprintf(what, sizeof what, "%s, %s", names[kind], coordinates[c]);
-            check_tone(what, &s, settings, &view, 0.06);
+            if (kind < 4)
+                check_tone(what, &s, settings, &view, 0.06);
+            else
+                check_inside(what, &s, settings, &view);
             shape_release(&s);
         }
 }
@@ -337,7 +366,7 @@ static void instances(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"frames", frames}, {"fixed", unevenness_is_fixed}, {"paths", paths}, {"samples", samples}, {"parts", parts}, {"meshes", meshes}, {"instances", instances},
+        {"frames", frames}, {"door", shower_door}, {"fixed", unevenness_is_fixed}, {"paths", paths}, {"samples", samples}, {"parts", parts}, {"meshes", meshes}, {"instances", instances},
     };
     int status = check_main(argc, argv, "hatch_coherence", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -175,6 +175,9 @@ static bool crossed_by(const shot *s, double *cosine)
     return turned;
 }
 
+/* Lines of this share of the greatest width are full ones. */
+static const double FULL = 0.96;
+
 enum { LINES_MAX = 1 << 16, ROWS_BETWEEN = 5 };
 
 typedef struct found_lines {
@@ -225,7 +228,7 @@ hatch_count hatch_count_lines(const shot *s)
         }
     out.all_period /= all ? all : 1;
     for (int i = 0; i < f.count; i++) {
-        if (f.width[i] < 0.96 * widest)
+        if (f.width[i] < FULL * widest)
             continue;
         if (f.row[i] == last_row)
             values[count++] = f.centre[i] - last;
@@ -245,7 +248,7 @@ hatch_count hatch_count_lines(const shot *s)
     out.deviation = count ? sqrt(fmax(0, squares / count - sum * sum)) : 0;
     count = 0;
     for (int i = 0; i < f.count; i++)
-        if (f.width[i] >= 0.96 * widest)
+        if (f.width[i] >= FULL * widest)
             values[count++] = f.width[i];
     out.width = quantile(values, count, 0.5);
     out.width_low = quantile(values, count, 0.05);
