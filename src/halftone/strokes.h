@@ -35,7 +35,7 @@ int32_t strokes_layer_count(const strokes *s); /* the largest layer + 1 */
 /* --- files --- */
 
 /* The seed's text: seven numbers a line, blanks between: u0 v0 u1 v1 light perspective layer. Empty lines and what follows '#' are ignored. `name` is for
- * messages, which have file and line. Errors: LMN_FORMAT (wrong count, not a number, not finite, negative layer, coordinates beyond ±16), LMN_LIMIT
+ * messages, which have file and line. Errors: LMN_FORMAT (wrong count, not a number, not finite, a layer outside of 0 … 65535, coordinates beyond ±16), LMN_LIMIT
  * (a million strokes), LMN_MEMORY. No strokes at all is allowed. */
 lmn_status strokes_read(strokes *out, const char *name, const char *bytes, size_t size, lmn_error *error);
 /* Exactly what strokes_read takes; numbers are as short as they can be and read back as they were. */
@@ -43,13 +43,15 @@ void strokes_write(text *out, const strokes *s);
 
 /* The lines of an SVG drawing: line, polyline, polygon, rect, circle, ellipse and path elements with their transforms, curves as chords. The view box (or
  * width and height, or the bounds of everything) becomes the unit square, its longer side 1. Each group (g) at the first level of nesting that has
- * several is a layer, in drawing order; without groups everything is layer 0. Priorities are set in drawing order, first = 1. Elements with display none are left out.
- * Circles of a radius below 2 % of the square are dots. Errors: LMN_FORMAT with file and line, LMN_LIMIT, LMN_MEMORY. */
+ * several is a layer, in drawing order; without groups everything is layer 0. What stands between groups belongs to the layer before. Priorities are set in
+ * drawing order, first = 1, perspective the same, unless every element states both in data-light and data-perspective. Elements with display none are left out,
+ * so are definitions and a rectangle that covers all. Circles of a radius below 2 % of the square are dots, as are lines without length. Strokes are
+ * wrapped. Errors: LMN_FORMAT with file and line (also: more than 16 times the size away, nested deeper than 200), LMN_LIMIT, LMN_MEMORY. */
 lmn_status strokes_read_svg(strokes *out, const char *name, const char *bytes, size_t size, lmn_error *error);
-/* An SVG with a group per layer, which strokes_read_svg reads back. */
+/* An SVG with a group per layer, which strokes_read_svg reads back: strokes sorted by layer, with their priorities. */
 void strokes_write_svg(text *out, const strokes *s);
 
-/* A file by its ending, .stx or .svg. Errors as above and as file_load. */
+/* A file by its ending, .stx or .svg; strokes are wrapped. Errors as above and as file_load; LMN_UNSUPPORTED for another ending. */
 lmn_status strokes_load(strokes *out, const char *path, lmn_error *error);
 
 /* --- generators --- */
@@ -122,8 +124,7 @@ typedef struct stroke_brush {
 stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush *brush);
 
 /* Combines one stroke into a square picture of `side` texels that repeats: calls `texel` for each texel that it touches, row 0 at the bottom, with the share
- * of the texel that it covers (exact box filter of the distance, above 0). Copies around the border are included; a texel is called once at most. `texel`
- * returns nothing and must not keep pointers. */
+ * of the texel that it covers: min(1, width, width / 2 + 1/2 − distance to the axis), above 0. Copies around the border are included; a texel is called once at most. */
 typedef void (*stroke_texel_fn)(void *user, size_t index, float coverage);
 void stroke_draw(const stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user);
 

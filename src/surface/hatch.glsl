@@ -63,6 +63,7 @@ float line_cover(float width, float grown, float away, uint key, float at, float
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
+    darkness = max(darkness, 1e-4);
     vec2 rate = vec2(s.right.y, s.up.y);
     float g = max(length(rate), 1e-20);
     /* Pixels along the line for a unit of x. */
@@ -85,13 +86,15 @@ float lines_at(stroke_plane s, float darkness, uint set)
 #endif
     float old_width = darkness * period * old_part, new_width = darkness * period * (1.0 - old_part);
     float grown = sqrt(new_width / max(old_width, 1e-6)), apart = 0.5 * period;
-    /* The nearest line, and where they come close those beyond, as far as they reach into the pixel. */
+    float nearest = floor(cell * 2.0 + 0.5), side = cell * 2.0 < nearest ? -1.0 : 1.0;
+    bool  coming = fract(nearest * 0.5) > 0.25;
+    float cover = line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - nearest) * apart, line_key(nearest, low + 1.0, set), s.at.x, along);
+    /* Where lines come close, those beyond the nearest one as well, as far as they reach into the pixel. */
     float reach = max(old_width, new_width) * (1.0 + 0.5 * u_loose) + 1.0;
-    int   count = reach <= apart ? 1 : reach <= 2.0 * apart ? 2 : apart >= 1.0 ? 3 : 4;
-    float nearest = floor(cell * 2.0 + 0.5), side = cell * 2.0 < nearest ? -1.0 : 1.0, cover = 0.0;
-    for (int i = 0; i < count; i++) {
-        float index = nearest + side * (i == 1 ? 1.0 : i == 2 ? -1.0 : i == 3 ? 2.0 : 0.0);
-        bool coming = fract(index * 0.5) > 0.25;
+    int   count = reach <= apart ? 1 : reach <= 2.0 * apart ? 2 : 4;
+    for (int i = 1; i < count; i++) {
+        float index = nearest + side * (i == 1 ? 1.0 : i == 2 ? -1.0 : 2.0);
+        coming = fract(index * 0.5) > 0.25;
         cover += line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - index) * apart, line_key(index, low + 1.0, set), s.at.x, along);
     }
     /* Lines that are closer than pixels are an even tone. */
@@ -113,21 +116,40 @@ float set_darkness(float darkness, int set)
     return clamp(1.0 - left / before, 0.0, most);
 }
 
+float plane_cover(int i, int set, float part, vec2 turn)
+{
+    stroke_plane s = plane_of(s_point, s_rest, i, set);
+    return lines_at(turned_plane(s, turn), darkness_of_share(part, s.weight), s.key + 16u * uint(set));
+}
+
+/* What a set of lines leaves bare. The first plane goes without a loop and the others in one that mostly runs not at all: on software drivers loops cost more than
+ * what is in them, and sets are written out where they are called, with constants. */
+float bare_of_set(float darkness, int set, vec2 turn)
+{
+    float part = set_darkness(darkness, set);
+    float bare = 1.0 - plane_cover(0, set, part, turn);
+    int planes = part > 0.002 ? planes_at(s_rest, set) : 1;
+    for (int i = 1; i < planes; i++)
+        bare *= 1.0 - plane_cover(i, set, part, turn);
+    return bare;
+}
+
 float cover_of(float darkness, int ink)
 {
-    float bare = 1.0;
-    for (int set = 0; set < SERIES; set++) {
-        float part = set_darkness(darkness, set);
-        int some = part > 0.002 ? PLANES : 0;
-        for (int i = 0; i < some; i++) {
-            stroke_plane s = plane_of(s_point, s_rest, i, set);
-            /* Planes are laid over each other: together they are as dark as one. */
-            float share = part < 1.0 ? 1.0 - pow(1.0 - part, s.weight) : 1.0;
-            int wanted = share > 0.002 && s.weight > 0.002 ? 1 : 0;
-            for (int once = 0; once < wanted; once++)
-                bare *= 1.0 - lines_at(turned_plane(s, radians(u_angle + u_turn * float(set) + 30.0 * float(ink))), share, s.key + 16u * uint(set));
-        }
-    }
+    vec2 turn = turns_added(u_angle, turn_of_ink(ink));
+    float bare = bare_of_set(darkness, 0, turn);
+#if SERIES > 1
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 1, turn);
+#endif
+#if SERIES > 2
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 2, turn);
+#endif
+#if SERIES > 3
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 3, turn);
+#endif
     return 1.0 - bare;
 }
 

@@ -31,7 +31,7 @@ static const param params[] = {
     PARAM_BOOL_ROW(screen_values, whole, .def = 0, .variant = true, .only_if = "coordinates=uv",
                    .doc = "Each stroke has the light of its middle, so that it is drawn whole or not at all."),
     PARAM_TEXT_ROW(screen_values, indication, .is_file = true, .example = "checker", .only_if = "coordinates=uv", .check = screen_check_picture,
-                   .doc = "A picture on the texture coordinates that asks for more strokes where it is dark and fewer where it is light; middle grey changes nothing. checker shows how texture "
+                   .doc = "A picture on the texture coordinates (the second ones, where a model has such) that asks for more strokes where it is dark and fewer where it is light; middle grey changes nothing. checker shows how texture "
                           "coordinates lie."),
     PARAM_ENUM_ROW(screen_values, indicate, .names = indication_names, .only_if = "coordinates=uv&indication", .variant = true,
                    .doc = "add: lightens and darkens; limit: the picture is the lightest tone that is allowed, dark places stay as they are."),
