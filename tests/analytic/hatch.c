@@ -67,6 +67,54 @@ static void formulas(void)
     }
 }
 
+/* The slant of lines in degrees, 0 … 180, from how ink changes. */
+static double slant_of(const shot *s)
+{
+    double xx = 0, yy = 0, xy = 0;
+    for (int y = 3; y + 3 < s->height; y++)
+        for (int x = 3; x + 3 < s->width; x++) {
+            double dx = 0, dy = 0;
+            for (int v = -3; v <= 3; v++)
+                for (int u = -3; u <= 3; u++) {
+                    double weight = exp(-(u * u + v * v) / 4.5) * hatch_ink(s, x + u, y + v);
+                    dx += u * weight;
+                    dy -= v * weight;
+                }
+            xx += dx * dx;
+            yy += dy * dy;
+            xy += dx * dy;
+        }
+    double across = 0.5 * atan2(2 * xy, xx - yy) * 180 / pi;
+    return fmod(across + 270, 180);
+}
+
+/* Strokes are turned on the surface, against the clock where it is seen from before; in texture coordinates, whose second one runs down, with it. Planes through the model turn otherwise, which is only noted. */
+static void angles(void)
+{
+    static const char *const coordinates[] = {"screen", "triplanar", "uv", "axes"};
+    shot_view view = hatch_front(192, 1);
+    for (int c = 0; c < 4; c++) {
+        double worst = 0, first = 0;
+        for (int k = 0; k < 6; k++) {
+            char   settings[200];
+            double angle = 27 * k;
+            shot   s;
+            snprintf(settings, sizeof settings, ENDLESS ",\"tone_by\":\"width\",\"scale\":10,\"coordinates\":\"%s\",\"angle\":%g", coordinates[c], angle);
+            if (wall_shot(&s, 1.5, 0, even(0.3, settings), &view)) {
+                double slant = slant_of(&s);
+                first = k ? first : slant;
+                double off = fmod(slant - first - (c == 2 ? -angle : angle) + 720 + 90, 180) - 90; /* v runs down */
+                worst = fmax(worst, fabs(off));
+            }
+            shot_release(&s);
+        }
+        if (c < 3)
+            check_at_most("angle", worst, 3, "%s: degrees that lines are off when they are turned (3: how well slants are read)", coordinates[c]);
+        else
+            check_note("%s: degrees that lines are off when they are turned: %.1f", coordinates[c], worst);
+    }
+}
+
 /* A wall seen at a slant in perspective: octaves change over it. The place and its rate come from rays, not from the picture. */
 static void formulas_in_perspective(void)
 {
@@ -555,7 +603,7 @@ static void change(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"formulas", formulas}, {"perspective", formulas_in_perspective}, {"edges", edges},   {"zoom", zoom},           {"distance", distance_in_perspective},
+        {"formulas", formulas}, {"perspective", formulas_in_perspective}, {"angles", angles}, {"edges", edges},   {"zoom", zoom},           {"distance", distance_in_perspective},
         {"lengths", lengths}, {"ramp", ramp},         {"tone", tone_parameters},                {"polarity", polarity}, {"nesting", nesting},     {"borders", no_octave_border},
         {"uneven", unevenness}, {"change", change},
     };
