@@ -98,6 +98,9 @@ static float forward_of(const frame *f, const figure *fig)
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
+    /* Before any texture is bound: making this one binds it in place of another. */
+    if (gpu_has_uniform(g, "u_rest") || gpu_has_uniform(g, "u_world_from_eye"))
+        upload_part_frames(f->up, g, f->plan->scene);
     gpu_set_vec2(g, "u_size", (float)f->width, (float)f->height);
     gpu_set_vec2(g, "u_texel", 1 / (float)f->width, 1 / (float)f->height);
     gpu_set_float(g, "u_perspective", f->camera.orthographic ? 0 : 1);
