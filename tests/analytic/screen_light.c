@@ -348,14 +348,15 @@ static void whole_on_a_cylinder(void)
 
 /* --- shadows ----------------------------------------------------------------------------------------------------- */
 
-static void shadows_are_denser_strokes(void)
+static void shadows_of(const char *shading)
 {
     shot lit, shadowed;
     halftone_scene scene = {0};
     halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 4, 4, 1});
     halftone_add_wall(&scene, "lid", (halftone_wall){1, 1, 1, 1, 1, 1});
     shot_view   view = halftone_view(256, 256, 64);
-    const char *later = ",\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"}";
+    char        later[100];
+    snprintf(later, sizeof later, ",\"layers\":{\"technique\":\"front\",\"shading\":\"%s\"}", shading);
     const char *keys = "screen\",\"screen\":\"cross\",\"scheme\":\"binary\",\"uneven\":0,\"shadow\":0.1,\"light\":0.95";
     if (!halftone_shot(&lit, &scene, "lid.gltf", halftone_look_with(keys, "\"fill\":0,\"light_direction\":\"-1,0,1\"", later), NULL, &view)) {
         halftone_release(&scene);
@@ -369,7 +370,7 @@ static void shadows_are_denser_strokes(void)
         }
         /* The shadow falls to the right by as much as the lid is high. */
         double before = halftone_mean(&lit, 132, 132, 56, 56), after = halftone_mean(&shadowed, 132, 132, 56, 56);
-        check_at_least("IM-34", after - before, 0.2, "more ink in the shadow (%.3f without)", before);
+        check_at_least("IM-34", after - before, 0.2, "%s: more ink in the shadow (%.3f without)", shading, before);
         check_at_most("IM-34", other, 0, "pixels that are neither ink nor paper");
         check_at_most("IM-34", lost, 0, "inked pixels that shadows make paper");
         check_near("IM-34", halftone_mean(&shadowed, 4, 4, 56, 248), halftone_mean(&lit, 4, 4, 56, 248), 0.002, "ink elsewhere stays");
@@ -377,6 +378,12 @@ static void shadows_are_denser_strokes(void)
     }
     shot_release(&lit);
     halftone_release(&scene);
+}
+
+static void shadows_are_denser_strokes(void)
+{
+    shadows_of("deferred");
+    shadows_of("forward");
 }
 
 /* --- hatching with edges, in a mirror too --------------------------------------------------------------------------- */
