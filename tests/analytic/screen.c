@@ -30,11 +30,12 @@ static void add_tones(halftone_scene *s, int count, int columns, double units, d
 static const char tone_keys[] = "\"texture\":1,\"shadow\":1,\"light\":1,\"uneven\":0";
 
 /* 17 tones, one texel of a 128² screen a pixel, so that each tile shows it once. */
-static bool take_texels(shot *out, const char *keys)
+static bool take_texels(shot *out, const char *keys, bool es)
 {
     halftone_scene s = {0};
     char           surface[512];
     shot_view      view = halftone_view(TONES * TILE, TILE, TILE);
+    view.es = es;
     add_tones(&s, TONES, TONES, 1, 0, 1);
     snprintf(surface, sizeof surface, "screen\",\"coordinates\":\"uv\",\"scale\":8,%s,%s", tone_keys, keys);
     bool ok = halftone_shot(out, &s, "tones.gltf", halftone_look(surface), NULL, &view);
@@ -63,7 +64,7 @@ static void binary_threshold(void)
         snprintf(keys, sizeof keys, "\"scheme\":\"binary\",\"screen\":\"%s\"", screen_procedure_names[p]);
         if (!chain_of(&c, (screen_procedure)p))
             return;
-        if (take_texels(&s, keys))
+        if (take_texels(&s, keys, false))
             for (int y = 0; y < TILE; y++)
                 for (int x = 0; x < TONES * TILE; x++) {
                     double sum = texel(&c, x % TILE, TILE - 1 - y) + (double)(x / TILE) / (TONES - 1);
@@ -74,6 +75,10 @@ static void binary_threshold(void)
                     else
                         wrong += (got == 0) != (sum <= 1);
                 }
+        shot es = {0};
+        if (s.picture && take_texels(&es, keys, true))
+            check_at_most("IM-08", shot_differing(&s, &es, 0), 0, "%s: values that OpenGL ES draws otherwise", screen_procedure_names[p]);
+        shot_release(&es);
         check_at_most("IM-08", other, 0, "%s: pixels that are neither black nor white", screen_procedure_names[p]);
         check_at_most("IM-08", wrong, 0, "%s: pixels that are not black where screen + tone <= 1 (%d on the border left out)", screen_procedure_names[p], on_edge);
         shot_release(&s);
@@ -123,7 +128,7 @@ static void smooth_threshold(void)
             snprintf(keys, sizeof keys, "\"scheme\":\"smooth\",\"gain\":4,\"centred\":%s,\"screen\":\"%s\"", centred ? "true" : "false", screen_procedure_names[p]);
             if (!chain_of(&c, (screen_procedure)p))
                 return;
-            if (take_texels(&s, keys)) {
+            if (take_texels(&s, keys, false)) {
                 for (int y = 0; y < TILE; y++)
                     for (int x = 0; x < TONES * TILE; x++) {
                         double sum = texel(&c, x % TILE, TILE - 1 - y) + (double)(x / TILE) / (TONES - 1);
@@ -183,7 +188,7 @@ static void tone_of_screens(void)
         char   keys[64];
         double worst = 0;
         snprintf(keys, sizeof keys, "\"screen\":\"%s\"", names[i]);
-        if (take_texels(&s, keys)) {
+        if (take_texels(&s, keys, false)) {
             for (int k = 0; k < TONES; k++)
                 worst = fmax(worst, fabs(halftone_mean(&s, k * TILE, 0, TILE, TILE) - (1 - k / 16.0)));
             shot_release(&s);
@@ -727,6 +732,8 @@ typedef struct bad_input {
     const char *says; /* in the message */
 } bad_input;
 
+#define LONG_NAME "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
+
 static int command_with(const char *screen, const char *model, const char *more, char *out, size_t room)
 {
     char arguments[4096];
@@ -750,6 +757,10 @@ static void bad_inputs(void)
         return;
     picture_write_rgba(check_path("wide.png"), white, 30, 20);
     picture_write_rgba(check_path("one.png"), white, 1, 1);
+    uint8_t *huge = check_alloc(2100 * 2100, 4);
+    memset(huge, 90, 2100 * 2100 * 4);
+    picture_write_rgba(check_path("huge.png"), huge, 2100, 2100);
+    free(huge);
     const bad_input cases[] = {
         {"a number that is none in strokes", "wrong.stx", 2, "wrong.stx:2"},
         {"too few numbers in strokes", "short.stx", 2, "short.stx:1"},
@@ -761,6 +772,8 @@ static void bad_inputs(void)
         {"an ending that is not known", "a.bmp", 1, "hint"},
         {"a file without strokes", "none.stx", 0, ""},
         {"a picture of one pixel", "one.png", 0, ""},
+        {"a picture of 2100 pixels a side", "huge.png", 0, ""},
+        {"a name longer than a line", LONG_NAME, 1, "hint"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char out[2048], path[600];
@@ -774,6 +787,12 @@ static void bad_inputs(void)
         int      w, h;
         uint8_t *picture = picture_read_rgba(check_path("bad.png"), &w, &h);
         check_that("bad input", (picture != NULL) == (cases[i].status == 0), "a picture is left exactly if all went well");
+        if (strcmp(cases[i].screen, "none.stx") == 0 && picture) {
+            int dark = 0;
+            for (int k = 0; k < w * h; k++)
+                dark += picture[4 * k + 1] < 200;
+            check_at_most("bad input", dark, 0, "pixels with ink without strokes");
+        }
         free(picture);
     }
     halftone_release(&scene);
