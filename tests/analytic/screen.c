@@ -147,6 +147,81 @@ static void smooth_threshold(void)
         }
 }
 
+/* Between levels: the same formula on the chain as it is sampled by the rates of change, at places that fit nothing. */
+static void between_levels(void)
+{
+    static const double zooms[] = {117.3, 93.7, 61.1, 40.9, 23.3};
+    for (int p = 0; p < PROCEDURE_COUNT; p++)
+        for (int z = 0; z < 5; z++) {
+            halftone_scene scene = {0};
+            mip_chain      c;
+            shot           s;
+            shot_view      view = halftone_view(160, 160, zooms[z]);
+            char           surface[256];
+            double         worst = 0, sum = 0;
+            halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 160 / zooms[z], 160 / zooms[z], 1});
+            snprintf(surface, sizeof surface, "screen\",\"coordinates\":\"uv\",\"scale\":8,\"scheme\":\"smooth\",\"gain\":2,\"uneven\":0,\"shadow\":0.3,\"light\":0.3,\"screen\":\"%s\"",
+                     screen_procedure_names[p]);
+            if (chain_of(&c, (screen_procedure)p) && halftone_shot(&s, &scene, "levels.gltf", halftone_look(surface), NULL, &view)) {
+                double level = log2(TILE / zooms[z]);
+                for (int y = 2; y < 158; y++)
+                    for (int x = 2; x < 158; x++) {
+                        double value = halftone_sample(&c, 0, (x + 0.5) / zooms[z], (159.5 - y) / zooms[z], level);
+                        double off = fabs(halftone_ink(&s, x, y) - fmin(fmax(2 * (0.7 - value), 0), 1));
+                        worst = fmax(worst, off);
+                        sum += off / (156 * 156);
+                    }
+                check_at_most("IM-13", worst, 0.03, "%s at level %.2f: share of ink off the chain sampled by rates of change (mean %.5f)", screen_procedure_names[p], level, sum);
+                shot_release(&s);
+            }
+            mip_chain_release(&c);
+            halftone_release(&scene);
+        }
+}
+
+static void light_moves_ink_by_the_gain(void)
+{
+    shot   before, after;
+    double worst = 0;
+    char  surface[2][256];
+    snprintf(surface[0], sizeof surface[0], "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"gain\":4,\"uneven\":0,\"coordinates\":\"uv\",\"shadow\":0.5,\"light\":0.5");
+    snprintf(surface[1], sizeof surface[1], "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"gain\":4,\"uneven\":0,\"coordinates\":\"uv\",\"shadow\":0.52,\"light\":0.52");
+    if (!halftone_far(&before, surface[0], 1, 160, 0.5))
+        return;
+    if (halftone_far(&after, surface[1], 1, 160, 0.5)) {
+        for (int y = 0; y < 160; y++)
+            for (int x = 0; x < 160; x++)
+                worst = fmax(worst, fabs(halftone_ink(&before, x, y) - halftone_ink(&after, x, y)));
+        check_at_most("IM-09", worst, 4 * 0.02 + 0.008, "change of a pixel's ink while light rises by 0.02, at gain 4");
+        check_at_least("IM-09", worst, 0.06, "and it is not less");
+        shot_release(&after);
+    }
+    shot_release(&before);
+}
+
+/* Lines swell with the darkness and stay where they are. */
+static void lines_swell(void)
+{
+    shot   s;
+    double worst = 0, apart = 0;
+    if (!take_texels(&s, "\"screen\":\"lines\",\"scheme\":\"binary\"", false))
+        return;
+    for (int i = 4; i <= 13; i++) {
+        int inked = 0, lines = 0;
+        for (int x = i * TILE; x < (i + 1) * TILE; x++)
+            for (int y = 0; y < TILE; y++) {
+                bool here = s.picture[4 * (y * s.width + x)] == 0, above = s.picture[4 * ((y + TILE - 1) % TILE * s.width + x)] == 0;
+                inked += here;
+                lines += here && !above;
+            }
+        worst = fmax(worst, fabs((double)inked / fmax(lines, 1) - 8 * (1 - i / 16.0)));
+        apart = fmax(apart, fabs((double)TILE * TILE / fmax(lines, 1) - 8));
+    }
+    check_at_most("IM-11", worst, 0.15, "px of mean line width off 8 (1 - tone), 10 tones");
+    check_at_most("IM-11", apart, 0.05, "px of mean distance off 8");
+    shot_release(&s);
+}
+
 /* --- the sharp scheme -------------------------------------------------------------------------------------------- */
 
 /* Seventeen tones at a zoom that fits nothing: mean over whole tiles. */
@@ -801,7 +876,7 @@ static void bad_inputs(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"binary", binary_threshold}, {"tones", tones_are_told_apart}, {"smooth", smooth_threshold}, {"ramps", tone_of_screens}, {"edges", edges_stay_sharp},
+        {"binary", binary_threshold}, {"tones", tones_are_told_apart}, {"smooth", smooth_threshold}, {"levels", between_levels}, {"gain", light_moves_ink_by_the_gain}, {"swell", lines_swell}, {"ramps", tone_of_screens}, {"edges", edges_stay_sharp},
         {"average", averaged_screens_grey_out}, {"hatch-map", hatch_map_over_distance}, {"floor", hatch_map_in_the_depth}, {"distance", strokes_over_distance},
         {"subset", far_strokes_are_near_ones}, {"samples", supersampled_periods}, {"multiply", colour_times_ink}, {"painted", painted_screen},
         {"plain", screens_look_like_drawings}, {"material", strokes_beside_pictures}, {"hidden", nothing_shines_through}, {"mixed", styles_in_one_picture}, {"deferred", deferred_is_forward}, {"bad", bad_inputs},
