@@ -53,7 +53,7 @@ void uniforms_declare(text *prelude, param_set set)
         else if (p->type == PARAM_PALETTE)
             text_append(prelude, "uniform vec4 %s%s[%d];\nuniform int %s%s_count;\n", set.prefix, p->key, PALETTE_MAX, set.prefix, p->key);
         else
-            text_append(prelude, "uniform %s %s%s;\n", types[p->type], set.prefix, p->key);
+            text_append(prelude, "uniform %s %s%s;\n", p->as_turn ? "vec2" : types[p->type], set.prefix, p->key);
     }
 }
 
@@ -93,6 +93,12 @@ static float float_of(const param *p, float value)
     return p->as_cosine ? cosf(value * (3.14159265f / 180)) : value;
 }
 
+static void set_turn(gpu *g, const char *name, float degrees)
+{
+    double radians = (double)degrees * (3.14159265358979323846 / 180);
+    gpu_set_vec2(g, name, (float)cos(radians), (float)sin(radians));
+}
+
 void uniforms_set(gpu *g, param_set set)
 {
     for (size_t i = 0; i < set.count; i++) {
@@ -107,7 +113,12 @@ void uniforms_set(gpu *g, param_set set)
         case PARAM_INT:
         case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;
         case PARAM_BOOL: gpu_set_int(g, name, *(const bool *)field); break;
-        case PARAM_FLOAT: gpu_set_float(g, name, float_of(p, *(const float *)field)); break;
+        case PARAM_FLOAT:
+            if (p->as_turn)
+                set_turn(g, name, *(const float *)field);
+            else
+                gpu_set_float(g, name, float_of(p, *(const float *)field));
+            break;
         case PARAM_COLOUR:
             uniforms_linear(colour_of(set, p), linear);
             gpu_set_vec4(g, name, linear);

@@ -59,12 +59,12 @@ float cover_of(float darkness, int ink)
     float bare = 1.0;
     for (int i = 0; i < PLANES; i++) {
         stroke_plane s = plane_of(s_point, s_rest, i, 0);
-        float part = darkness * s.weight;
+        float part = darkness_of_share(darkness, s.weight);
         if (u_uneven > 0.0)
             part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, log2(1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0)), 9u, u_change).x;
         int wanted = part > 0.002 ? 1 : 0;
         for (int once = 0; once < wanted; once++)
-            bare *= 1.0 - dots_at(turned_plane(s, radians(u_angle + 30.0 * float(ink))), min(part, 1.0), s.key + 16u);
+            bare *= 1.0 - dots_at(turned_plane(s, turns_added(u_angle, turn_of_ink(ink))), min(part, 1.0), s.key + 16u);
     }
     return 1.0 - bare;
 }

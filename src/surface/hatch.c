@@ -20,7 +20,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(hatch, width, .def = 1.2, .min = 0.1, .max = 64, .soft_max = 6, .unit = UNIT_PX, .only_if = "tone_by=number", .doc = "Width of the lines."),
     PARAM_INT_ROW(hatch, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "Sets of lines that cross each other in dark places."),
-    PARAM_FLOAT_ROW(hatch, turn, .def = 60, .min = -180, .max = 180, .unit = UNIT_DEGREES, .only_if = "series>1",
+    PARAM_FLOAT_ROW(hatch, turn, .def = 60, .min = -180, .max = 180, .unit = UNIT_DEGREES, .as_turn = true, .only_if = "series>1",
                     .doc = "Angle between one set of lines and the next."),
     PARAM_FLOAT_ROW(hatch, length, .def = 110, .min = 0, .max = 4000, .soft_max = 300, .unit = UNIT_PX,
                     .doc = "Mean length of strokes; 0 lets lines run on."),

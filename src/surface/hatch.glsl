@@ -26,7 +26,8 @@ float stroke_share(float at, float along, uint key, float grown)
 {
     float scale = 0.7 + 0.6 * number_of(key ^ 0x5bd1e995u);
     float pixels = along / scale;
-    float octave = log2(pixels / u_length) + number_of(key * 2654435761u);
+    /* Cut in two at places that are even over the octave, strokes are shorter than this by 1.75 in the mean. */
+    float octave = log2(pixels / (1.75 * u_length)) + number_of(key * 2654435761u);
     float low = floor(octave), share = octave - low, cells = exp2(low);
     /* A shift that halves of strokes inherit: its binary digits repeat after 32 octaves. */
     int turns = int(low) & 31;
@@ -83,19 +84,20 @@ float lines_at(stroke_plane s, float darkness, uint set)
     float old_part = 1.0 / (1.0 + share);
 #endif
     float old_width = darkness * period * old_part, new_width = darkness * period * (1.0 - old_part);
-#if TONE_BY == 0
-    /* Lines are thin: only the nearest one can be here. */
-    float index = floor(cell * 2.0 + 0.5);
-    bool coming = fract(index * 0.5) > 0.25;
-    return line_cover(coming ? new_width : old_width, coming ? sqrt(new_width / max(old_width, 1e-6)) : 1.0, abs(cell * 2.0 - index) * 0.5 * period,
-                      line_key(index, low + 1.0, set), s.at.x, along);
-#else
-    float inside = fract(cell);
-    float old_lines = line_cover(old_width, 1.0, min(inside, 1.0 - inside) * period, line_key(floor(cell + 0.5) * 2.0, low + 1.0, set), s.at.x, along);
-    float new_lines = line_cover(new_width, sqrt(new_width / max(old_width, 1e-6)), abs(inside - 0.5) * period,
-                                 line_key(floor(cell) * 2.0 + 1.0, low + 1.0, set), s.at.x, along);
-    return min(old_lines + new_lines, 1.0);
-#endif
+    float grown = sqrt(new_width / max(old_width, 1e-6)), apart = 0.5 * period;
+    float nearest = floor(cell * 2.0 + 0.5), side = cell * 2.0 < nearest ? -1.0 : 1.0;
+    bool  coming = fract(nearest * 0.5) > 0.25;
+    float cover = line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - nearest) * apart, line_key(nearest, low + 1.0, set), s.at.x, along);
+    /* Where lines come close, those beyond the nearest one as well, as far as they reach into the pixel. */
+    float reach = max(old_width, new_width) * (1.0 + 0.5 * u_loose) + 1.0;
+    int   count = reach <= apart ? 1 : reach <= 2.0 * apart ? 2 : 4;
+    for (int i = 1; i < count; i++) {
+        float index = nearest + side * (i == 1 ? 1.0 : i == 2 ? -1.0 : 2.0);
+        coming = fract(index * 0.5) > 0.25;
+        cover += line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - index) * apart, line_key(index, low + 1.0, set), s.at.x, along);
+    }
+    /* Lines that are closer than pixels are an even tone. */
+    return mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
 }
 
 /* Sets of lines share what is dark: each as far as its own lines may come together, and beyond that all alike. */
@@ -113,19 +115,48 @@ float set_darkness(float darkness, int set)
     return clamp(1.0 - left / before, 0.0, most);
 }
 
+const float LIGHTEST = 0.002; /* below, no line is drawn */
+
+float plane_cover(stroke_plane s, int set, float part, vec2 turn)
+{
+    return lines_at(turned_plane(s, turn), part, s.key + 16u * uint(set));
+}
+
+/* What a set of lines leaves bare. The first plane goes without a loop and the others in one that mostly runs not at all: on software drivers loops cost more than
+ * what is in them, and sets are written out where they are called, with constants. */
+float bare_of_set(float darkness, int set, vec2 turn)
+{
+    float whole = set_darkness(darkness, set);
+    stroke_plane s = plane_of(s_point, s_rest, 0, set);
+    float part = darkness_of_share(whole, s.weight);
+    float bare = 1.0 - plane_cover(s, set, max(part, LIGHTEST), turn) * step(LIGHTEST, part);
+    int planes = whole > LIGHTEST ? planes_at(s_rest, set) : 1;
+    for (int i = 1; i < planes; i++) {
+        s = plane_of(s_point, s_rest, i, set);
+        part = darkness_of_share(whole, s.weight);
+        int wanted = part > LIGHTEST ? 1 : 0;
+        for (int once = 0; once < wanted; once++)
+            bare *= 1.0 - plane_cover(s, set, part, turn);
+    }
+    return bare;
+}
+
 float cover_of(float darkness, int ink)
 {
-    float bare = 1.0;
-    for (int set = 0; set < SERIES; set++) {
-        float part = set_darkness(darkness, set);
-        int some = part > 0.002 ? PLANES : 0;
-        for (int i = 0; i < some; i++) {
-            stroke_plane s = plane_of(s_point, s_rest, i, set);
-            int wanted = part * s.weight > 0.002 ? 1 : 0;
-            for (int once = 0; once < wanted; once++)
-                bare *= 1.0 - lines_at(turned_plane(s, radians(u_angle + u_turn * float(set) + 30.0 * float(ink))), part * s.weight, s.key + 16u * uint(set));
-        }
-    }
+    vec2 turn = turns_added(u_angle, turn_of_ink(ink));
+    float bare = bare_of_set(darkness, 0, turn);
+#if SERIES > 1
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 1, turn);
+#endif
+#if SERIES > 2
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 2, turn);
+#endif
+#if SERIES > 3
+    turn = turns_added(turn, u_turn);
+    bare *= bare_of_set(darkness, 3, turn);
+#endif
     return 1.0 - bare;
 }
 

@@ -13,7 +13,7 @@ float texel_of()
 
 stroke_plane screen_plane(int i, int ink)
 {
-    stroke_plane s = turned_plane(plane_of(s_point, s_rest, i, 0), radians(u_angle + 30.0 * float(ink)));
+    stroke_plane s = turned_plane(plane_of(s_point, s_rest, i, 0), turns_added(u_angle, turn_of_ink(ink)));
 #if COORDINATES == 3 && defined(HAS_UV)
     s.at *= u_repeat;
     s.right *= u_repeat;
@@ -53,17 +53,17 @@ float screen_at(vec2 at, float level)
     return value;
 }
 
-/* Share of ink by the scheme; a value is inked where it is less than the darkness. */
+/* Share of ink by the scheme; a value is inked where it is less than the darkness, but 255 is paper whatever the darkness. */
 float ink_of(float value, float darkness)
 {
 #if SCHEME == 0
-    return value <= darkness && darkness > 0.0 ? 1.0 : 0.0;
+    return value <= darkness && darkness > 0.0 && value < 0.999 ? 1.0 : 0.0;
 #elif SCHEME == 1
-    return clamp((u_centred ? 0.5 : 0.0) + u_gain * (darkness - value), 0.0, 1.0);
+    /* Where a plane or a size of the screen has no share there is none of its ink. */
+    return clamp((u_centred ? 0.5 : 0.0) + u_gain * (darkness - value), 0.0, 1.0) * smoothstep(0.0, 0.02, darkness);
 #elif SCHEME == 2
     float ramp = clamp(fwidth(value - darkness), 1.0 / 128.0, 0.75);
-    /* Paper is never inked, and all ink is where all is dark. */
-    return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness);
+    return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness) * clamp(255.0 * (1.0 - value), 0.0, 1.0);
 #else
     return 1.0 - value;
 #endif
@@ -105,7 +105,7 @@ float cover_of(float darkness, int ink)
 #if defined(HAS_WARP) && defined(HAS_UV)
             wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
 #endif
-            bare *= 1.0 - ink_of(value, wanted * share);
+            bare *= 1.0 - ink_of(value, darkness_of_share(wanted, share));
 #endif
         }
     }
@@ -141,9 +141,11 @@ vec3 relieved_normal()
     vec2 lean = textureLod(t_relief, vec3(wavered(s) * o.scale, 0.0), o.level).rg * 2.0 - 256.0 / 255.0;
     float area = s.right.x * s.up.y - s.right.y * s.up.x;
     area = abs(area) > 1e-20 ? area : 1e-20;
-    vec3 along = (s_rest.right * s.up.y - s_rest.up * s.right.y) / area, across = (s_rest.up * s.right.x - s_rest.right * s.up.x) / area;
+    vec2 pixel = 2.0 * u_unproject / u_size;
+    vec3 right = rate_of(s_point.eye, s_point.normal, vec3(pixel.x, 0.0, 0.0)), up = rate_of(s_point.eye, s_point.normal, vec3(0.0, pixel.y, 0.0));
+    vec3 along = (right * s.up.y - up * s.right.y) / area, across = (up * s.right.x - right * s.up.x) / area;
     float rest = sqrt(max(1.0 - dot(lean, lean), 0.0));
-    return transpose(s_rest.turn) * normalize(normalize(along) * lean.x + normalize(across) * lean.y + s_rest.normal * rest);
+    return normalize(normalize(along) * lean.x + normalize(across) * lean.y + s_point.normal * rest);
 }
 #endif
 

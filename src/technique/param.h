@@ -56,6 +56,7 @@ typedef struct param {
     bool               auto_ground; /* colours: "auto" takes the page's ground */
     bool               logarithmic; /* slider curve */
     bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
+    bool               as_turn;     /* the same: cosine and sine, a vec2 */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               cpu_only;    /* no uniform */
     bool               along;       /* a length along lines, which makes them no wider */

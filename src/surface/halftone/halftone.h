@@ -37,7 +37,7 @@ mesh_wishes halftone_wishes(const void *values);
                           "picture; uv, texture coordinates; curvature, the way it bends; lapped, patches that are laid along it."),                   \
     PARAM_FLOAT_ROW(halftone_values, patch, .def = 0.1, .min = 0.01, .max = 1, .soft_min = 0.03, .soft_max = 0.3, .unit = UNIT_SHARE, .cpu_only = true, \
                     .only_if = "coordinates=lapped", .doc = "Radius of patches, share of a mesh's diagonal."),                                        \
-    PARAM_FLOAT_ROW(halftone_values, angle, .def = 0, .min = -360, .max = 360, .soft_min = -90, .soft_max = 90, .unit = UNIT_DEGREES,                \
+    PARAM_FLOAT_ROW(halftone_values, angle, .def = 0, .min = -360, .max = 360, .soft_min = -90, .soft_max = 90, .unit = UNIT_DEGREES, .as_turn = true, \
                     .doc = "Turns the strokes on the surface."),                                                                                     \
     PARAM_FLOAT_ROW(halftone_values, shadow, .def = 0.05, .min = -1, .max = 1, .soft_min = 0, .unit = UNIT_SHARE,                                     \
                     .doc = "Tone without any light: 0 is as black as the strokes can make it, 1 white."),                                            \

@@ -5,24 +5,26 @@ uniform float u_time; /* seconds */
 
 float number_of(uint hash)
 {
-    return float(hash >> 8u) / 16777215.0;
+    return float(int(hash >> 8u)) * (1.0 / 16777215.0);
 }
 
-/* Two independent values. */
-vec2 cell_noise(ivec2 cell, uint seed)
+/* Two independent values. By way of signed numbers: software drivers turn these into floats in one step. */
+vec2 corner_noise(uint hash)
 {
-    uint hash = hash_of(uvec3(uvec2(cell), 0u), seed);
-    return vec2(hash & 0xFFFFu, hash >> 16u) * (2.0 / 65535.0) - 1.0;
+    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
+    hash ^= hash >> 13u;
+    return vec2(ivec2(int(hash & 0xFFFFu), int(hash >> 16u))) * (2.0 / 65535.0) - 1.0;
 }
 
 /* Smooth noise in the plane, −1 … 1. */
 vec2 plane_noise(vec2 at, uint seed)
 {
+    const uint RIGHT = 0x9e3779b1u, UP = 0x85ebca77u;
     vec2 low = floor(at), t = at - low;
     t = t * t * (3.0 - 2.0 * t);
-    ivec2 cell = ivec2(low);
-    return mix(mix(cell_noise(cell, seed), cell_noise(cell + ivec2(1, 0), seed), t.x),
-               mix(cell_noise(cell + ivec2(0, 1), seed), cell_noise(cell + 1, seed), t.x), t.y);
+    uint left = uint(int(low.x)) * RIGHT ^ seed, down = uint(int(low.y)) * UP;
+    uint right = (uint(int(low.x)) * RIGHT + RIGHT) ^ seed, up = down + UP;
+    return mix(mix(corner_noise(left ^ down), corner_noise(right ^ down), t.x), mix(corner_noise(left ^ up), corner_noise(right ^ up), t.x), t.y);
 }
 
 /* Noise of as many waves on the page at any zoom: two octaves that hand over to each other. */

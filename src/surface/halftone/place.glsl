@@ -9,6 +9,11 @@ uniform mat4 u_world_from_eye;
 #else
 uniform vec4 u_rest[3]; /* rows: from eye space to the part's frame */
 uniform vec3 u_upward;
+
+mat3 turn_to_rest()
+{
+    return transpose(mat3(u_rest[0].xyz, u_rest[1].xyz, u_rest[2].xyz));
+}
 #endif
 
 /* One way of laying a plane on a surface. A place may have several; their weights add up to 1. */
@@ -25,7 +30,6 @@ struct rest_place {
     vec3 at, right, up;
     vec3 normal;
     vec3 upward; /* which way is up */
-    mat3 turn;   /* from eye space */
 };
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
@@ -54,15 +58,15 @@ rest_place place_at_rest(surface_point p)
 #ifdef SHADED_LATER
     int part = max(int(p.part) - 1, 0);
     ivec2 texel = ivec2(4 * (part & 1023), part >> 10);
-    mat4 rows = transpose(mat4(texelFetch(t_part_frames, texel, 0), texelFetch(t_part_frames, texel + ivec2(1, 0), 0),
-                               texelFetch(t_part_frames, texel + ivec2(2, 0), 0), vec4(0.0, 0.0, 0.0, 1.0))) * u_world_from_eye;
+    vec4 first = texelFetch(t_part_frames, texel, 0), second = texelFetch(t_part_frames, texel + ivec2(1, 0), 0), third = texelFetch(t_part_frames, texel + ivec2(2, 0), 0);
     vec3 upward = texelFetch(t_part_frames, texel + ivec2(3, 0), 0).yzw;
+    mat3 turn = transpose(mat3(first.xyz, second.xyz, third.xyz)), world = mat3(u_world_from_eye);
+    return rest_place(turn * (world * p.eye + u_world_from_eye[3].xyz) + vec3(first.w, second.w, third.w), turn * (world * right), turn * (world * up),
+                      turn * (world * p.normal), upward);
 #else
-    mat4 rows = transpose(mat4(u_rest[0], u_rest[1], u_rest[2], vec4(0.0, 0.0, 0.0, 1.0)));
-    vec3 upward = u_upward;
+    mat3 turn = turn_to_rest();
+    return rest_place(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward);
 #endif
-    mat3 turn = mat3(rows);
-    return rest_place((rows * vec4(p.eye, 1.0)).xyz, turn * right, turn * up, turn * p.normal, upward, turn);
 }
 
 stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, uint key)
@@ -71,10 +75,28 @@ stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, ui
                         vec2(dot(r.up, along), dot(r.up, across)), weight, key);
 }
 
-/* Coordinates turned by an angle. */
-stroke_plane turned_plane(stroke_plane s, float angle)
+/* How dark strokes of one plane must be, so that those of all planes, which lie over each other, are as dark as wanted. */
+float darkness_of_share(float darkness, float share)
 {
-    mat2 turn = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
+    return share > 0.9999 ? darkness : 1.0 - pow(max(1.0 - darkness, 1e-4), share);
+}
+
+/* Both angles, as cosine and sine. */
+vec2 turns_added(vec2 a, vec2 b)
+{
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+/* Each ink lies 30 degrees further. */
+vec2 turn_of_ink(int ink)
+{
+    return ink == 0 ? vec2(1.0, 0.0) : ink == 1 ? vec2(0.8660254, 0.5) : ink == 2 ? vec2(0.5, 0.8660254) : vec2(0.0, 1.0);
+}
+
+/* Coordinates turned by an angle, as cosine and sine. */
+stroke_plane turned_plane(stroke_plane s, vec2 angle)
+{
+    mat2 turn = mat2(angle.x, -angle.y, angle.y, angle.x);
     return stroke_plane(turn * s.at, turn * s.right, turn * s.up, s.weight, s.key);
 }
 
@@ -83,16 +105,33 @@ stroke_plane turned_plane(stroke_plane s, float angle)
  * another set of planes takes over. */
 #define PLANES 2
 const mat3 ASKEW = mat3(0.8138, 0.2962, -0.5, 0.0443, 0.8252, 0.5630, 0.5794, -0.4803, 0.6582);
+/* Share of the planes of this axis; the rest is left to the next. */
+float share_of_axis(rest_place r, vec3 axis)
+{
+    float facing = dot(r.normal, axis);
+    return smoothstep(0.06, 0.3, 1.0 - facing * facing);
+}
+
+int planes_at(rest_place r, int series)
+{
+    return share_of_axis(r, ASKEW[series % 3]) < 1.0 ? 2 : 1;
+}
+
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     vec3 first = ASKEW[series % 3], second = ASKEW[(series + 1) % 3], third = ASKEW[(series + 2) % 3];
-    float own = smoothstep(0.25, 0.55, length(cross(r.normal, first)));
+    float own = share_of_axis(r, first);
     return i == 0 ? plane_along(r, abs(dot(second, r.normal)) < abs(dot(third, r.normal)) ? second : third, first, own, uint(series))
                   : plane_along(r, first, second, 1.0 - own, uint(series) + 4u);
 }
 #elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES))
 /* Walls have their second coordinate upwards. */
 #define PLANES 3
+int planes_at(rest_place r, int series)
+{
+    return 3;
+}
+
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     vec3 right = abs(r.upward.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
@@ -109,9 +148,16 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 }
 #elif COORDINATES == 3
 #define PLANES 1
+int planes_at(rest_place r, int series)
+{
+    return 1;
+}
+
+/* Models count downwards from the top of a picture, strokes upwards. */
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
-    return stroke_plane(s_uv, dFdx(s_uv), dFdy(s_uv), 1.0, 0u);
+    const vec2 UPWARDS = vec2(1.0, -1.0);
+    return stroke_plane(vec2(s_uv.x, -s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u);
 }
 #elif COORDINATES == 4
 /* Planes through the model of a few fixed directions; each place takes those two whose lines come nearest to the way its surface bends. So strokes lie in
@@ -121,6 +167,11 @@ const int WAYS = 13;
 const vec3 WAY[WAYS] = vec3[WAYS](vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0),
     vec3(0.7071, 0.7071, 0.0), vec3(0.7071, -0.7071, 0.0), vec3(0.0, 0.7071, 0.7071), vec3(0.0, 0.7071, -0.7071), vec3(0.7071, 0.0, 0.7071), vec3(-0.7071, 0.0, 0.7071),
     vec3(0.5774, 0.5774, 0.5774), vec3(0.5774, 0.5774, -0.5774), vec3(0.5774, -0.5774, 0.5774), vec3(-0.5774, 0.5774, 0.5774));
+
+int planes_at(rest_place r, int series)
+{
+    return 2;
+}
 
 /* Coordinates along and across the lines of a way. */
 stroke_plane plane_of_way(rest_place r, int way, float weight)
@@ -134,7 +185,8 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
                       v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
-    field = r.turn * field * transpose(r.turn);
+    mat3 turn = turn_to_rest();
+    field = turn * field * transpose(turn);
     float best = -1e9, next = -1e9;
     int way = 0, second = 0;
     for (int k = 0; k < WAYS; k++) {
@@ -153,12 +205,22 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 }
 #elif COORDINATES == 5
 #define PLANES 1
+int planes_at(rest_place r, int series)
+{
+    return 1;
+}
+
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     return stroke_plane(v_patch.xy, dFdx(v_patch.xy), dFdy(v_patch.xy), 1.0, uint(v_patch.w + 0.5));
 }
 #else
 #define PLANES 1
+int planes_at(rest_place r, int series)
+{
+    return 1;
+}
+
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     vec2 pixel = gl_FragCoord.xy;
