@@ -45,7 +45,7 @@ static double noise(double x, double y, int period)
 
 /* --- strokes ------------------------------------------------------------------------------------------------------ */
 
-/* y grows upwards here, v downwards as the pictures lie. `together`: strokes of one thing come and go one after the other. */
+/* y grows upwards. `together`: strokes of one thing come and go one after the other. */
 typedef struct mark {
     double at[4];
     int    layer, index;
@@ -60,7 +60,7 @@ static void draw(int layer, double together, double x0, double y0, double x1, do
 {
     if (mark_count == MARKS_MAX)
         give_up();
-    marks[mark_count] = (mark){{x0, 1 - y0, x1, 1 - y1}, layer, mark_count, together};
+    marks[mark_count] = (mark){{x0, y0, x1, y1}, layer, mark_count, together};
     mark_count++;
 }
 
