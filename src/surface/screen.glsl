@@ -114,12 +114,24 @@ float cover_of(float darkness, int ink)
 
 #include "surface/halftone/inks.glsl"
 
+/* The plane that a place has most of: others may stand edge on. */
+stroke_plane main_plane()
+{
+    stroke_plane most = screen_plane(0, 0);
+    for (int i = 1; i < PLANES; i++) {
+        stroke_plane s = screen_plane(i, 0);
+        if (s.weight > most.weight)
+            most = s;
+    }
+    return most;
+}
+
 /* Unevenness of the tone makes strokes swell and thin (IM-26, IM-29). */
 float uneven_tone()
 {
     if (u_uneven <= 0.0)
         return 0.0;
-    stroke_plane s = screen_plane(0, 0);
+    stroke_plane s = main_plane();
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
     return u_uneven * living_noise(s.at, log2(1.0 / (rate * 40.0)), 5u, u_change).x;
 }
@@ -128,14 +140,7 @@ float uneven_tone()
 /* The normal of the stroke here: those of the relief lean along the plane's axes. */
 vec3 relieved_normal()
 {
-    int most = 0;
-    float weight = 0.0;
-    for (int i = 0; i < PLANES; i++) {
-        float own = screen_plane(i, 0).weight;
-        most = own > weight ? i : most;
-        weight = max(weight, own);
-    }
-    stroke_plane s = screen_plane(most, 0);
+    stroke_plane s = main_plane();
     float level = screen_level(s, u_screen_facts.x, texel_of());
     screen_octave o = octave_of(s, level, 0, least_octave());
     vec2 lean = textureLod(t_relief, vec3(wavered(s) * o.scale, 0.0), o.level).rg * 2.0 - 256.0 / 255.0;
