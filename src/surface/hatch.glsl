@@ -63,7 +63,9 @@ float line_cover(float width, float grown, float away, uint key, float at, float
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
-    darkness = max(darkness, 1e-4);
+    /* Lines are the thinner the nearer to none at all: one of them is old in every octave. */
+    float there = clamp(darkness * 500.0, 0.0, 1.0);
+    darkness = max(darkness, 0.002);
     vec2 rate = vec2(s.right.y, s.up.y);
     float g = max(length(rate), 1e-20);
     /* Pixels along the line for a unit of x. */
@@ -98,7 +100,7 @@ float lines_at(stroke_plane s, float darkness, uint set)
         cover += line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - index) * apart, line_key(index, low + 1.0, set), s.at.x, along);
     }
     /* Lines that are closer than pixels are an even tone. */
-    return mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
+    return there * mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
 }
 
 /* Sets of lines share what is dark: each as far as its own lines may come together, and beyond that all alike. */
