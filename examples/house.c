@@ -15,7 +15,9 @@ static const struct {
     [DOOR] = {"door", WOOD},            [GLASS_PART] = {"windows", GLASS},  [IRON_PART] = {"iron", IRON},
     [CHIMNEY] = {"chimney", BRICK},     [POTS] = {"chimney pots", TILES},   [TOWER] = {"tower", BRICK},
     [TOWER_STONES] = {"tower stones", STONE}, [TOWER_ROOF] = {"tower roof", TILES}, [GARDEN_WALL] = {"garden wall", STONE},
-    [COPING] = {"coping", STONE},
+    [COPING] = {"coping", STONE},       [ROOM] = {"room", PAINT},             [FLOOR] = {"floor", WOOD},
+    [JOISTS] = {"joists", WOOD},        [HEARTH] = {"hearth", BRICK},       [FURNITURE] = {"furniture", WOOD},
+    [CROCKERY] = {"crockery", PAINT},
 };
 static const struct {
     const char *name, *picture;
@@ -94,7 +96,7 @@ void put_polygon(house *h, const face *f, const double (*points)[2], int count)
     uint32_t   first = m->vertex_count;
     for (int i = 0; i < count; i++) {
         double u = points[i][0], v = points[i][1];
-        vertex p = {.metres = {u / tile, v / tile}, .unique = {u, v}, .chart = f->chart};
+        vertex p = {.metres = {(f->turned ? v : u) / tile, (f->turned ? -u : v) / tile}, .unique = {u, v}, .chart = f->chart};
         for (int k = 0; k < 3; k++) {
             p.at[k] = f->at[k] + u * f->u[k] + v * f->v[k];
             p.normal[k] = f->u[(k + 1) % 3] * f->v[(k + 2) % 3] - f->u[(k + 2) % 3] * f->v[(k + 1) % 3];
@@ -118,7 +120,7 @@ static double length_of(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* A side of a box: its corner, its edges and whether they are long enough for an indication of their own. */
+/* A side of a box: its corner and its edges. */
 static void put_side(house *h, int part, const double at[3], const double u[3], const double v[3])
 {
     double width = length_of(u), height = length_of(v);
@@ -130,6 +132,7 @@ static void put_side(house *h, int part, const double at[3], const double u[3], 
     f.chart = add_chart(h, width, height, part == GROUND ? 0.35 : part == PATH ? 0.5 : 1);
     double weight = width < 0.6 || height < 0.6 ? 0.4 : 1;
     outline_chart(h, f.chart, (const double[][2]){{0, 0}, {width, 0}, {width, height}, {0, height}}, 4, part == GROUND ? 0 : weight);
+    f.turned = part_facts[part].material == WOOD && width > 1.5 * height; /* boards lie along */
     put_rectangle(h, &f, 0, 0, width, height);
 }
 

@@ -13,7 +13,7 @@ enum { CHARTS_MAX = 4096, EDGES_MAX = 24, ATLAS_SIDE = 384 };
 
 /* Parts in the order of the file; house.c has their names and materials. */
 enum { GROUND, PATH, STEPS, PLINTH, WALLS, GABLES, ROOF, RIDGE, BEAMS, STONES, FRAMES, SHUTTERS, DOOR, GLASS_PART, IRON_PART, CHIMNEY, POTS, TOWER,
-       TOWER_STONES, TOWER_ROOF, GARDEN_WALL, COPING, PART_COUNT };
+       TOWER_STONES, TOWER_ROOF, GARDEN_WALL, COPING, ROOM, FLOOR, JOISTS, HEARTH, FURNITURE, CROCKERY, PART_COUNT };
 enum { BRICK, TILES, WOOD, STONE, GRASS, GLASS, PAINT, IRON, MATERIAL_COUNT };
 
 typedef enum way { RIGHT_WAY, UP_WAY } way;
@@ -48,6 +48,7 @@ typedef struct house {
 typedef struct face {
     int    part, chart;
     double at[3], u[3], v[3];
+    bool   turned; /* the tiled texture, by a quarter */
 } face;
 
 _Noreturn void give_up(void);

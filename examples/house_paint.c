@@ -45,7 +45,7 @@ static double noise(double x, double y, int period)
 
 /* --- strokes ------------------------------------------------------------------------------------------------------ */
 
-/* y grows upwards here, v downwards as the pictures lie. `together`: strokes of one thing come and go one after the other. */
+/* y grows upwards. `together`: strokes of one thing come and go one after the other. */
 typedef struct mark {
     double at[4];
     int    layer, index;
@@ -60,11 +60,11 @@ static void draw(int layer, double together, double x0, double y0, double x1, do
 {
     if (mark_count == MARKS_MAX)
         give_up();
-    marks[mark_count] = (mark){{x0, 1 - y0, x1, 1 - y1}, layer, mark_count, together};
+    marks[mark_count] = (mark){{x0, y0, x1, y1}, layer, mark_count, together};
     mark_count++;
 }
 
-/* Parallel strokes within a box; `turn` in degrees. */
+/* Parallel strokes within a box; `turn` in degrees. `together` below 0: each comes and goes by itself. */
 static void hatch(int layer, double together, double left, double bottom, double right, double top, double turn, double distance)
 {
     double c = cos(turn * PI / 180), s = sin(turn * PI / 180), x = (left + right) / 2, y = (bottom + top) / 2;
@@ -82,7 +82,7 @@ static void hatch(int layer, double together, double left, double bottom, double
             continue;
         from += about(0.06, 0.06) * (to - from);
         to -= about(0.06, 0.06) * (to - from);
-        draw(layer, together, x + from * c - d * s, y + from * s + d * c, x + to * c - d * s, y + to * s + d * c);
+        draw(layer, together < 0 ? chance() : together, x + from * c - d * s, y + from * s + d * c, x + to * c - d * s, y + to * s + d * c);
     }
 }
 
@@ -202,7 +202,7 @@ static void draw_glass(void)
 {
     for (int layer = 0; layer < 3; layer++)
         for (int k = 0; k < 16; k++)
-            hatch(layer, hash(k, layer), k % 4 * 0.25 - 0.02, k / 4 * 0.25 - 0.02, k % 4 * 0.25 + 0.27, k / 4 * 0.25 + 0.27,
+            hatch(layer, -1, k % 4 * 0.25 - 0.02, k / 4 * 0.25 - 0.02, k % 4 * 0.25 + 0.27, k / 4 * 0.25 + 0.27,
                   layer == 0 ? 60 : layer == 1 ? 52 : -35, 0.04);
 }
 
@@ -210,7 +210,7 @@ static void draw_paint(void)
 {
     for (int layer = 0; layer < 3; layer++)
         for (int k = 0; k < 16; k++)
-            hatch(layer, hash(k, layer), k % 4 * 0.25 - 0.02, k / 4 * 0.25 - 0.02, k % 4 * 0.25 + 0.27, k / 4 * 0.25 + 0.27,
+            hatch(layer, -1, k % 4 * 0.25 - 0.02, k / 4 * 0.25 - 0.02, k % 4 * 0.25 + 0.27, k / 4 * 0.25 + 0.27,
                   layer == 0 ? 45 : layer == 1 ? -45 : 0, 0.05);
 }
 

@@ -44,13 +44,13 @@ static void window_of(house *h, const site *s, const hole *o)
 {
     double l = o->left, r = o->right, b = o->bottom, t = o->top, m = (l + r) / 2, bar = 0.07;
     on_wall(h, GLASS_PART, s, l, b, r, t, -0.2, -0.14);
-    on_wall(h, FRAMES, s, l, b, l + bar, t, -0.16, -0.07);
-    on_wall(h, FRAMES, s, r - bar, b, r, t, -0.16, -0.07);
-    on_wall(h, FRAMES, s, l + bar, b, r - bar, b + bar, -0.16, -0.08);
-    on_wall(h, FRAMES, s, l + bar, t - bar, r - bar, t, -0.16, -0.08);
-    on_wall(h, FRAMES, s, m - 0.03, b + bar, m + 0.03, t - bar, -0.15, -0.09);
+    on_wall(h, FRAMES, s, l, b, l + bar, t, -0.24, -0.07);
+    on_wall(h, FRAMES, s, r - bar, b, r, t, -0.24, -0.07);
+    on_wall(h, FRAMES, s, l + bar, b, r - bar, b + bar, -0.24, -0.08);
+    on_wall(h, FRAMES, s, l + bar, t - bar, r - bar, t, -0.24, -0.08);
+    on_wall(h, FRAMES, s, m - 0.03, b + bar, m + 0.03, t - bar, -0.23, -0.09);
     for (int k = 1; k < 3; k++)
-        on_wall(h, FRAMES, s, l + bar, b + (t - b) * k / 3 - 0.02, r - bar, b + (t - b) * k / 3 + 0.02, -0.15, -0.1);
+        on_wall(h, FRAMES, s, l + bar, b + (t - b) * k / 3 - 0.02, r - bar, b + (t - b) * k / 3 + 0.02, -0.23, -0.1);
     on_wall(h, STONES, s, l - 0.14, b - 0.13, r + 0.14, b, -0.12, 0.1);
     on_wall(h, STONES, s, l - 0.16, t, r + 0.16, t + 0.24, -0.12, 0.05);
     for (int side = 0; side < 2 && o->shutters; side++) {
@@ -71,24 +71,21 @@ static void door_of(house *h, const site *s, const hole *o)
     on_wall(h, IRON_PART, s, r - 0.2, b + 0.95, r - 0.14, b + 1.12, -0.13, -0.08);
 }
 
-static void wall(house *h, const site *s, double width, double height, const hole *holes, int count)
+/* A flat wall with holes. */
+static void panel(house *h, int part, const site *s, double width, double height, const hole *holes, int count)
 {
     enum { CUTS = 16 };
     double cuts[2][CUTS] = {{0, width}, {0, height}};
     int    n[2] = {2, 2};
-    face   f = {.part = WALLS};
+    face   f = {.part = part};
     out_of(s, 0, 0, 0, f.at);
     f.u[0] = s->right[0], f.u[2] = s->right[1], f.v[1] = 1;
-    f.chart = add_chart(h, width, height, 1);
+    f.chart = add_chart(h, width, height, part == WALLS ? 1 : 0.6);
     outline_chart(h, f.chart, (const double[][2]){{0, 0}, {width, 0}, {width, height}, {0, height}}, 4, 1);
     for (int i = 0; i < count; i++) {
         const hole *o = &holes[i];
         cuts[0][n[0]++] = o->left, cuts[0][n[0]++] = o->right, cuts[1][n[1]++] = o->bottom, cuts[1][n[1]++] = o->top;
         outline_chart(h, f.chart, (const double[][2]){{o->left, o->bottom}, {o->right, o->bottom}, {o->right, o->top}, {o->left, o->top}}, 4, 0.55);
-        if (o->door)
-            door_of(h, s, o);
-        else
-            window_of(h, s, o);
     }
     sort_numbers(cuts[0], n[0]);
     sort_numbers(cuts[1], n[1]);
@@ -101,8 +98,34 @@ static void wall(house *h, const site *s, double width, double height, const hol
             if (!open)
                 put_rectangle(h, &f, cuts[0][i], cuts[1][k], cuts[0][i + 1], cuts[1][k + 1]);
         }
-    for (int i = 0; i < count; i++) { /* the reveals */
+}
+
+static const double thick = 0.26, room_floor = 0.47, room_top = 3.2;
+
+/* The room's side of a wall; the upper windows are above its ceiling. */
+static void inner_wall(house *h, const site *s, double width, const hole *holes, int count)
+{
+    hole mirrored[8];
+    int  kept = 0;
+    site inside = {.right = {-s->right[0], -s->right[1]}};
+    out_of(s, width - thick, room_floor, -thick, inside.at);
+    for (int i = 0; i < count; i++)
+        if (holes[i].top < room_top)
+            mirrored[kept++] = (hole){width - holes[i].right - thick, holes[i].bottom - room_floor + 1e-3, width - holes[i].left - thick,
+                                      holes[i].top - room_floor, false, false};
+    panel(h, ROOM, &inside, width - 2 * thick, room_top - room_floor, mirrored, kept);
+}
+
+static void wall(house *h, const site *s, double width, double height, const hole *holes, int count)
+{
+    panel(h, WALLS, s, width, height, holes, count);
+    inner_wall(h, s, width, holes, count);
+    for (int i = 0; i < count; i++) {
         const hole *o = &holes[i];
+        if (o->door)
+            door_of(h, s, o);
+        else
+            window_of(h, s, o);
         on_wall(h, WALLS, s, o->left - 0.03, o->bottom, o->left, o->top, -0.25, -0.001);
         on_wall(h, WALLS, s, o->right, o->bottom, o->right + 0.03, o->top, -0.25, -0.001);
     }
@@ -238,6 +261,55 @@ static void build_garden(house *h)
     box_at(h, GROUND, -7, -0.25, -4.4, 7.4, 0, 7.2);
 }
 
+/* --- what is inside ----------------------------------------------------------------------------------------------- */
+
+static void stool(house *h, double x, double z)
+{
+    box_at(h, FURNITURE, x - 0.2, room_floor + 0.42, z - 0.2, x + 0.2, room_floor + 0.47, z + 0.2);
+    for (int k = 0; k < 4; k++) {
+        double u = x + (k & 1 ? 0.14 : -0.14), v = z + (k & 2 ? 0.14 : -0.14);
+        box_at(h, FURNITURE, u - 0.03, room_floor, v - 0.03, u + 0.03, room_floor + 0.43, v + 0.03);
+    }
+}
+
+static void build_room(house *h)
+{
+    const double x = half_x - thick, z = half_z - thick, y = room_floor;
+    box_at(h, FLOOR, -x, y - 0.2, -z, x, y, z);
+    box_at(h, ROOM, -x, room_top, -z, x, room_top + 0.1, z);
+    for (int k = -2; k <= 2; k++)
+        box_at(h, JOISTS, 1.15 * k - 0.1, room_top - 0.22, -z, 1.15 * k + 0.1, room_top + 0.01, z);
+    /* The hearth: two cheeks, a beam over them, the breast up to the ceiling. */
+    for (int side = -1; side <= 1; side += 2)
+        box_at(h, HEARTH, -1 + side * 0.62 - 0.18, y, -z, -1 + side * 0.62 + 0.18, y + 1.15, -z + 0.55);
+    box_at(h, JOISTS, -1.95, y + 1.15, -z, -0.05, y + 1.35, -z + 0.68);
+    box_at(h, HEARTH, -1.7, y + 1.35, -z, -0.3, room_top, -z + 0.45);
+    box_at(h, HEARTH, -1.5, y, -z, -0.5, y + 1.15, -z + 0.06);
+    box_at(h, STONES, -2, y, -z, 0, y + 0.06, -z + 0.95);
+    tube(h, IRON_PART, (const double[3]){-1, y + 0.35, -z + 0.3}, UP_WAY, 0.25, 0.15, 0.2, 16);
+    tube(h, BEAMS, (const double[3]){-1.3, y + 0.12, -z + 0.22}, RIGHT_WAY, 0.6, 0.07, 0.06, 9);
+    tube(h, BEAMS, (const double[3]){-1.35, y + 0.13, -z + 0.4}, RIGHT_WAY, 0.7, 0.06, 0.07, 9);
+    /* A table and what stands on it. */
+    box_at(h, FURNITURE, -0.4, y + 0.74, -0.65, 1.3, y + 0.8, 0.25);
+    box_at(h, FURNITURE, -0.3, y + 0.62, -0.55, 1.2, y + 0.74, -0.5);
+    box_at(h, FURNITURE, -0.3, y + 0.62, 0.1, 1.2, y + 0.74, 0.15);
+    for (int k = 0; k < 4; k++) {
+        double u = k & 1 ? 1.15 : -0.25, v = k & 2 ? 0.1 : -0.5;
+        box_at(h, FURNITURE, u - 0.05, y, v - 0.05, u + 0.05, y + 0.75, v + 0.05);
+    }
+    stool(h, 0.1, 0.65);
+    stool(h, -0.85, -0.15);
+    tube(h, CROCKERY, (const double[3]){0.2, y + 0.8, -0.25}, UP_WAY, 0.16, 0.07, 0.11, 16);
+    tube(h, CROCKERY, (const double[3]){0.2, y + 0.96, -0.25}, UP_WAY, 0.12, 0.11, 0.06, 16);
+    tube(h, CROCKERY, (const double[3]){0.75, y + 0.8, -0.1}, UP_WAY, 0.05, 0.08, 0.17, 20);
+    /* A shelf and a chest. */
+    box_at(h, FURNITURE, -x, y + 1.5, 0, -x + 0.28, y + 1.55, 0.8);
+    for (int k = 0; k < 3; k++)
+        tube(h, CROCKERY, (const double[3]){-x + 0.14, y + 1.55, 0.15 + 0.25 * k}, UP_WAY, 0.16 + 0.03 * (k & 1), 0.07, 0.09, 14);
+    box_at(h, FURNITURE, 1.7, y, -z + 0.02, 2.7, y + 0.5, -z + 0.55);
+    box_at(h, FURNITURE, 1.67, y + 0.48, -z + 0.01, 2.73, y + 0.56, -z + 0.58);
+}
+
 int main(int count, char **arguments)
 {
     static house h;
@@ -249,5 +321,6 @@ int main(int count, char **arguments)
     build_tower(&h);
     build_chimney(&h);
     build_garden(&h);
+    build_room(&h);
     return house_write(&h, arguments[1], arguments[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

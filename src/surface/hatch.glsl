@@ -63,9 +63,6 @@ float line_cover(float width, float grown, float away, uint key, float at, float
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
-    /* Lines are the thinner the nearer to none at all: one of them is old in every octave. */
-    float there = clamp(darkness * 500.0, 0.0, 1.0);
-    darkness = max(darkness, 0.002);
     vec2 rate = vec2(s.right.y, s.up.y);
     float g = max(length(rate), 1e-20);
     /* Pixels along the line for a unit of x. */
@@ -100,7 +97,7 @@ float lines_at(stroke_plane s, float darkness, uint set)
         cover += line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - index) * apart, line_key(index, low + 1.0, set), s.at.x, along);
     }
     /* Lines that are closer than pixels are an even tone. */
-    return there * mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
+    return mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
 }
 
 /* Sets of lines share what is dark: each as far as its own lines may come together, and beyond that all alike. */
@@ -118,21 +115,29 @@ float set_darkness(float darkness, int set)
     return clamp(1.0 - left / before, 0.0, most);
 }
 
-float plane_cover(int i, int set, float part, vec2 turn)
+const float LIGHTEST = 0.002; /* below, no line is drawn */
+
+float plane_cover(stroke_plane s, int set, float part, vec2 turn)
 {
-    stroke_plane s = plane_of(s_point, s_rest, i, set);
-    return lines_at(turned_plane(s, turn), darkness_of_share(part, s.weight), s.key + 16u * uint(set));
+    return lines_at(turned_plane(s, turn), part, s.key + 16u * uint(set));
 }
 
 /* What a set of lines leaves bare. The first plane goes without a loop and the others in one that mostly runs not at all: on software drivers loops cost more than
  * what is in them, and sets are written out where they are called, with constants. */
 float bare_of_set(float darkness, int set, vec2 turn)
 {
-    float part = set_darkness(darkness, set);
-    float bare = 1.0 - plane_cover(0, set, part, turn);
-    int planes = part > 0.002 ? planes_at(s_rest, set) : 1;
-    for (int i = 1; i < planes; i++)
-        bare *= 1.0 - plane_cover(i, set, part, turn);
+    float whole = set_darkness(darkness, set);
+    stroke_plane s = plane_of(s_point, s_rest, 0, set);
+    float part = darkness_of_share(whole, s.weight);
+    float bare = 1.0 - plane_cover(s, set, max(part, LIGHTEST), turn) * step(LIGHTEST, part);
+    int planes = whole > LIGHTEST ? planes_at(s_rest, set) : 1;
+    for (int i = 1; i < planes; i++) {
+        s = plane_of(s_point, s_rest, i, set);
+        part = darkness_of_share(whole, s.weight);
+        int wanted = part > LIGHTEST ? 1 : 0;
+        for (int once = 0; once < wanted; once++)
+            bare *= 1.0 - plane_cover(s, set, part, turn);
+    }
     return bare;
 }
 

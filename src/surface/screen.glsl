@@ -53,17 +53,17 @@ float screen_at(vec2 at, float level)
     return value;
 }
 
-/* Share of ink by the scheme; a value is inked where it is less than the darkness. */
+/* Share of ink by the scheme; a value is inked where it is less than the darkness, but 255 is paper whatever the darkness. */
 float ink_of(float value, float darkness)
 {
 #if SCHEME == 0
-    return value <= darkness && darkness > 0.0 ? 1.0 : 0.0;
+    return value <= darkness && darkness > 0.0 && value < 0.999 ? 1.0 : 0.0;
 #elif SCHEME == 1
-    return clamp((u_centred ? 0.5 : 0.0) + u_gain * (darkness - value), 0.0, 1.0);
+    /* Where a plane or a size of the screen has no share there is none of its ink. */
+    return clamp((u_centred ? 0.5 : 0.0) + u_gain * (darkness - value), 0.0, 1.0) * smoothstep(0.0, 0.02, darkness);
 #elif SCHEME == 2
     float ramp = clamp(fwidth(value - darkness), 1.0 / 128.0, 0.75);
-    /* Paper is never inked, and all ink is where all is dark. */
-    return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness);
+    return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness) * clamp(255.0 * (1.0 - value), 0.0, 1.0);
 #else
     return 1.0 - value;
 #endif

@@ -222,7 +222,7 @@ static void light_ink_on_dark_paper(void)
             worst = fmax(worst, fabs(got[0] - fmin(tone, t == 2 ? 0.85 : 1)));
         }
         check_at_most("inks", back, 0, "%s, light ink on dark paper: steps at which more light is darker", techniques[t]);
-        check_at_most("inks", worst, t == 1 ? 0.15 : 0.06, "%s: mean light off the tone", techniques[t]);
+        check_at_most("inks", worst, t == 1 ? 0.24 : 0.06, "%s: mean light off the tone", techniques[t]);
     }
 }
 

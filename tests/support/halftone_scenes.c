@@ -319,6 +319,14 @@ double halftone_mean(const shot *s, int x, int y, int width, int height)
     return sum / (width * height);
 }
 
+double halftone_difference(const shot *a, const shot *b)
+{
+    double sum = 0;
+    for (int i = 0; i < a->width * a->height; i++)
+        sum += fabs(picture_linear(a->picture[4 * i]) - picture_linear(b->picture[4 * i]));
+    return sum / (a->width * a->height);
+}
+
 static double overlap(double from, double to, int at)
 {
     return fmax(fmin(to, at + 1) - fmax(from, at), 0);

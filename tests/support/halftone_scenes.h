@@ -70,6 +70,9 @@ double halftone_mean(const shot *s, int x, int y, int width, int height);
 /* The same with parts of pixels. */
 double halftone_box(const shot *s, double x, double y, double width, double height);
 
+/* Mean difference of the light of two pictures of one size. */
+double halftone_difference(const shot *a, const shot *b);
+
 /* The value 0 … 1 of a chain that repeats, trilinear; v upwards. */
 double halftone_sample(const mip_chain *chain, int layer, double u, double v, double level);
 

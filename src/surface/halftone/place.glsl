@@ -157,7 +157,7 @@ int planes_at(rest_place r, int series)
 stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
 {
     const vec2 UPWARDS = vec2(1.0, -1.0);
-    return stroke_plane(vec2(s_uv.x, 1.0 - s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u);
+    return stroke_plane(vec2(s_uv.x, -s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u);
 }
 #elif COORDINATES == 4
 /* Planes through the model of a few fixed directions; each place takes those two whose lines come nearest to the way its surface bends. So strokes lie in
