@@ -88,7 +88,7 @@ static double slant_of(const shot *s)
     return fmod(across + 270, 180);
 }
 
-/* Strokes are turned on the surface, against the clock where it is seen from before; in texture coordinates, whose second one runs down, with it. Planes through the model turn otherwise, which is only noted. */
+/* Strokes are turned on the surface, against the clock where it is seen from before. Planes through the model turn otherwise, which is only noted. */
 static void angles(void)
 {
     static const char *const coordinates[] = {"screen", "triplanar", "uv", "axes"};
@@ -103,7 +103,7 @@ static void angles(void)
             if (wall_shot(&s, 1.5, 0, even(0.3, settings), &view)) {
                 double slant = slant_of(&s);
                 first = k ? first : slant;
-                double off = fmod(slant - first - (c == 2 ? -angle : angle) + 720 + 90, 180) - 90; /* v runs down */
+                double off = fmod(slant - first - angle + 720 + 90, 180) - 90;
                 worst = fmax(worst, fabs(off));
             }
             shot_release(&s);

@@ -138,7 +138,7 @@ static void octaves(void)
             shape_release(&s);
         }
         shot_release(&now);
-        check_at_most("EX-09", most, 0.015, "%s, an octave in %d steps of 2.5 %%: largest share of pixels that change by more than a quarter", rows[r].what, STEPS);
+        check_at_most("EX-09", most, 0.02, "%s, an octave in %d steps of 2.5 %%: largest share of pixels that change by more than a quarter", rows[r].what, STEPS);
         check_at_most("EX-09", mean, 3 * sum, "  largest mean change, against three times that of all steps");
         check_at_most("EX-09", block, 0.15, "  largest change of the ink of 16 x 16 px, 0.06 a per cent");
     }
