@@ -6,11 +6,12 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/limits.h"
 #include "base/memory.h"
 #include "export/export.h"
 #include "halftone/strokes.h"
 
-enum { STROKES_MOST = 1000000, SIDE_MOST = 8192, WIDTH_MOST = 256, LAYERS = 65536, REACH = 16 };
+enum { SIDE_MOST = 8192, WIDTH_MOST = 256 };
 
 struct lmn_strokes {
     strokes list;
@@ -134,11 +135,11 @@ static lmn_status check_stroke(const lmn_stroke *t, lmn_error *error)
 {
     const float places[4] = {t->u0, t->v0, t->u1, t->v1};
     for (int i = 0; i < 4; i++)
-        if (!(fabsf(places[i]) <= REACH))
+        if (!(fabsf(places[i]) <= LIMIT_STROKE_REACH))
             return error_set(error, LMN_USAGE, "lmn_strokes_set: a place is %g; allowed is -16 to 16", (double)places[i]);
     if (!isfinite(t->light) || !isfinite(t->perspective))
         return error_set(error, LMN_USAGE, "lmn_strokes_set: a priority is not finite");
-    if (t->layer < 0 || t->layer >= LAYERS)
+    if (t->layer < 0 || t->layer >= LIMIT_STROKE_LAYERS)
         return error_set(error, LMN_USAGE, "lmn_strokes_set: layer is %d; allowed is 0 to 65535", (int)t->layer);
     return LMN_OK;
 }
@@ -152,8 +153,8 @@ lmn_status lmn_strokes_set(lmn_strokes *s, size_t index, const lmn_stroke *given
     lmn_status status = check_stroke(given, error);
     if (status != LMN_OK)
         return status;
-    if (index >= STROKES_MOST)
-        return error_set(error, LMN_LIMIT, "lmn_strokes_set: more than %d strokes", STROKES_MOST);
+    if (index >= LIMIT_STROKES)
+        return error_set(error, LMN_LIMIT, "lmn_strokes_set: more than %d strokes", LIMIT_STROKES);
     stroke t = {given->u0, given->v0, given->u1, given->v1, given->light, given->perspective, given->layer};
     strokes one = {&t, 1, 1, 1};
     strokes_wrap(&one);

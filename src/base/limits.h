@@ -21,6 +21,9 @@
 #define LIMIT_SCAD_SECONDS    60                  /* the openscad process that evaluates a .scad file */
 #define LIMIT_POLYGON_CORNERS 65536               /* of one face in PLY or OBJ */
 #define LIMIT_SHAPE_POINTS    ((size_t)4000000)   /* of one shape made from numbers */
+#define LIMIT_STROKES         1000000             /* of one stroke texture */
+#define LIMIT_STROKE_LAYERS   65536
+#define LIMIT_STROKE_REACH    16                  /* how far from 0 a stroke's ends may lie, squares */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
 #define LIMIT_LOOK_RULES      256
 #define LIMIT_LOOK_TECHNIQUES 64                  /* of one kind in a rule */

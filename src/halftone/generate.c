@@ -90,8 +90,8 @@ lmn_status strokes_generate(strokes *out, const pattern_wishes *wishes, lmn_erro
     g.count = wishes->count ? wishes->count : room->count;
     g.length = wishes->length > 0 ? fmin((double)wishes->length, 4) : room->length;
     g.uneven = fmin(fmax((double)wishes->uneven, 0), 1);
-    if (g.count > STROKES_MAX / 2)
-        return error_set(error, LMN_LIMIT, "%zu strokes; allowed are %d", g.count, STROKES_MAX / 2);
+    if (g.count > LIMIT_STROKES / 2)
+        return error_set(error, LMN_LIMIT, "%zu strokes; allowed are %d", g.count, LIMIT_STROKES / 2);
     room->generate(&g);
     strokes_wrap(out);
     lmn_status status = g.failed ? error_memory(error) : LMN_OK;

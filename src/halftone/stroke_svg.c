@@ -156,13 +156,13 @@ static bool add_chord(void *user, svg_point from, svg_point to)
         return true;
     }
     svg_point a = in_square(r, from), b = in_square(r, to);
-    if (!(fmax(fmax(fabs(a.x), fabs(a.y)), fmax(fabs(b.x), fabs(b.y))) <= STROKE_REACH)) {
+    if (!(fmax(fmax(fabs(a.x), fabs(a.y)), fmax(fabs(b.x), fabs(b.y))) <= LIMIT_STROKE_REACH)) {
         fail(r, LMN_FORMAT, "a line is more than 16 times the drawing's size away from it", NULL);
         error_hint(r->error, "take away what lies far outside of the view box");
         return false;
     }
     stroke s = {(float)a.x, (float)a.y, (float)b.x, (float)b.y, r->light, r->perspective, r->layer};
-    if (r->out->count >= STROKES_MAX)
+    if (r->out->count >= LIMIT_STROKES)
         fail(r, LMN_LIMIT, NULL, NULL);
     else if (!strokes_add(r->out, s))
         fail(r, LMN_MEMORY, NULL, NULL);
@@ -345,7 +345,7 @@ static void walk(svg_reader *r, const xmlNode *node, const svg_transform *outer,
         if (child->type != XML_ELEMENT_NODE)
             continue;
         if (node == r->layers && is_named(child, "g") && !is_hidden(child)) {
-            if (r->next_layer >= STROKE_LAYERS_MAX) {
+            if (r->next_layer >= LIMIT_STROKE_LAYERS) {
                 fail(r, LMN_FORMAT, "there are more than 65536 groups, which are layers", NULL);
                 return;
             }

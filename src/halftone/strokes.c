@@ -71,7 +71,7 @@ bool stroke_goes_on(const stroke *one, const stroke *next)
 
 lmn_status strokes_too_many(const char *name, int line, lmn_error *error)
 {
-    return error_in_file(error, LMN_LIMIT, name, line, "more than %d strokes", STROKES_MAX);
+    return error_in_file(error, LMN_LIMIT, name, line, "more than %d strokes", LIMIT_STROKES);
 }
 
 lmn_status strokes_load(strokes *out, const char *path, lmn_error *error)

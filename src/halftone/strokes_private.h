@@ -2,10 +2,9 @@
 #ifndef LIMNER_HALFTONE_STROKES_PRIVATE_H
 #define LIMNER_HALFTONE_STROKES_PRIVATE_H
 
+#include "base/limits.h"
 #include "halftone/random.h"
 #include "halftone/strokes.h"
-
-enum { STROKES_MAX = 1000000, STROKE_LAYERS_MAX = 65536, STROKE_REACH = 16 };
 
 /* A number as short as it can be, with a point whatever the locale; text_parse_double gives it back exactly. */
 void stroke_write_number(text *out, float value);

@@ -55,11 +55,11 @@ static lmn_status read_field(reader *r, int field, stroke *out)
     float *const places[] = {&out->u0, &out->v0, &out->u1, &out->v1, &out->light, &out->perspective};
     r->at = behind;
     if (field == FIELDS - 1) {
-        if (!(value >= 0 && value < STROKE_LAYERS_MAX) || value != floor(value))
+        if (!(value >= 0 && value < LIMIT_STROKE_LAYERS) || value != floor(value))
             return refuse(r, field, word, size, "a whole number from 0 to 65535");
         out->layer = (int32_t)value;
     } else if (field < 4) {
-        if (!(fabs(value) <= STROKE_REACH))
+        if (!(fabs(value) <= LIMIT_STROKE_REACH))
             return refuse(r, field, word, size, "a number from -16 to 16");
         *places[field] = (float)value;
     } else {
@@ -87,7 +87,7 @@ static lmn_status read_line(reader *r, strokes *out)
         return LMN_OK;
     if (field < FIELDS)
         return refuse_count(r, counts[field]);
-    if (out->count >= STROKES_MAX)
+    if (out->count >= LIMIT_STROKES)
         return strokes_too_many(r->name, r->line, r->error);
     return strokes_add(out, item) ? LMN_OK : error_memory(r->error);
 }

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/image_read.h"
+#include "halftone/strokes.h"
 #include "import/assimp_stream.h"
 #include "import/csg.h"
 #include "import/import.h"
@@ -28,6 +29,15 @@ static lmn_status read_format(const import_job *job, lmn_error *error)
     region figure = {0};
     lmn_status status = csg_dxf((const char *)job->file->data, job->file->size, &how, &figure, error);
     region_release(&figure);
+    return status == LMN_OK ? LMN_CANCELLED : status;
+#elif defined(FUZZ_stx) || defined(FUZZ_svg)
+    strokes s = {0};
+#if defined(FUZZ_stx)
+    lmn_status status = strokes_read(&s, job->path, (const char *)job->file->data, job->file->size, error);
+#else
+    lmn_status status = strokes_read_svg(&s, job->path, (const char *)job->file->data, job->file->size, error);
+#endif
+    strokes_release(&s);
     return status == LMN_OK ? LMN_CANCELLED : status;
 #elif defined(FUZZ_stream)
     return assimp_stream_read(job, job->file->data, job->file->size, error);
