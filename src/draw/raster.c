@@ -254,6 +254,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
+    if (gpu_has_uniform(f->g, "u_rest"))
+        upload_part_frames(f->up, f->g, f->plan->scene); /* before the pass's textures: making it takes the place of one of them */
     set_pass(f, job, s, item->material);
     frame_set_projection(f);
     set_material(f->g, m, t, job->stack != NULL);
