@@ -205,6 +205,8 @@ typedef struct raster_setup {
 /* What programs of the geometry pass get, wherever their surfaces come from. */
 static void set_pass(frame *f, const raster_job *job, const figure_state *s, int32_t material)
 {
+    if (gpu_has_uniform(f->g, "u_rest"))
+        upload_part_frames(f->up, f->g, f->plan->scene); /* before the pass's textures: making it takes the place of one of them */
     frame_set_common(f, s);
     if (job->at.shade >= 0) {
         const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
@@ -254,8 +256,6 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
-    if (gpu_has_uniform(f->g, "u_rest"))
-        upload_part_frames(f->up, f->g, f->plan->scene); /* before the pass's textures: making it takes the place of one of them */
     set_pass(f, job, s, item->material);
     frame_set_projection(f);
     set_material(f->g, m, t, job->stack != NULL);
