@@ -22,6 +22,8 @@ typedef struct mip_chain {
     mip_format format;
     bool       clamped; /* does not repeat */
     bool       nearest; /* texels must not be mixed */
+    bool       stepped; /* nor levels, by the sampler: who looks them up does */
+    bool       similar; /* level k + 1 is level k, laid out half as large */
     float      fact;    /* a number that belongs to it, which shaders get too: of screens, texels between strokes of level 0, on the mean */
     void      *data[MIP_LEVELS_MAX];
 } mip_chain;

@@ -54,7 +54,7 @@ static gpu_texture *put_up(gpu *g, const mip_chain *chain)
     for (int k = 0; k < chain->levels; k++)
         data[k] = chain->data[k];
     return gpu_texture_of_levels(g, &(gpu_levels){.width = chain->width, .height = chain->height, .layers = chain->layers, .levels = chain->levels,
-                                                  .format = formats[chain->format], .nearest = chain->nearest, .clamped = chain->clamped, .data = data});
+                                                  .format = formats[chain->format], .nearest = chain->nearest, .stepped = chain->stepped, .clamped = chain->clamped, .data = data});
 }
 
 /* Takes over the description. */
@@ -69,6 +69,7 @@ static lmn_status add(made_textures *all, gpu *g, const texture_source *source, 
         item.texture = put_up(g, &chain);
         const float facts[4] = {(float)(chain.width > chain.height ? chain.width : chain.height), (float)chain.layers, (float)chain.levels, chain.fact};
         memcpy(item.facts, facts, sizeof facts);
+        item.similar = chain.similar;
         status = gpu_check(g, error);
     }
     mip_chain_release(&chain);
@@ -116,6 +117,7 @@ lmn_status made_textures_find(made_textures *all, gpu *g, const technique_use *u
         found->used = all->clock;
         out->textures[i] = found->texture;
         memcpy(out->facts[i], found->facts, sizeof found->facts);
+        out->similar[i] = found->similar;
     }
     return LMN_OK;
 }
@@ -132,6 +134,8 @@ void used_textures_declare(text *prelude, const technique_use *use, const used_t
             capitals[k] = (char)toupper((unsigned char)name[k]);
         capitals[k] = '\0';
         text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
+        if (used->similar[i])
+            text_append(prelude, "#define SIMILAR_%s\n", capitals);
     }
 }
 

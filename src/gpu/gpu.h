@@ -60,7 +60,7 @@ gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format
 typedef struct gpu_levels {
     int               width, height, layers, levels;
     gpu_format        format;
-    bool              nearest, clamped;
+    bool              nearest, stepped, clamped; /* stepped: levels are not mixed */
     const void *const *data;
 } gpu_levels;
 gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *levels);

@@ -112,7 +112,7 @@ gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *l)
     GLint wrap = l->clamped ? GL_CLAMP_TO_EDGE : GL_REPEAT;
     glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
     glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
-    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, l->nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, l->nearest ? GL_NEAREST_MIPMAP_NEAREST : l->stepped ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, l->nearest ? GL_NEAREST : GL_LINEAR);
     return t;
 }

@@ -13,7 +13,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-enum { VERSION = 1, SIDE_MOST = 4096, LAYERS_MOST = 256, HEX_DIGITS = 16, PATH_ROOM = 4096 };
+enum { VERSION = 2, SIDE_MOST = 4096, LAYERS_MOST = 256, HEX_DIGITS = 16, PATH_ROOM = 4096 };
 
 static const uint64_t KEPT_MOST = (uint64_t)256 << 20; /* bytes in the folder */
 static const char     ENDING[] = ".texture";
@@ -22,7 +22,7 @@ static const char     ENDING[] = ".texture";
 typedef struct header {
     uint32_t magic, version;
     uint64_t description_size;
-    uint32_t width, height, layers, levels, format, clamped, nearest;
+    uint32_t width, height, layers, levels, format, clamped, nearest, stepped, similar;
     float    fact;
 } header;
 
@@ -75,7 +75,7 @@ static bool is_sensible(const header *h)
 {
     return h->magic == MAGIC && h->version == VERSION && h->width >= 1 && h->width <= SIDE_MOST && h->height >= 1 && h->height <= SIDE_MOST &&
            h->layers >= 1 && h->layers <= LAYERS_MOST && h->levels >= 1 && h->levels <= MIP_LEVELS_MAX && h->format <= MIP_RG16F && h->clamped <= 1 &&
-           h->nearest <= 1 && isfinite(h->fact);
+           h->nearest <= 1 && h->stepped <= 1 && h->similar <= 1 && isfinite(h->fact);
 }
 
 /* What the levels take, all together. */
@@ -98,6 +98,8 @@ static bool read_levels(mip_chain *out, const header *h, const unsigned char *at
     }
     out->clamped = h->clamped;
     out->nearest = h->nearest;
+    out->stepped = h->stepped;
+    out->similar = h->similar;
     out->fact = h->fact;
     for (int k = 0; k < out->levels; k++) {
         memcpy(out->data[k], at, mip_level_bytes(out, k));
@@ -200,7 +202,7 @@ static void make_room(const char *folder)
 static void write_chain(text *out, const mip_chain *chain, const char *description)
 {
     header h = {MAGIC, VERSION, strlen(description), (uint32_t)chain->width, (uint32_t)chain->height, (uint32_t)chain->layers, (uint32_t)chain->levels,
-                (uint32_t)chain->format, chain->clamped, chain->nearest, chain->fact};
+                (uint32_t)chain->format, chain->clamped, chain->nearest, chain->stepped, chain->similar, chain->fact};
     text_append_bytes(out, (const char *)&h, sizeof h);
     text_append_bytes(out, description, strlen(description));
     for (int k = 0; k < chain->levels; k++)

@@ -23,9 +23,12 @@ static const param params[] = {
     PARAM_FLOAT_ROW(dots, change, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
 };
 
+static const texture_source textures[] = {HALFTONE_NOISE};
+
 const technique surface_dots = {
     .name = "dots", .doc = "Dots that stay as dense and as large at any zoom, by their number or their size.",
     .example = "{\"surface\": {\"technique\": \"dots\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(dots),
     .surface = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
+    .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

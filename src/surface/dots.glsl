@@ -44,7 +44,8 @@ float dots_at(stroke_plane s, float darkness, uint set)
     mat2 pixels = mat2(s.up.y, -s.right.y, -s.up.x, s.right.x) * (sign_of / (area * cells));
     float size = 1.0 / (cells * cells * area); /* pixels of a cell */
     /* Area of a dot that is there. Dots that touch cover less than they have, and where all is dark they must cover everything. */
-    float whole = darkness * size / (1.0 + come) * (1.0 + 0.5708 * pow(darkness, 6.0));
+    float grown = 0.5 + 0.2071 * (1.0 - pow(clamp((1.0 - darkness) / 0.2146, 0.0, 1.0), 0.385));
+    float whole = size / (1.0 + come) * (darkness < 0.7854 ? darkness : 3.14159 * grown * grown);
     vec4 ink = vec4(1.0, clamp(come, 0.0, 1.0), clamp(come - 1.0, 0.0, 1.0), clamp(come - 2.0, 0.0, 1.0)) * whole;
     vec4 radius = sqrt(ink / 3.14159);
     float bare = 1.0 - dot_cover(radius.x, to_corner(cell, vec2(0.0), pixels));
@@ -58,13 +59,13 @@ float cover_of(float darkness, int ink)
 {
     float bare = 1.0;
     for (int i = 0; i < PLANES; i++) {
-        stroke_plane s = plane_of(s_point, s_rest, i, 0);
+        stroke_plane s = plane_of(s_point, s_rest, i, turns_added(u_angle, turn_of_ink(ink)));
         float part = darkness_of_share(darkness, s.weight);
         if (u_uneven > 0.0)
             part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, log2(1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0)), 9u, u_change).x;
         int wanted = part > 0.002 ? 1 : 0;
         for (int once = 0; once < wanted; once++)
-            bare *= 1.0 - dots_at(turned_plane(s, turns_added(u_angle, turn_of_ink(ink))), min(part, 1.0), s.key + 16u);
+            bare *= 1.0 - dots_at(s, min(part, 1.0), s.key + 16u);
     }
     return 1.0 - bare;
 }

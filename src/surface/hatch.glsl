@@ -117,9 +117,9 @@ float set_darkness(float darkness, int set)
 
 const float LIGHTEST = 0.002; /* below, no line is drawn */
 
-float plane_cover(stroke_plane s, int set, float part, vec2 turn)
+float plane_cover(stroke_plane s, int set, float part)
 {
-    return lines_at(turned_plane(s, turn), part, s.key + 16u * uint(set));
+    return lines_at(s, part, s.key + 16u * uint(set));
 }
 
 /* What a set of lines leaves bare. The first plane goes without a loop and the others in one that mostly runs not at all: on software drivers loops cost more than
@@ -127,16 +127,16 @@ float plane_cover(stroke_plane s, int set, float part, vec2 turn)
 float bare_of_set(float darkness, int set, vec2 turn)
 {
     float whole = set_darkness(darkness, set);
-    stroke_plane s = plane_of(s_point, s_rest, 0, set);
+    stroke_plane s = plane_of(s_point, s_rest, 0, turn);
     float part = darkness_of_share(whole, s.weight);
-    float bare = 1.0 - plane_cover(s, set, max(part, LIGHTEST), turn) * step(LIGHTEST, part);
-    int planes = whole > LIGHTEST ? planes_at(s_rest, set) : 1;
+    float bare = 1.0 - plane_cover(s, set, max(part, LIGHTEST)) * step(LIGHTEST, part);
+    int planes = whole > LIGHTEST ? planes_at(s_rest, turn) : 1;
     for (int i = 1; i < planes; i++) {
-        s = plane_of(s_point, s_rest, i, set);
+        s = plane_of(s_point, s_rest, i, turn);
         part = darkness_of_share(whole, s.weight);
         int wanted = part > LIGHTEST ? 1 : 0;
         for (int once = 0; once < wanted; once++)
-            bare *= 1.0 - plane_cover(s, set, part, turn);
+            bare *= 1.0 - plane_cover(s, set, part);
     }
     return bare;
 }

@@ -9,7 +9,7 @@ static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
     PARAM_TEXT_ROW(screen_values, screen, .example = "dots", .is_file = true, .check = screen_check_name,
                    .doc = "The screen: a pattern of strokes (parallel, cross, contour, brick, stipple, scribble, random), a procedure (lines, dots, ordered, "
-                          "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp); material takes the strokes that lie beside each "
+                          "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp; NAME-1.png, NAME-2.png … are its layers); material takes the strokes that lie beside each "
                           "material's picture under its name (.stx). Empty: cross."),
     PARAM_ENUM_ROW(screen_values, scheme, .names = scheme_names, .def = SCHEME_SHARP, .variant = true,
                    .doc = "binary: hard thresholds; smooth: a ramp in the tone, the seed's; sharp: a ramp of a pixel at any zoom; multiply: all strokes, "
@@ -47,6 +47,7 @@ static const param params[] = {
 };
 
 static const texture_source textures[] = {
+    HALFTONE_NOISE,
     {.name = "screen", .describe = screen_describe, .make = screen_make, .kept = true},
     {.name = "relief", .when = "relief", .describe = screen_describe, .make = screen_make_relief, .kept = true},
     {.name = "warp", .when = "whole&coordinates=uv", .describe = screen_describe, .make = screen_make_warp, .kept = true},

@@ -13,7 +13,7 @@ float texel_of()
 
 stroke_plane screen_plane(int i, int ink)
 {
-    stroke_plane s = turned_plane(plane_of(s_point, s_rest, i, 0), turns_added(u_angle, turn_of_ink(ink)));
+    stroke_plane s = plane_of(s_point, s_rest, i, turns_added(u_angle, turn_of_ink(ink)));
 #if COORDINATES == 3 && defined(HAS_UV)
     s.at *= u_repeat;
     s.right *= u_repeat;
@@ -42,8 +42,14 @@ vec2 wavered(stroke_plane s)
     return s.at + u_wobble * rate * living_noise(s.at, octave, 3u, u_change);
 }
 
-/* The screen's value: frames follow each other, each fading into the next. */
-float screen_at(vec2 at, float level)
+#ifdef SIMILAR_SCREEN
+#define SIZES 1
+#else
+#define SIZES 2
+#endif
+
+/* The screen's value on a level: frames follow each other, each fading into the next. */
+float level_value(vec2 at, float level)
 {
     float frame = u_time * u_change;
     float first = mod(floor(frame), u_screen_facts.y);
@@ -66,6 +72,19 @@ float ink_of(float value, float darkness)
     return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness) * clamp(255.0 * (1.0 - value), 0.0, 1.0);
 #else
     return 1.0 - value;
+#endif
+}
+
+/* Ink at a place between two levels. Sharp: levels have their ink each, which mixes, for only so the tone of an equalised screen stays; else values mix first, as a
+ * texture unit does it. */
+float ink_between(vec2 at, float level, float darkness)
+{
+    float low = floor(level), share = level - low;
+    float near = level_value(at, low), far = level_value(at, low + 1.0);
+#if SCHEME == 2
+    return mix(ink_of(near, darkness), ink_of(far, darkness), share);
+#else
+    return ink_of(mix(near, far, share), darkness);
 #endif
 }
 
@@ -94,18 +113,16 @@ float cover_of(float darkness, int ink)
         stroke_plane s = screen_plane(i, ink);
         vec2 at = wavered(s);
         float level = screen_level(s, u_screen_facts.x, texel_of());
-        for (int k = 0; k < 2; k++) {
-            screen_octave o = octave_of(s, level, k, least_octave());
-            float share = s.weight * o.weight;
-            float value = screen_at(at * o.scale, o.level);
+        for (int k = 0; k < SIZES; k++) {
+            screen_octave o = octave_of(s, level, k, least_octave(), SIZES == 1);
+            float share = s.weight * o.weight, wanted = darkness;
 #if SCHEME == 3
-            bare -= share * (1.0 - value);
+            bare -= share * ink_between(at * o.scale, o.level, 1.0);
 #else
-            float wanted = darkness;
 #if defined(HAS_WARP) && defined(HAS_UV)
             wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
 #endif
-            bare *= 1.0 - ink_of(value, darkness_of_share(wanted, share));
+            bare *= 1.0 - ink_between(at * o.scale, o.level, darkness_of_share(wanted, share));
 #endif
         }
     }
@@ -142,7 +159,7 @@ vec3 relieved_normal()
 {
     stroke_plane s = main_plane();
     float level = screen_level(s, u_screen_facts.x, texel_of());
-    screen_octave o = octave_of(s, level, 0, least_octave());
+    screen_octave o = octave_of(s, level, 0, least_octave(), SIZES == 1);
     vec2 lean = textureLod(t_relief, vec3(wavered(s) * o.scale, 0.0), o.level).rg * 2.0 - 256.0 / 255.0;
     float area = s.right.x * s.up.y - s.right.y * s.up.x;
     area = abs(area) > 1e-20 ? area : 1e-20;

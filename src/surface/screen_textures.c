@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "base/image_read.h"
@@ -77,6 +78,22 @@ lmn_status screen_check_name(const char *name, lmn_error *error)
     return status;
 }
 
+enum { LAYERS_MOST = 16 };
+
+/* The path of the next picture of a numbered series, wall-1.png, wall-2.png …; false when the first one's name has no number. The caller frees it. */
+static bool numbered(const char *first, int number, char **out)
+{
+    const char *dot = strrchr(first, '.');
+    *out = NULL;
+    if (!dot || dot - first < 2 || dot[-1] != '1' || dot[-2] != '-')
+        return false;
+    text path = {0};
+    text_append_bytes(&path, first, (size_t)(dot - first) - 1);
+    text_append(&path, "%d%s", number, dot);
+    *out = text_take(&path);
+    return *out != NULL;
+}
+
 /* A file's content by a number (FNV-1a), so that what was made from it is found again for as long as it is the same. */
 static uint64_t content_of(const char *path)
 {
@@ -94,6 +111,14 @@ static void describe_file(text *out, const char *name)
 {
     if (ends_in(name, stroke_endings) || ends_in(name, picture_endings))
         text_append(out, " content=%016llx", (unsigned long long)content_of(name));
+    char *path;
+    for (int i = 2; ends_in(name, picture_endings) && i <= LAYERS_MOST && numbered(name, i, &path); i++) {
+        uint64_t content = content_of(path);
+        mem_free(path);
+        if (!content)
+            break;
+        text_append(out, " %016llx", (unsigned long long)content);
+    }
 }
 
 void screen_describe(text *out, const void *values)
@@ -207,29 +232,52 @@ static lmn_status make_of_strokes(mip_chain *out, const screen_values *v, stroke
 
 /* --- painted screens --- */
 
-/* One picture is the screen; several that are numbered, NAME-1.png, NAME-2.png …, are its layers, the most important one first. */
+/* One picture is the screen; several that are numbered are its layers, the most important one first (IM-12). */
+static lmn_status load_layers(image_pixels *out, size_t *count, const char *name, lmn_error *error)
+{
+    lmn_status status = image_load(&out[0], name, error);
+    *count = status == LMN_OK;
+    char *path;
+    for (int i = 1; status == LMN_OK && i < LAYERS_MOST && numbered(name, i + 1, &path); i++) {
+        bool there = access(path, F_OK) == 0;
+        if (there)
+            status = image_load(&out[i], path, error);
+        *count += there && status == LMN_OK;
+        mem_free(path);
+        if (!there)
+            break;
+    }
+    return status;
+}
+
 static lmn_status make_of_picture(mip_chain *out, const screen_values *v, lmn_error *error)
 {
-    image_pixels pixels;
-    lmn_status status = image_load(&pixels, name_of(v), error);
-    if (status != LMN_OK)
-        return status;
-    lmn_error problem;
+    image_pixels pixels[LAYERS_MOST] = {{0}};
+    screen_layer layers[LAYERS_MOST];
+    size_t count;
+    lmn_status status = load_layers(pixels, &count, name_of(v), error);
+    lmn_error problem = {0};
     int side = SIDE_LEAST;
-    while (side < BITMAP_SIDE && (uint32_t)side < pixels.width)
+    while (status == LMN_OK && side < BITMAP_SIDE && (uint32_t)side < pixels[0].width)
         side *= 2;
-    status = screen_of_layers(out, &(screen_layer){pixels.rgba, pixels.width, pixels.height}, 1, (double)v->gain, side, (screen_detail)v->detail, &problem);
-    if (status == LMN_OK && v->equalised && v->scheme != SCHEME_MULTIPLY)
-        status = screen_equalise(out, &problem);
-    mem_free(pixels.rgba);
-    return status == LMN_OK ? LMN_OK : error_in_file(error, status, name_of(v), 0, "%s", problem.message);
+    for (size_t i = 0; i < count; i++)
+        layers[i] = (screen_layer){pixels[i].rgba, pixels[i].width, pixels[i].height};
+    if (status == LMN_OK) {
+        status = screen_of_layers(out, layers, count, (double)v->gain, side, (screen_detail)v->detail, &problem);
+        if (status == LMN_OK && v->equalised && v->scheme != SCHEME_MULTIPLY)
+            status = screen_equalise(out, &problem);
+        if (status != LMN_OK)
+            error_in_file(error, status, name_of(v), 0, "%s", problem.message);
+    }
+    for (size_t i = 0; i < count; i++)
+        mem_free(pixels[i].rgba);
+    return status;
 }
 
 /* --- all --- */
 
-lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
+static lmn_status make_any(mip_chain *out, const screen_values *v, lmn_error *error)
 {
-    const screen_values *v = values;
     int procedure = index_in(screen_procedure_names, name_of(v));
     if (procedure < 0 && strcmp(name_of(v), hatch_map_name) != 0 && !ends_in(name_of(v), picture_endings))
         return make_of_strokes(out, v, to_screen, error);
@@ -237,6 +285,16 @@ lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
                         : ends_in(name_of(v), picture_endings) ? make_of_picture(out, v, error)
                                                                : screen_hatch_map(out, 1024, PERIOD, true, false, error);
     out->fact = PERIOD;
+    out->similar = procedure >= 0 || strcmp(name_of(v), hatch_map_name) == 0;
+    /* Of these every texel has a value of its own. */
+    out->nearest = procedure == PROCEDURE_ORDERED || procedure == PROCEDURE_BLUE_NOISE;
+    return status;
+}
+
+lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
+{
+    lmn_status status = make_any(out, values, error);
+    out->stepped = true;
     return status;
 }
 

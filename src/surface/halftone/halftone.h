@@ -28,6 +28,11 @@ typedef struct halftone_values {
     float   ink_tint, paper_tint, patch;
 } halftone_values;
 
+/* The table that noise.glsl reads. */
+void       halftone_describe_noise(text *out, const void *values);
+lmn_status halftone_make_noise(mip_chain *out, const void *values, lmn_error *error);
+#define HALFTONE_NOISE {.name = "noise", .describe = halftone_describe_noise, .make = halftone_make_noise}
+
 /* Of a technique whose values begin with these. */
 mesh_wishes halftone_wishes(const void *values);
 

@@ -19,7 +19,9 @@ vec4 inked(surface_point p, float tone)
     vec4 paper = paper_of(p);
 #if INKS == 2
     /* What each ink must take away from white; black takes what the others have in common. */
-    vec3 wanted = pow(clamp(p.albedo.rgb, vec3(0.0), vec3(1.0)), vec3(1.0 / 2.2)) * clamp(tone / max(mix(1.0, seen_brightness(p.albedo.rgb), u_texture), 0.01), 0.0, 1.0);
+    /* Ink covers shares of an area, and areas mix as light does. */
+    float light = tone / max(mix(1.0, seen_brightness(p.albedo.rgb), u_texture), 0.01);
+    vec3 wanted = clamp(mix(vec3(1.0), p.albedo.rgb, u_texture) * clamp(light, 0.0, 1.0), vec3(0.0), vec3(1.0));
     vec3 taken = 1.0 - wanted;
     float black = min(taken.r, min(taken.g, taken.b));
     vec3 rest = black < 1.0 ? (taken - black) / (1.0 - black) : vec3(0.0);

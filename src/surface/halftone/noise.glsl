@@ -8,23 +8,14 @@ float number_of(uint hash)
     return float(int(hash >> 8u)) * (1.0 / 16777215.0);
 }
 
-/* Two independent values. By way of signed numbers: software drivers turn these into floats in one step. */
-vec2 corner_noise(uint hash)
-{
-    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
-    hash ^= hash >> 13u;
-    return vec2(ivec2(int(hash & 0xFFFFu), int(hash >> 16u))) * (2.0 / 65535.0) - 1.0;
-}
-
-/* Smooth noise in the plane, −1 … 1. */
+/* Smooth noise in the plane, two independent values −1 … 1: a table of numbers, mixed by the texture unit at places that are bent so that there are no kinks. It
+ * repeats after as many waves as the table has numbers a side. */
 vec2 plane_noise(vec2 at, uint seed)
 {
-    const uint RIGHT = 0x9e3779b1u, UP = 0x85ebca77u;
     vec2 low = floor(at), t = at - low;
     t = t * t * (3.0 - 2.0 * t);
-    uint left = uint(int(low.x)) * RIGHT ^ seed, down = uint(int(low.y)) * UP;
-    uint right = (uint(int(low.x)) * RIGHT + RIGHT) ^ seed, up = down + UP;
-    return mix(mix(corner_noise(left ^ down), corner_noise(right ^ down), t.x), mix(corner_noise(left ^ up), corner_noise(right ^ up), t.x), t.y);
+    vec2 shift = vec2(ivec2(int(seed * 37u & 127u), int(seed * 101u >> 2u & 127u)));
+    return textureLod(t_noise, vec3((low + t + shift + 0.5) / u_noise_facts.x, 0.0), 0.0).rg * (510.0 / 255.0) - 1.0;
 }
 
 /* Noise of as many waves on the page at any zoom: two octaves that hand over to each other. */

@@ -100,39 +100,46 @@ stroke_plane turned_plane(stroke_plane s, vec2 angle)
     return stroke_plane(turn * s.at, turn * s.right, turn * s.up, s.weight, s.key);
 }
 
+/* Each of what follows lays planes on a place, PLANES at most and planes_at there; plane_of gives one of them, turned by an angle (cosine and sine). */
 #if COORDINATES == 0 || (COORDINATES == 4 && !defined(HAS_FIELD))
-/* Strokes are where planes through the model cut its surface: they run on over everything without seams. Around the two places where the surface is a plane's own,
- * another set of planes takes over. */
+/* Strokes are where planes through the model cut its surface: they run on over everything without seams. A turn turns these planes in space, about an axis of their
+ * own, so that strokes turn by about as much. Around the two places where the surface is a plane's own, another set of planes takes over. */
 #define PLANES 2
 const mat3 ASKEW = mat3(0.8138, 0.2962, -0.5, 0.0443, 0.8252, 0.5630, 0.5794, -0.4803, 0.6582);
-/* Share of the planes of this axis; the rest is left to the next. */
+
+/* Share of the planes of this axis; the rest is left to the other ones. */
 float share_of_axis(rest_place r, vec3 axis)
 {
     float facing = dot(r.normal, axis);
     return smoothstep(0.06, 0.3, 1.0 - facing * facing);
 }
 
-int planes_at(rest_place r, int series)
+vec3 turned_axis(vec2 turn)
 {
-    return share_of_axis(r, ASKEW[series % 3]) < 1.0 ? 2 : 1;
+    return ASKEW[0] * turn.x + ASKEW[1] * turn.y;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+int planes_at(rest_place r, vec2 turn)
 {
-    vec3 first = ASKEW[series % 3], second = ASKEW[(series + 1) % 3], third = ASKEW[(series + 2) % 3];
+    return share_of_axis(r, turned_axis(turn)) < 1.0 ? 2 : 1;
+}
+
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+{
+    vec3 first = turned_axis(turn), aside = ASKEW[1] * turn.x - ASKEW[0] * turn.y;
     float own = share_of_axis(r, first);
-    return i == 0 ? plane_along(r, abs(dot(second, r.normal)) < abs(dot(third, r.normal)) ? second : third, first, own, uint(series))
-                  : plane_along(r, first, second, 1.0 - own, uint(series) + 4u);
+    return i == 0 ? plane_along(r, abs(dot(aside, r.normal)) < abs(dot(ASKEW[2], r.normal)) ? aside : ASKEW[2], first, own, 0u)
+                  : plane_along(r, first, ASKEW[2], 1.0 - own, 1u);
 }
 #elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES))
 /* Walls have their second coordinate upwards. */
 #define PLANES 3
-int planes_at(rest_place r, int series)
+int planes_at(rest_place r, vec2 turn)
 {
     return 3;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
     vec3 right = abs(r.upward.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     right = normalize(right - r.upward * dot(right, r.upward));
@@ -142,22 +149,22 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
     share *= share;
     share *= share;
     share /= share.x + share.y + share.z;
-    return i == 0 ? plane_along(r, back, r.upward, share.x, 0u)
-         : i == 1 ? plane_along(r, right, r.upward, share.y, 1u)
-                  : plane_along(r, right, back, share.z, 2u);
+    return turned_plane(i == 0 ? plane_along(r, back, r.upward, share.x, 0u)
+                        : i == 1 ? plane_along(r, right, r.upward, share.y, 1u)
+                                 : plane_along(r, right, back, share.z, 2u), turn);
 }
 #elif COORDINATES == 3
 #define PLANES 1
-int planes_at(rest_place r, int series)
+int planes_at(rest_place r, vec2 turn)
 {
     return 1;
 }
 
 /* Models count downwards from the top of a picture, strokes upwards. */
-stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
     const vec2 UPWARDS = vec2(1.0, -1.0);
-    return stroke_plane(vec2(s_uv.x, -s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u);
+    return turned_plane(stroke_plane(vec2(s_uv.x, -s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u), turn);
 }
 #elif COORDINATES == 4
 /* Planes through the model of a few fixed directions; each place takes those two whose lines come nearest to the way its surface bends. So strokes lie in
@@ -168,7 +175,7 @@ const vec3 WAY[WAYS] = vec3[WAYS](vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3
     vec3(0.7071, 0.7071, 0.0), vec3(0.7071, -0.7071, 0.0), vec3(0.0, 0.7071, 0.7071), vec3(0.0, 0.7071, -0.7071), vec3(0.7071, 0.0, 0.7071), vec3(-0.7071, 0.0, 0.7071),
     vec3(0.5774, 0.5774, 0.5774), vec3(0.5774, 0.5774, -0.5774), vec3(0.5774, -0.5774, 0.5774), vec3(-0.5774, 0.5774, 0.5774));
 
-int planes_at(rest_place r, int series)
+int planes_at(rest_place r, vec2 turn)
 {
     return 2;
 }
@@ -181,12 +188,12 @@ stroke_plane plane_of_way(rest_place r, int way, float weight)
     return plane_along(r, abs(dot(aside, line)) > abs(dot(other, line)) ? aside : other, across, weight, uint(way));
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
     mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
                       v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
-    mat3 turn = turn_to_rest();
-    field = turn * field * transpose(turn);
+    mat3 rest = turn_to_rest();
+    field = rest * field * transpose(rest);
     float best = -1e9, next = -1e9;
     int way = 0, second = 0;
     for (int k = 0; k < WAYS; k++) {
@@ -201,29 +208,29 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
         way = first ? k : way;
     }
     float own = 0.5 + 0.5 * smoothstep(0.0, 0.15, best - next);
-    return plane_of_way(r, i == 0 ? way : second, i == 0 ? own : 1.0 - own);
+    return turned_plane(plane_of_way(r, i == 0 ? way : second, i == 0 ? own : 1.0 - own), turn);
 }
 #elif COORDINATES == 5
 #define PLANES 1
-int planes_at(rest_place r, int series)
+int planes_at(rest_place r, vec2 turn)
 {
     return 1;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
-    return stroke_plane(v_patch.xy, dFdx(v_patch.xy), dFdy(v_patch.xy), 1.0, uint(v_patch.w + 0.5));
+    return turned_plane(stroke_plane(v_patch.xy, dFdx(v_patch.xy), dFdy(v_patch.xy), 1.0, uint(v_patch.w + 0.5)), turn);
 }
 #else
 #define PLANES 1
-int planes_at(rest_place r, int series)
+int planes_at(rest_place r, vec2 turn)
 {
     return 1;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, int series)
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
     vec2 pixel = gl_FragCoord.xy;
-    return stroke_plane(pixel, vec2(1.0, 0.0), vec2(0.0, 1.0), 1.0, 0u);
+    return turned_plane(stroke_plane(pixel, vec2(1.0, 0.0), vec2(0.0, 1.0), 1.0, 0u), turn);
 }
 #endif

@@ -17,11 +17,12 @@ float screen_level(stroke_plane s, float texels, float texel)
     return 0.5 * log2(max(max(area, longest / 16.0) * texels * texels * texel * texel, 1e-30));
 }
 
-screen_octave octave_of(stroke_plane s, float level, int which, float least)
+/* `similar`: a level is the one before, half as large, so that sizes hand over without anything to be seen. */
+screen_octave octave_of(stroke_plane s, float level, int which, float least, bool similar)
 {
     float low = max(-floor(level), least);
     float rest = level + low; /* 0 … 1, or more where the screen may not be larger */
-    float over = low > least ? smoothstep(0.5, 1.0, rest) : 0.0;
+    float over = low > least && !similar ? smoothstep(0.5, 1.0, rest) : 0.0;
     return which == 0 ? screen_octave(exp2(low), rest, 1.0 - over)
                       : screen_octave(exp2(low - 1.0), max(rest - 1.0, 0.0), over);
 }
