@@ -70,6 +70,7 @@ static lmn_status add(made_textures *all, gpu *g, const texture_source *source, 
         const float facts[4] = {(float)(chain.width > chain.height ? chain.width : chain.height), (float)chain.layers, (float)chain.levels, chain.fact};
         memcpy(item.facts, facts, sizeof facts);
         item.similar = chain.similar;
+        item.nearest = chain.nearest;
         status = gpu_check(g, error);
     }
     mip_chain_release(&chain);
@@ -118,6 +119,7 @@ lmn_status made_textures_find(made_textures *all, gpu *g, const technique_use *u
         out->textures[i] = found->texture;
         memcpy(out->facts[i], found->facts, sizeof found->facts);
         out->similar[i] = found->similar;
+        out->nearest[i] = found->nearest;
     }
     return LMN_OK;
 }
@@ -136,6 +138,8 @@ void used_textures_declare(text *prelude, const technique_use *use, const used_t
         text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
         if (used->similar[i])
             text_append(prelude, "#define SIMILAR_%s\n", capitals);
+        if (used->nearest[i])
+            text_append(prelude, "#define NEAREST_%s\n", capitals);
     }
 }
 

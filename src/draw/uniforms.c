@@ -26,16 +26,29 @@ void target_declare(text *prelude, target t)
     text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
 }
 
+static void capitals_of(const char *key, char out[64])
+{
+    size_t i = 0;
+    for (; key[i] && i + 1 < 64; i++)
+        out[i] = (char)toupper((unsigned char)key[i]);
+    out[i] = '\0';
+}
+
 static void declare_variant(text *prelude, const param *p, const void *values)
 {
     char name[64];
-    size_t i = 0;
-    for (; p->key[i] && i + 1 < sizeof name; i++)
-        name[i] = (char)toupper((unsigned char)p->key[i]);
-    name[i] = '\0';
+    capitals_of(p->key, name);
     const void *field = param_field(p, values);
     int value = p->type == PARAM_BOOL ? *(const bool *)field : *(const int32_t *)field;
     text_append(prelude, "#define %s %d\n", name, value);
+}
+
+static void declare_toggle(text *prelude, const param *p, const void *values)
+{
+    char name[64];
+    capitals_of(p->key, name);
+    if (*(const float *)param_field(p, values) != 0)
+        text_append(prelude, "#define WITH_%s\n", name);
 }
 
 void uniforms_declare(text *prelude, param_set set)
@@ -48,6 +61,8 @@ void uniforms_declare(text *prelude, param_set set)
         const param *p = &set.params[i];
         if (p->cpu_only)
             continue;
+        if (p->toggles)
+            declare_toggle(prelude, p, set.values);
         if (p->variant)
             declare_variant(prelude, p, set.values);
         else if (p->type == PARAM_PALETTE)

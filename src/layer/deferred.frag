@@ -32,9 +32,6 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     uvec2 id = texelFetch(t_id, pixel, 0).rg;
-    out_shade = vec4(0.0);
-    /* As a loop: where nothing is, software drivers skip it, as they do not skip what follows a return. */
-    int drawn = id.r == 0u || (id.g & SURFACE_COMPLEMENT) != 0u ? 0 : 1;
-    for (int once = 0; once < drawn; once++)
-        out_shade = shade_of(pixel, id);
+    /* Without a loop that skips what is empty: on software drivers whatever stands in a loop takes half as long again. */
+    out_shade = id.r == 0u || (id.g & SURFACE_COMPLEMENT) != 0u ? vec4(0.0) : shade_of(pixel, id);
 }

@@ -18,17 +18,14 @@ static const param params[] = {
     PARAM_FLOAT_ROW(dots, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .only_if = "tone_by=number", .doc = "Diameter of the dots."),
     PARAM_FLOAT_ROW(dots, scale, .def = 6, .min = 1, .max = 200, .soft_min = 3, .soft_max = 30, .unit = UNIT_PX, .only_if = "tone_by=size",
                     .doc = "Distance between dots, about."),
-    PARAM_FLOAT_ROW(dots, wobble, .def = 0.5, .min = 0, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .doc = "How far dots stray from their rows, share of their distance."),
-    PARAM_FLOAT_ROW(dots, uneven, .def = 0.05, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
-    PARAM_FLOAT_ROW(dots, change, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
+    PARAM_FLOAT_ROW(dots, wobble, .toggles = true, .def = 0.5, .min = 0, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .doc = "How far dots stray from their rows, share of their distance."),
+    PARAM_FLOAT_ROW(dots, uneven, .toggles = true, .def = 0.05, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
+    PARAM_FLOAT_ROW(dots, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
 };
-
-static const texture_source textures[] = {HALFTONE_NOISE};
 
 const technique surface_dots = {
     .name = "dots", .doc = "Dots that stay as dense and as large at any zoom, by their number or their size.",
     .example = "{\"surface\": {\"technique\": \"dots\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(dots),
     .surface = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
-    .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

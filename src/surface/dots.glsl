@@ -34,18 +34,22 @@ float dots_at(stroke_plane s, float darkness, uint set)
     /* Of the three corners between old ones, how many are there yet. */
     float come = exp2(2.0 * (octave - low)) - 1.0;
     vec2 at = s.at;
-    if (u_wobble > 0.0) {
-        float wave = log2(1.0 / (rate * 18.0));
-        at += u_wobble * 0.7 * (TONE_BY == 0 ? 8.0 : apart) * rate * living_noise(s.at, wave, set, u_change);
-    }
+#ifdef WITH_WOBBLE
+    at += u_wobble * 0.7 * (TONE_BY == 0 ? 8.0 : apart) * rate * living_noise(s.at, 1.0 / (rate * 18.0), set, u_change);
+#endif
     vec2 cell = at * cells;
     /* From cells to pixels. */
     float sign_of = s.right.x * s.up.y - s.right.y * s.up.x < 0.0 ? -1.0 : 1.0;
     mat2 pixels = mat2(s.up.y, -s.right.y, -s.up.x, s.right.x) * (sign_of / (area * cells));
     float size = 1.0 / (cells * cells * area); /* pixels of a cell */
     /* Area of a dot that is there. Dots that touch cover less than they have, and where all is dark they must cover everything. */
+#if TONE_BY == 0
+    float area_of_dots = darkness * (1.0 + 0.5708 * pow(darkness, 6.0));
+#else
     float grown = 0.5 + 0.2071 * (1.0 - pow(clamp((1.0 - darkness) / 0.2146, 0.0, 1.0), 0.385));
-    float whole = size / (1.0 + come) * (darkness < 0.7854 ? darkness : 3.14159 * grown * grown);
+    float area_of_dots = darkness < 0.7854 ? darkness : 3.14159 * grown * grown;
+#endif
+    float whole = size / (1.0 + come) * area_of_dots;
     vec4 ink = vec4(1.0, clamp(come, 0.0, 1.0), clamp(come - 1.0, 0.0, 1.0), clamp(come - 2.0, 0.0, 1.0)) * whole;
     vec4 radius = sqrt(ink / 3.14159);
     float bare = 1.0 - dot_cover(radius.x, to_corner(cell, vec2(0.0), pixels));
@@ -61,8 +65,9 @@ float cover_of(float darkness, int ink)
     for (int i = 0; i < PLANES; i++) {
         stroke_plane s = plane_of(s_point, s_rest, i, turns_added(u_angle, turn_of_ink(ink)));
         float part = darkness_of_share(darkness, s.weight);
-        if (u_uneven > 0.0)
-            part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, log2(1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0)), 9u, u_change).x;
+#ifdef WITH_UNEVEN
+        part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, 1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0 + 1e-30), 9u, u_change).x;
+#endif
         int wanted = part > 0.002 ? 1 : 0;
         for (int once = 0; once < wanted; once++)
             bare *= 1.0 - dots_at(s, min(part, 1.0), s.key + 16u);

@@ -22,24 +22,21 @@ static const param params[] = {
                   .doc = "Sets of lines that cross each other in dark places."),
     PARAM_FLOAT_ROW(hatch, turn, .def = 60, .min = -180, .max = 180, .unit = UNIT_DEGREES, .as_turn = true, .only_if = "series>1",
                     .doc = "Angle between one set of lines and the next."),
-    PARAM_FLOAT_ROW(hatch, length, .def = 110, .min = 0, .max = 4000, .soft_max = 300, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(hatch, length, .toggles = true, .def = 110, .min = 0, .max = 4000, .soft_max = 300, .unit = UNIT_PX,
                     .doc = "Mean length of strokes; 0 lets lines run on."),
     PARAM_FLOAT_ROW(hatch, gap, .def = 5, .min = 0, .max = 200, .soft_max = 30, .unit = UNIT_PX, .only_if = "length>0", .doc = "Space between strokes on a line."),
     PARAM_FLOAT_ROW(hatch, taper, .def = 16, .min = 0, .max = 400, .soft_max = 60, .unit = UNIT_PX, .only_if = "length>0",
                     .doc = "Length over which a stroke runs out to its tips."),
-    PARAM_FLOAT_ROW(hatch, wobble, .def = 0.3, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(hatch, wobble, .toggles = true, .def = 0.3, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
                     .doc = "How far lines waver, share of their distance."),
-    PARAM_FLOAT_ROW(hatch, uneven, .def = 0.15, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Unevenness of the tone, which makes lines swell and thin."),
-    PARAM_FLOAT_ROW(hatch, loose, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much strokes differ in width and place."),
-    PARAM_FLOAT_ROW(hatch, change, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the waver and the unevenness change; 0 never."),
+    PARAM_FLOAT_ROW(hatch, uneven, .toggles = true, .def = 0.15, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Unevenness of the tone, which makes lines swell and thin."),
+    PARAM_FLOAT_ROW(hatch, loose, .toggles = true, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much strokes differ in width and place."),
+    PARAM_FLOAT_ROW(hatch, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the waver and the unevenness change; 0 never."),
 };
-
-static const texture_source textures[] = {HALFTONE_NOISE};
 
 const technique surface_hatch = {
     .name = "hatch", .doc = "Hatching that stays as dense and as wide at any zoom, by the number or the width of its lines.",
     .example = "{\"surface\": {\"technique\": \"hatch\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(hatch),
     .surface = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
-    .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

@@ -9,15 +9,10 @@ rest_place    s_rest;
 /* What a line keeps at any zoom: where it is as a fraction without common factors, and the octave that brings it. */
 uint line_key(float index, float octave, uint set)
 {
-    int at = int(index), low = at & -at;
-    int birth = int(octave);
-    if (low != 0) {
-        birth -= int(log2(float(abs(low))) + 0.5);
-        at /= low;
-    } else {
-        birth = 0;
-    }
-    return hash_of(uvec3(uint(at), uint(birth), set), 0x51ed27u);
+    int at = int(index);
+    float low = abs(float(at & -at)); /* the largest power of two in it, which divides it in floats as exactly as in whole numbers and much faster */
+    int birth = low > 0.0 ? int(octave) - (floatBitsToInt(low) >> 23) + 127 : 0;
+    return hash_of(uvec3(uint(int(index / max(low, 1.0))), uint(birth), set), 0x51ed27u);
 }
 
 /* Share of a stroke's width that is left at this place along its line: strokes end in tips, and are cut in two when they get too long. `along`: pixels a
@@ -27,10 +22,10 @@ float stroke_share(float at, float along, uint key, float grown)
     float scale = 0.7 + 0.6 * number_of(key ^ 0x5bd1e995u);
     float pixels = along / scale;
     /* Cut in two at places that are even over the octave, strokes are shorter than this by 1.75 in the mean. */
-    float octave = log2(pixels / (1.75 * u_length)) + number_of(key * 2654435761u);
-    float low = floor(octave), share = octave - low, cells = exp2(low);
+    float wanted = max(pixels / (1.75 * u_length) * power_of_rest(number_of(key * 2654435761u)), 1e-30);
+    float cells = power_below(wanted), share = log_of_rest(wanted / cells - 1.0);
     /* A shift that halves of strokes inherit: its binary digits repeat after 32 octaves. */
-    int turns = int(low) & 31;
+    int turns = (floatBitsToInt(cells) >> 23) + 1 & 31;
     uint digits = key << turns | key >> (32 - turns & 31);
     float inside = fract(at * scale * cells + number_of(digits)), size = pixels / cells;
     float to_old = min(inside, 1.0 - inside) * size, to_new = abs(inside - 0.5) * size;
@@ -42,7 +37,11 @@ float stroke_share(float at, float along, uint key, float grown)
 /* Share of the ink that gaps and tips leave. */
 float stroke_ink()
 {
-    return u_length > 0.0 ? max(1.0 - (u_gap + u_taper) / u_length, 0.25) : 1.0;
+#ifdef WITH_LENGTH
+    return max(1.0 - (u_gap + u_taper) / u_length, 0.25);
+#else
+    return 1.0;
+#endif
 }
 
 /* Share of the pixel that a line of this width covers whose middle is this far away. */
@@ -54,11 +53,17 @@ float covered(float width, float away)
 /* The share of the pixel that a line covers. `grown`: share of their length that its strokes have yet. */
 float line_cover(float width, float grown, float away, uint key, float at, float along)
 {
+#ifdef WITH_LOOSE
     width *= 1.0 + u_loose * (number_of(key) - 0.5);
-    if (u_length > 0.0)
-        width *= stroke_share(at, along, key, grown) / max(grown, 1e-3); /* strokes that come grow both ways, in length and in width */
+#endif
+#ifdef WITH_LENGTH
+    width *= stroke_share(at, along, key, grown) / max(grown, 1e-3); /* strokes that come grow both ways, in length and in width */
+#endif
     return covered(width, away);
 }
+
+/* By number, lines come no closer than this, pixels: what is darker still has wider ones. */
+const float CLOSEST = 3.0;
 
 /* The lines of one set around a place, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
@@ -67,35 +72,43 @@ float lines_at(stroke_plane s, float darkness, uint set)
     float g = max(length(rate), 1e-20);
     /* Pixels along the line for a unit of x. */
     float along = g / max(abs(s.right.x * s.up.y - s.up.x * s.right.y), 1e-20);
-    float basis = log2(1.0 / (u_scale * g));
-    vec2 noise = u_wobble + u_uneven > 0.0 ? living_noise(s.at * vec2(0.07, 0.13), basis, set, u_change) : vec2(0.0);
-    darkness = min(darkness * (1.0 + u_uneven * noise.y) / stroke_ink(), 1.0);
-#if TONE_BY == 0
-    float octave = log2(darkness / (u_width * g));
+    float apart_units = u_scale * g;
+#if defined(WITH_WOBBLE) || defined(WITH_UNEVEN)
+    vec2 noise = living_noise(s.at * vec2(0.07, 0.13), 1.0 / apart_units, set, u_change);
 #else
-    float octave = basis + 0.5;
+    const vec2 noise = vec2(0.0);
 #endif
-    float low = floor(octave), share = octave - low;
-    float cells = exp2(low), period = 1.0 / (cells * g); /* pixels between old lines */
-    float cell = (s.at.y + noise.x * u_wobble * u_scale * g) * cells;
+    darkness = min(darkness * (1.0 + u_uneven * noise.y) / stroke_ink(), 1.0);
+    /* Lines to a unit, and those of them that are there however many are wanted. */
 #if TONE_BY == 0
-    float old_part = exp2(-share);
+    float wanted = min(darkness, u_width / CLOSEST) / (u_width * g);
 #else
-    float old_part = 1.0 / (1.0 + share);
+    float wanted = 1.4142136 / apart_units;
+#endif
+    wanted = max(wanted, 1e-30);
+    float cells = power_below(wanted), more = wanted / cells; /* 1 … 2 */
+    float period = 1.0 / (cells * g); /* pixels between old lines */
+    float cell = (s.at.y + noise.x * u_wobble * apart_units) * cells;
+#if TONE_BY == 0
+    float old_part = 1.0 / more;
+#else
+    float old_part = 1.0 / (1.0 + log_of_rest(more - 1.0));
 #endif
     float old_width = darkness * period * old_part, new_width = darkness * period * (1.0 - old_part);
     float grown = sqrt(new_width / max(old_width, 1e-6)), apart = 0.5 * period;
     float nearest = floor(cell * 2.0 + 0.5), side = cell * 2.0 < nearest ? -1.0 : 1.0;
     bool  coming = fract(nearest * 0.5) > 0.25;
-    float cover = line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - nearest) * apart, line_key(nearest, low + 1.0, set), s.at.x, along);
-    /* Where lines come close, those beyond the nearest one as well, as far as they reach into the pixel. */
-    float reach = max(old_width, new_width) * (1.0 + 0.5 * u_loose) + 1.0;
-    int   count = reach <= apart ? 1 : reach <= 2.0 * apart ? 2 : 4;
-    for (int i = 1; i < count; i++) {
-        float index = nearest + side * (i == 1 ? 1.0 : i == 2 ? -1.0 : 2.0);
-        coming = fract(index * 0.5) > 0.25;
-        cover += line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - index) * apart, line_key(index, low + 1.0, set), s.at.x, along);
-    }
+    float octave = float((floatBitsToInt(cells) >> 23) - 126); /* of new lines */
+    float cover = line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - nearest) * apart, line_key(nearest, octave, set), s.at.x, along);
+    /* The next one reaches into the pixel only where lines are wide. */
+    float next = nearest + side, width = coming ? old_width : new_width;
+#if TONE_BY == 0
+    cover += covered(width * stroke_ink(), abs(cell * 2.0 - next) * apart);
+#else
+    cover += line_cover(width, coming ? 1.0 : grown, abs(cell * 2.0 - next) * apart, line_key(next, octave, set), s.at.x, along);
+#endif
+    /* And the one on the other side where that in the middle is hardly there yet. */
+    cover += covered(width * stroke_ink(), abs(cell * 2.0 - nearest + side) * apart);
     /* Lines that are closer than pixels are an even tone. */
     return mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
 }
@@ -108,11 +121,12 @@ float set_darkness(float darkness, int set)
 #else
     float most = SERIES > 1 ? 0.5 : 1.0;
 #endif
-    float left = 1.0 - darkness;
-    if (left <= pow(1.0 - most, float(SERIES)))
-        return 1.0 - pow(max(left, 0.0), 1.0 / float(SERIES));
-    float before = set > 0 ? pow(1.0 - most, float(set)) : 1.0; /* 0 to the power of 0 is anything */
-    return clamp(1.0 - left / before, 0.0, most);
+    /* Powers by products: SERIES and sets are known when this is compiled. */
+    float left = max(1.0 - darkness, 0.0), rest = 1.0 - most;
+    float before = set == 0 ? 1.0 : set == 1 ? rest : set == 2 ? rest * rest : rest * rest * rest;
+    float whole = SERIES == 1 ? rest : SERIES == 2 ? rest * rest : SERIES == 3 ? rest * rest * rest : rest * rest * rest * rest;
+    float alike = SERIES == 1 ? left : SERIES == 2 ? sqrt(left) : SERIES == 3 ? pow(left, 1.0 / 3.0) : sqrt(sqrt(left));
+    return left <= whole ? 1.0 - alike : clamp(1.0 - left / before, 0.0, most);
 }
 
 const float LIGHTEST = 0.002; /* below, no line is drawn */

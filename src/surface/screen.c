@@ -37,18 +37,18 @@ static const param params[] = {
                    .doc = "add: lightens and darkens; limit: the picture is the lightest tone that is allowed, dark places stay as they are."),
     PARAM_FLOAT_ROW(screen_values, indication_strength, .def = 1, .min = -8, .max = 8, .soft_min = 0, .soft_max = 2, .only_if = "coordinates=uv&indication",
                     .doc = "Weight of the indication."),
-    PARAM_FLOAT_ROW(screen_values, wobble, .def = 0, .min = 0, .max = 100, .soft_max = 10, .unit = UNIT_PX, .along = true, .doc = "How far strokes waver."),
-    PARAM_FLOAT_ROW(screen_values, uneven, .def = 0.04, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
+    PARAM_FLOAT_ROW(screen_values, wobble, .toggles = true, .def = 0, .min = 0, .max = 100, .soft_max = 10, .unit = UNIT_PX, .along = true, .doc = "How far strokes waver."),
+    PARAM_FLOAT_ROW(screen_values, uneven, .toggles = true, .def = 0.04, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
     PARAM_INT_ROW(screen_values, frames, .def = 1, .min = 1, .max = 16, .cpu_only = true, .only_if = "change>0", .unit = UNIT_COUNT,
                   .doc = "Screens that follow each other in time, each drawn anew; of patterns and blue noise only."),
-    PARAM_FLOAT_ROW(screen_values, change, .def = 0, .min = 0, .max = 60, .soft_max = 12,
+    PARAM_FLOAT_ROW(screen_values, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12,
                     .doc = "How often a second the screen, the waver and the unevenness change; 0 never."),
     PARAM_INT_ROW(screen_values, pattern_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .doc = "Another pattern of the same kind."),
 };
 
 static const texture_source textures[] = {
-    HALFTONE_NOISE,
     {.name = "screen", .describe = screen_describe, .make = screen_make, .kept = true},
+    {.name = "curve", .when = "scheme=sharp&equalised", .describe = screen_describe, .make = screen_make_curve, .kept = true},
     {.name = "relief", .when = "relief", .describe = screen_describe, .make = screen_make_relief, .kept = true},
     {.name = "warp", .when = "whole&coordinates=uv", .describe = screen_describe, .make = screen_make_warp, .kept = true},
     {.name = "indication", .when = "coordinates=uv&indication", .describe = screen_describe_indication, .make = screen_make_indication},

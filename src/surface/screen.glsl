@@ -35,11 +35,12 @@ float least_octave()
 /* Where the plane is looked up: strokes waver (IM-30). */
 vec2 wavered(stroke_plane s)
 {
-    if (u_wobble <= 0.0)
-        return s.at;
+#ifndef WITH_WOBBLE
+    return s.at;
+#else
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
-    float octave = log2(1.0 / (rate * 60.0));
-    return s.at + u_wobble * rate * living_noise(s.at, octave, 3u, u_change);
+    return s.at + u_wobble * rate * living_noise(s.at, 1.0 / (rate * 60.0), 3u, u_change);
+#endif
 }
 
 #ifdef SIMILAR_SCREEN
@@ -54,8 +55,9 @@ float level_value(vec2 at, float level)
     float frame = u_time * u_change;
     float first = mod(floor(frame), u_screen_facts.y);
     float value = textureLod(t_screen, vec3(at, first), level).r;
-    if (u_screen_facts.y > 1.5 && u_change > 0.0)
-        value = mix(value, textureLod(t_screen, vec3(at, mod(first + 1.0, u_screen_facts.y)), level).r, fract(frame));
+#ifdef WITH_CHANGE
+    value = mix(value, textureLod(t_screen, vec3(at, mod(first + 1.0, u_screen_facts.y)), level).r, fract(frame));
+#endif
     return value;
 }
 
@@ -67,6 +69,8 @@ float ink_of(float value, float darkness)
 #elif SCHEME == 1
     /* Where a plane or a size of the screen has no share there is none of its ink. */
     return clamp((u_centred ? 0.5 : 0.0) + u_gain * (darkness - value), 0.0, 1.0) * smoothstep(0.0, 0.02, darkness);
+#elif SCHEME == 2 && defined(NEAREST_SCREEN)
+    return value < darkness ? 1.0 : 0.0; /* texels are dots: they are there or not */
 #elif SCHEME == 2
     float ramp = clamp(fwidth(value - darkness), 1.0 / 128.0, 0.75);
     return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness) * clamp(255.0 * (1.0 - value), 0.0, 1.0);
@@ -75,17 +79,15 @@ float ink_of(float value, float darkness)
 #endif
 }
 
-/* Ink at a place between two levels. Sharp: levels have their ink each, which mixes, for only so the tone of an equalised screen stays; else values mix first, as a
- * texture unit does it. */
+/* Ink at a place between two levels, whose values mix as a texture unit mixes them. Values that were mixed are no longer even: the curve says which one as many are
+ * below as shall be inked. */
 float ink_between(vec2 at, float level, float darkness)
 {
     float low = floor(level), share = level - low;
-    float near = level_value(at, low), far = level_value(at, low + 1.0);
-#if SCHEME == 2
-    return mix(ink_of(near, darkness), ink_of(far, darkness), share);
-#else
-    return ink_of(mix(near, far, share), darkness);
+#ifdef HAS_CURVE
+    darkness = textureLod(t_curve, vec3((darkness * 63.0 + 0.5) / 64.0, (share * 16.0 + 0.5) / 17.0, 0.0), 0.0).r;
 #endif
+    return ink_of(mix(level_value(at, low), level_value(at, low + 1.0), share), darkness);
 }
 
 #if defined(HAS_WARP) && defined(HAS_UV)
@@ -146,11 +148,13 @@ stroke_plane main_plane()
 /* Unevenness of the tone makes strokes swell and thin (IM-26, IM-29). */
 float uneven_tone()
 {
-    if (u_uneven <= 0.0)
-        return 0.0;
+#ifndef WITH_UNEVEN
+    return 0.0;
+#else
     stroke_plane s = main_plane();
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
-    return u_uneven * living_noise(s.at, log2(1.0 / (rate * 40.0)), 5u, u_change).x;
+    return u_uneven * living_noise(s.at, 1.0 / (rate * 40.0), 5u, u_change).x;
+#endif
 }
 
 #ifdef HAS_RELIEF

@@ -298,6 +298,66 @@ lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
     return status;
 }
 
+/* --- the curve of what lies between two levels --- */
+
+enum { CURVE_TONES = 64, CURVE_SHARES = 17, CURVE_SAMPLES = 192 };
+
+/* As a texture unit finds it, in texels of the level. */
+static double value_at(const mip_chain *c, int level, double u, double v)
+{
+    const uint8_t *texels = mip_layer(c, level, 0);
+    int width = mip_width(c, level), height = mip_height(c, level);
+    double x = u * width - (c->nearest ? 0 : 0.5), y = v * height - (c->nearest ? 0 : 0.5);
+    int x0 = (int)floor(x), y0 = (int)floor(y);
+    double s = c->nearest ? 0 : x - x0, t = c->nearest ? 0 : y - y0;
+    int left = (x0 + width) % width, right = (x0 + 1 + width) % width, low = (y0 + height) % height, high = (y0 + 1 + height) % height;
+    double below = texels[low * width + left] * (1 - s) + texels[low * width + right] * s;
+    double above = texels[high * width + left] * (1 - s) + texels[high * width + right] * s;
+    return (below * (1 - t) + above * t) / 255;
+}
+
+/* One row: shares of values that were counted in steps of 1 / 256 become the value for each darkness. */
+static void invert_row(uint8_t *row, const uint32_t *counts, uint32_t total)
+{
+    uint32_t below = 0;
+    int value = 0;
+    for (int i = 0; i < CURVE_TONES; i++) {
+        double wanted = (double)total * i / (CURVE_TONES - 1);
+        while (value < 255 && below + counts[value] <= wanted)
+            below += counts[value++];
+        double rest = counts[value] ? fmin((wanted - below) / counts[value], 1) : 0;
+        row[i] = (uint8_t)fmin(fmax(value - 0.5 + rest, 0) + 0.5, 255);
+    }
+    row[0] = 0;
+}
+
+lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *error)
+{
+    mip_chain screen = {0};
+    lmn_status status = make_any(&screen, values, error);
+    if (status == LMN_OK)
+        status = mip_chain_create(out, CURVE_TONES, CURVE_SHARES, 1, 1, MIP_R8, error);
+    uint32_t *counts = status == LMN_OK ? mem_calloc(CURVE_SHARES, 256 * sizeof *counts) : NULL;
+    if (status == LMN_OK && !counts)
+        status = error_memory(error);
+    for (int i = 0; status == LMN_OK && i < CURVE_SAMPLES * CURVE_SAMPLES; i++) {
+        /* Places that keep to no grid of the screen's. */
+        double u = (i % CURVE_SAMPLES + 0.618 * (i / CURVE_SAMPLES % 7) / 7) / CURVE_SAMPLES, v = (i / CURVE_SAMPLES + 0.382) / CURVE_SAMPLES;
+        double near = value_at(&screen, 0, u, v), far = value_at(&screen, screen.levels > 1 ? 1 : 0, u, v);
+        for (int k = 0; k < CURVE_SHARES; k++) {
+            double share = (double)k / (CURVE_SHARES - 1);
+            counts[256 * k + (int)((near + (far - near) * share) * 255 + 0.5)]++;
+        }
+    }
+    for (int k = 0; status == LMN_OK && k < CURVE_SHARES; k++)
+        invert_row((uint8_t *)out->data[0] + k * CURVE_TONES, &counts[256 * k], CURVE_SAMPLES * CURVE_SAMPLES);
+    if (status == LMN_OK)
+        out->clamped = true;
+    mem_free(counts);
+    mip_chain_release(&screen);
+    return status;
+}
+
 static bool has_strokes(const screen_values *v)
 {
     return index_in(stroke_pattern_names, name_of(v)) >= 0 || ends_in(name_of(v), stroke_endings);

@@ -58,6 +58,7 @@ typedef struct param {
     bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               as_turn;     /* the same: cosine and sine, a vec2 */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
+    bool               toggles;     /* a number: WITH_KEY_IN_CAPITALS is defined where it is not 0, so that shaders leave out what it does */
     bool               cpu_only;    /* no uniform */
     bool               along;       /* a length along lines, which makes them no wider */
     float              reach;       /* lengths: how many times as far they can reach; 0 is once */

@@ -96,7 +96,7 @@ typedef struct perturbation {
 } perturbation;
 
 /* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its longer side, layers, levels
- * and fact as vec4 u_NAME_facts, HAS_NAME, in capitals, and SIMILAR_NAME where the chain is. */
+ * and fact as vec4 u_NAME_facts, HAS_NAME, in capitals, and SIMILAR_NAME and NEAREST_NAME where the chain is. */
 typedef struct texture_source {
     const char *name;
     const char *when; /* condition on the parameters; NULL: always */

@@ -238,7 +238,7 @@ static void distance_in_perspective(void)
         for (int c = 0; c < 3; c++) {
             double least = INFINITY, most = 0, thin = INFINITY, thick = 0;
             for (int k = 0; k <= 12; k++) {
-                double    distance = pow(2, k / 2.0);
+                double    distance = 1.1 * pow(2, k / 2.0); /* not where old and new lines are as wide, and cannot be told apart */
                 shot_view view = {.width = mode == 2 ? 320 : 192, .height = mode == 2 ? 320 : 192, .eye = {0.13, 0.07, distance}, .target = {0.13, 0.07, 0}, .up = {0, 1, 0},
                                   .fov_deg = 50, .without_maps = true};
                 char      settings[200];

@@ -15,7 +15,9 @@
 hatch_octave hatch_octave_of(const hatch_rule *r, double rate, double darkness)
 {
     hatch_octave o = {0};
-    double       most = r->by_width ? r->scale * sqrt(2) : 2 * r->width / darkness; /* the old lines' distance is below, and at least half of it */
+    /* By number they come no closer than three pixels: what is darker has wider ones. */
+    double       spread = r->by_width ? darkness : fmin(darkness, r->width / 3);
+    double       most = r->by_width ? r->scale * sqrt(2) : 2 * r->width / spread; /* the old lines' distance is below, and at least half of it */
     double       period = 1 / rate;                                                 /* of octave 0 */
     for (; period >= most; o.octave++)
         period /= 2;
@@ -29,8 +31,8 @@ hatch_octave hatch_octave_of(const hatch_rule *r, double rate, double darkness)
         o.old_width = ink / (1 + grown);
         o.new_width = ink - o.old_width;
     } else {
-        o.old_width = r->width;
-        o.new_width = ink - r->width;
+        o.old_width = r->width * darkness / spread;
+        o.new_width = ink - o.old_width;
     }
     return o;
 }

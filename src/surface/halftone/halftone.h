@@ -28,11 +28,6 @@ typedef struct halftone_values {
     float   ink_tint, paper_tint, patch;
 } halftone_values;
 
-/* The table that noise.glsl reads. */
-void       halftone_describe_noise(text *out, const void *values);
-lmn_status halftone_make_noise(mip_chain *out, const void *values, lmn_error *error);
-#define HALFTONE_NOISE {.name = "noise", .describe = halftone_describe_noise, .make = halftone_make_noise}
-
 /* Of a technique whose values begin with these. */
 mesh_wishes halftone_wishes(const void *values);
 
@@ -50,7 +45,7 @@ mesh_wishes halftone_wishes(const void *values);
                     .doc = "Tone in full light; above 1 the lit side is free of strokes for some way."),                                              \
     PARAM_FLOAT_ROW(halftone_values, contrast, .def = 1, .min = 0.1, .max = 8, .soft_max = 3, .logarithmic = true,                                   \
                     .doc = "Bends the way from shadow to light: above 1 more is dark."),                                                             \
-    PARAM_FLOAT_ROW(halftone_values, texture, .def = 0.4, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                    \
+    PARAM_FLOAT_ROW(halftone_values, texture, .toggles = true, .def = 0.4, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                    \
                     .doc = "Share of the model's own brightness, textures too, in the tone."),                                                      \
     PARAM_ENUM_ROW(halftone_values, inks, .names = halftone_ink_names, .variant = true,                                                              \
                    .doc = "one ink; two: the second one for the lighter half of all tones; cmyk: four inks that mix to the model's colours, each "    \

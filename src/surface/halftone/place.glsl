@@ -132,26 +132,34 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
                   : plane_along(r, first, ASKEW[2], 1.0 - own, 1u);
 }
 #elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES))
-/* Walls have their second coordinate upwards. */
-#define PLANES 3
-int planes_at(rest_place r, vec2 turn)
+/* Walls have their second coordinate upwards. Of the three planes the one with the least share is always left out, and what it had is taken off the others, so that two
+ * are enough everywhere. */
+#define PLANES 2
+vec3 shares_of_axes(rest_place r, vec3 right, vec3 back)
 {
-    return 3;
+    vec3 share = abs(vec3(dot(r.normal, right), dot(r.normal, back), dot(r.normal, r.upward)));
+    share *= share;
+    share *= share;
+    share *= share;
+    share -= min(share.x, min(share.y, share.z));
+    return share / (share.x + share.y + share.z + 1e-20);
 }
 
 stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
     vec3 right = abs(r.upward.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     right = normalize(right - r.upward * dot(right, r.upward));
-    vec3 back = cross(r.upward, right);
-    vec3 share = abs(vec3(dot(r.normal, right), dot(r.normal, back), dot(r.normal, r.upward)));
-    share *= share;
-    share *= share;
-    share *= share;
-    share /= share.x + share.y + share.z;
-    return turned_plane(i == 0 ? plane_along(r, back, r.upward, share.x, 0u)
-                        : i == 1 ? plane_along(r, right, r.upward, share.y, 1u)
-                                 : plane_along(r, right, back, share.z, 2u), turn);
+    vec3 back = cross(r.upward, right), share = shares_of_axes(r, right, back);
+    int most = share.x >= share.y && share.x >= share.z ? 0 : share.y >= share.z ? 1 : 2;
+    /* The other one that has any. */
+    int next = most == 0 ? (share.y > 0.0 ? 1 : 2) : most == 1 ? (share.x > 0.0 ? 0 : 2) : share.x > 0.0 ? 0 : 1;
+    int which = i == 0 ? most : next;
+    return turned_plane(plane_along(r, which == 0 ? back : right, which == 2 ? back : r.upward, which == 0 ? share.x : which == 1 ? share.y : share.z, uint(which)), turn);
+}
+
+int planes_at(rest_place r, vec2 turn)
+{
+    return plane_of(surface_point(vec3(0.0), vec3(0.0), vec4(0.0), false, 0u), r, 0, turn).weight < 1.0 ? 2 : 1;
 }
 #elif COORDINATES == 3
 #define PLANES 1

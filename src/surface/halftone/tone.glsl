@@ -18,8 +18,11 @@ float darkness_of(float tone)
 float tone_of_light(surface_point p, float light)
 {
     float bent = pow(clamp(light, 0.0, 1.0), u_contrast);
-    float own = mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
-    return mix(u_shadow, u_light, bent) * own;
+#ifdef WITH_TEXTURE
+    return mix(u_shadow, u_light, bent) * mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
+#else
+    return mix(u_shadow, u_light, bent);
+#endif
 }
 
 float light_of(surface_point p)
