@@ -5,6 +5,9 @@
 
 #include "base/memory.h"
 
+/* Where textures are bound to be made and written: a unit that programs do not come to, so that none loses a texture that was set before. */
+#define SCRATCH_UNIT GL_TEXTURE15
+
 typedef struct format_row {
     GLenum internal, format, type;
     size_t size; /* of a texel outside of GL, bytes */
@@ -61,6 +64,7 @@ static gpu_texture *make_empty(gpu *g, GLenum target, int width, int height, gpu
     }
     *t = (gpu_texture){.target = target, .width = width, .height = height, .format = format};
     glGenTextures(1, &t->name);
+    glActiveTexture(SCRATCH_UNIT);
     glBindTexture(target, t->name);
     return t;
 }
@@ -256,7 +260,7 @@ void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixe
 {
     if (g->failed || !t)
         return;
-    glActiveTexture(GL_TEXTURE0);
+    glActiveTexture(SCRATCH_UNIT);
     glBindTexture(GL_TEXTURE_2D, t->name);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexSubImage2D(GL_TEXTURE_2D, 0, box[0], box[1], box[2], box[3], formats[t->format].format, formats[t->format].type, pixels);

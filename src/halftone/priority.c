@@ -210,16 +210,22 @@ lmn_status strokes_set_light(strokes *s, priority_order order, priority_share sh
 
 /* --- perspective --- */
 
-/* The share of strokes with at least 1 − t is t at every t, to half a stroke. */
-static void set_perspective(strokes *s, const line_list *lines)
+/* The share of strokes, by number or by length, with at least 1 − t is t at every t, to half a stroke. */
+static void set_perspective(strokes *s, const line_list *lines, bool by_length)
 {
-    size_t done = 0;
+    double done = 0, all = 0;
+    for (size_t i = 0; i < lines->count; i++)
+        all += by_length ? lines->items[i].length : (double)lines->items[i].count;
+    if (!(all > 0)) {
+        by_length = false; /* there is nothing but dots */
+        all = (double)s->count;
+    }
     for (size_t i = 0; i < lines->count; i++) {
         const line *l = &lines->items[i];
-        float value = (float)(1 - ((double)done + 0.5 * (double)l->count) / (double)s->count);
+        double own = by_length ? l->length : (double)l->count;
         for (size_t k = 0; k < l->count; k++)
-            s->items[l->first + k].perspective = value;
-        done += l->count;
+            s->items[l->first + k].perspective = (float)(1 - (done + 0.5 * own) / all);
+        done += own;
     }
 }
 
@@ -240,7 +246,7 @@ lmn_status strokes_set_perspective(strokes *s, perspective_order order, uint32_t
     else if (good) /* layers: from the last to the first, within each evenly */
         good = order_layers(s, &lines, ORDER_EVEN, seed);
     if (good)
-        set_perspective(s, &lines);
+        set_perspective(s, &lines, order != PERSPECTIVE_RANDOM); /* as much ink as is left, not as many strokes */
     mem_free(lines.items);
     return good ? LMN_OK : error_memory(error);
 }

@@ -104,7 +104,7 @@ lmn_status strokes_set_light(strokes *s, priority_order order, priority_share sh
 typedef enum perspective_order {
     PERSPECTIVE_TIED,   /* equal to the light priority */
     PERSPECTIVE_RANDOM, /* a random permutation of all strokes */
-    PERSPECTIVE_EVEN,   /* every prefix evenly spread */
+    PERSPECTIVE_EVEN,   /* every prefix evenly spread, and as long together as its share */
     PERSPECTIVE_LAYERS  /* late layers go first, so that what is far keeps strokes of few directions (R-P3) */
 } perspective_order;
 extern const char *const perspective_order_names[5];

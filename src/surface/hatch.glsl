@@ -100,15 +100,15 @@ float lines_at(stroke_plane s, float darkness, uint set)
     bool  coming = fract(nearest * 0.5) > 0.25;
     float octave = float((floatBitsToInt(cells) >> 23) - 126); /* of new lines */
     float cover = line_cover(coming ? new_width : old_width, coming ? grown : 1.0, abs(cell * 2.0 - nearest) * apart, line_key(nearest, octave, set), s.at.x, along);
-    /* The next one reaches into the pixel only where lines are wide. */
+    /* The next one reaches into the pixel only where lines are wide. By number it is taken without gaps: where lines touch, gaps of one are filled by the other. */
     float next = nearest + side, width = coming ? old_width : new_width;
 #if TONE_BY == 0
-    cover += covered(width * stroke_ink(), abs(cell * 2.0 - next) * apart);
+    cover += covered(width, abs(cell * 2.0 - next) * apart);
 #else
     cover += line_cover(width, coming ? 1.0 : grown, abs(cell * 2.0 - next) * apart, line_key(next, octave, set), s.at.x, along);
 #endif
     /* And the one on the other side where that in the middle is hardly there yet. */
-    cover += covered(width * stroke_ink(), abs(cell * 2.0 - nearest + side) * apart);
+    cover += covered(width, abs(cell * 2.0 - nearest + side) * apart);
     /* Lines that are closer than pixels are an even tone. */
     return mix(darkness * stroke_ink(), min(cover, 1.0), clamp(2.0 * period - 1.0, 0.0, 1.0));
 }

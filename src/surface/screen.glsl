@@ -72,7 +72,7 @@ float ink_of(float value, float darkness)
 #elif SCHEME == 2 && defined(NEAREST_SCREEN)
     return value < darkness ? 1.0 : 0.0; /* texels are dots: they are there or not */
 #elif SCHEME == 2
-    float ramp = clamp(fwidth(value - darkness), 1.0 / 128.0, 0.75);
+    float ramp = clamp(length(vec2(dFdx(value - darkness), dFdy(value - darkness))), 1.0 / 128.0, 0.75);
     return clamp(0.5 + (darkness - value) / ramp, 0.0, 1.0) * smoothstep(0.0, 0.02, darkness) * clamp(255.0 * (1.0 - value), 0.0, 1.0);
 #else
     return 1.0 - value;
@@ -83,11 +83,15 @@ float ink_of(float value, float darkness)
  * below as shall be inked. */
 float ink_between(vec2 at, float level, float darkness)
 {
+#ifdef NEAREST_SCREEN
+    return ink_of(level_value(at, floor(level + 0.5)), darkness);
+#else
     float low = floor(level), share = level - low;
 #ifdef HAS_CURVE
     darkness = textureLod(t_curve, vec3((darkness * 63.0 + 0.5) / 64.0, (share * 16.0 + 0.5) / 17.0, 0.0), 0.0).r;
 #endif
     return ink_of(mix(level_value(at, low), level_value(at, low + 1.0), share), darkness);
+#endif
 }
 
 #if defined(HAS_WARP) && defined(HAS_UV)

@@ -238,12 +238,12 @@ static void distance_in_perspective(void)
         for (int c = 0; c < 3; c++) {
             double least = INFINITY, most = 0, thin = INFINITY, thick = 0;
             for (int k = 0; k <= 12; k++) {
-                double    distance = 1.1 * pow(2, k / 2.0); /* not where old and new lines are as wide, and cannot be told apart */
+                double    distance = pow(2, k / 2.0);
                 shot_view view = {.width = mode == 2 ? 320 : 192, .height = mode == 2 ? 320 : 192, .eye = {0.13, 0.07, distance}, .target = {0.13, 0.07, 0}, .up = {0, 1, 0},
                                   .fov_deg = 50, .without_maps = true};
                 char      settings[200];
                 shot      s;
-                snprintf(settings, sizeof settings, "\"coordinates\":\"%s\",\"angle\":7,%s", coordinates[c],
+                snprintf(settings, sizeof settings, "\"coordinates\":\"%s\",\"angle\":3,%s", coordinates[c], /* lines are counted along rows: at slants, pixels repeat */
                          mode == 0 ? ENDLESS ",\"tone_by\":\"width\",\"scale\":8" : mode == 1 ? ENDLESS ",\"width\":2,\"scale\":6" : NESTED ",\"series\":1,\"width\":2,\"scale\":6,\"length\":110");
                 if (wall_shot(&s, 40, 0, even(0.2, settings), &view)) {
                     hatch_count n = hatch_count_lines(&s);

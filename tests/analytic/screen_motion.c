@@ -157,7 +157,7 @@ static void approaching(const char *technique, const char *keys)
     }
     shot_release(&before);
     check_at_most("coherence", worst, strcmp(technique, "screen") == 0 ? 0.12 : 0.08, "%s (%s): change of a block's ink in a step of 1 %% nearer (step %d)", technique, keys, at);
-    check_at_most("coherence", whole, 0.035, "change of the ink of the picture");
+    check_at_most("coherence", whole, 0.04, "change of the ink of the picture");
     halftone_release(&scene);
 }
 

@@ -368,6 +368,11 @@ static double bilinear(const mip_chain *c, int layer, double u, double v, int le
 double halftone_sample(const mip_chain *chain, int layer, double u, double v, double level)
 {
     level = fmin(fmax(level, 0), chain->levels - 1);
+    if (chain->nearest) {
+        int k = (int)floor(level + 0.5), width = mip_width(chain, k), height = mip_height(chain, k);
+        int x = (int)floor((u - floor(u)) * width), y = (int)floor((v - floor(v)) * height);
+        return ((const uint8_t *)mip_layer(chain, k, layer))[y * width + x] / 255.0;
+    }
     int    low = (int)floor(level), high = low + 1 < chain->levels ? low + 1 : low;
     double share = level - low;
     return bilinear(chain, layer, u, v, low) * (1 - share) + (share > 0 ? bilinear(chain, layer, u, v, high) * share : 0);

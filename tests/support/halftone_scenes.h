@@ -73,7 +73,7 @@ double halftone_box(const shot *s, double x, double y, double width, double heig
 /* Mean difference of the light of two pictures of one size. */
 double halftone_difference(const shot *a, const shot *b);
 
-/* The value 0 … 1 of a chain that repeats, trilinear; v upwards. */
+/* The value 0 … 1 of a chain that repeats, trilinear (or of the nearest texel of the nearest level, as the chain says); v upwards. */
 double halftone_sample(const mip_chain *chain, int layer, double u, double v, double level);
 
 /* Draws; the file is written to the program's folder first. */

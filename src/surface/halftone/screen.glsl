@@ -22,7 +22,7 @@ screen_octave octave_of(stroke_plane s, float level, int which, float least, boo
 {
     float low = max(-floor(level), least);
     float rest = level + low; /* 0 … 1, or more where the screen may not be larger */
-    float over = low > least && !similar ? smoothstep(0.5, 1.0, rest) : 0.0;
+    float over = low > least && !similar ? smoothstep(0.25, 1.0, rest) : 0.0;
     return which == 0 ? screen_octave(exp2(low), rest, 1.0 - over)
                       : screen_octave(exp2(low - 1.0), max(rest - 1.0, 0.0), over);
 }
