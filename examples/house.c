@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glb.h"
+
 static const struct {
     const char *name;
     int         material;
@@ -370,32 +372,6 @@ static void put_materials(FILE *json, const char *folder)
     fputs("],", json);
 }
 
-static void put_word(FILE *file, size_t word)
-{
-    for (int k = 0; k < 4; k++)
-        fputc((int)(word >> (8 * k) & 255), file);
-}
-
-static bool save(const char *path, const chunk *json, const chunk *bytes)
-{
-    FILE *file = fopen(path, "wb");
-    if (!file)
-        return false;
-    size_t padding = (4 - json->size % 4) % 4;
-    fwrite("glTF", 1, 4, file);
-    put_word(file, 2);
-    put_word(file, 12 + 8 + json->size + padding + 8 + bytes->size);
-    put_word(file, json->size + padding);
-    fwrite("JSON", 1, 4, file);
-    fwrite(json->bytes, 1, json->size, file);
-    fwrite("   ", 1, padding, file);
-    put_word(file, bytes->size);
-    fwrite("BIN\0", 1, 4, file);
-    fwrite(bytes->bytes, 1, bytes->size, file);
-    bool good = !ferror(file);
-    return fclose(file) == 0 && good;
-}
-
 static void put_nodes(FILE *json)
 {
     fputs("\"nodes\":[{\"name\":\"House\",\"children\":[", json);
@@ -432,7 +408,7 @@ bool house_write(house *h, const char *path, const char *folder)
     put_materials(json->stream, slash ? slash + 1 : folder);
     fprintf(json->stream, "\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}", accessors->bytes, views->bytes, bytes->size);
     fclose(json->stream);
-    bool saved = save(path, json, bytes) && paint_materials(folder) && paint_indication(h, folder);
+    bool saved = glb_write(path, json->bytes, json->size, bytes->bytes, bytes->size) && paint_materials(folder) && paint_indication(h, folder);
     for (int k = 0; k < 4; k++)
         free(chunks[k].bytes);
     for (int i = 0; i < PART_COUNT; i++) {

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "glb.h"
+
 typedef struct text {
     char  *bytes;
     size_t size;
@@ -173,32 +175,6 @@ static void put_materials(FILE *json, const model *m)
     fprintf(json, "],");
 }
 
-static void put_word(FILE *file, size_t word)
-{
-    for (int k = 0; k < 4; k++)
-        fputc((int)(word >> (8 * k) & 255), file);
-}
-
-static bool save(const char *path, const text *json, const text *bytes)
-{
-    FILE *file = fopen(path, "wb");
-    if (!file)
-        return false;
-    size_t padding = (4 - json->size % 4) % 4;
-    fwrite("glTF", 1, 4, file);
-    put_word(file, 2);
-    put_word(file, 12 + 8 + json->size + padding + 8 + bytes->size);
-    put_word(file, json->size + padding);
-    fwrite("JSON", 1, 4, file);
-    fwrite(json->bytes, 1, json->size, file);
-    fwrite("   ", 1, padding, file);
-    put_word(file, bytes->size);
-    fwrite("BIN\0", 1, 4, file);
-    fwrite(bytes->bytes, 1, bytes->size, file);
-    bool good = !ferror(file);
-    return fclose(file) == 0 && good;
-}
-
 bool model_write(const model *m, const char *path)
 {
     glb g = {0};
@@ -218,7 +194,7 @@ bool model_write(const model *m, const char *path)
     fprintf(json.stream, "\"meshes\":[%s],\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}",
             g.meshes.bytes, g.accessors.bytes, g.views.bytes, g.bytes.size);
     text_end(&json);
-    bool saved = save(path, &json, &g.bytes);
+    bool saved = glb_write(path, json.bytes, json.size, g.bytes.bytes, g.bytes.size);
     for (int k = 0; k < 5; k++)
         free(lists[k]->bytes);
     return saved;

@@ -53,7 +53,7 @@ lmn_status screen_check_picture(const char *name, lmn_error *error)
 {
     if (ends_in(name, picture_endings) || strcmp(name, checker_name) == 0)
         return LMN_OK;
-    return error_set(error, LMN_USAGE, "'%.200s' is no picture; allowed are .png, .jpg, .webp and the word checker", name);
+    return error_set(error, LMN_USAGE, "indication is '%.200s'; allowed are pictures (.png, .jpg, .webp) and the word checker", name);
 }
 
 lmn_status screen_check_name(const char *name, lmn_error *error)
@@ -61,7 +61,7 @@ lmn_status screen_check_name(const char *name, lmn_error *error)
     if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 || strcmp(name, hatch_map_name) == 0 || strcmp(name, material_name) == 0 ||
         ends_in(name, stroke_endings) || ends_in(name, picture_endings))
         return LMN_OK;
-    lmn_status status = error_set(error, LMN_USAGE, "there is no screen '%.200s'", name);
+    lmn_status status = error_set(error, LMN_USAGE, "screen is '%.200s'; allowed is a pattern, a procedure, the word material, or a file", name);
     const char *names[PATTERN_COUNT + PROCEDURE_COUNT + 2];
     size_t count = 0;
     for (int i = 0; i < PATTERN_COUNT; i++)
@@ -74,7 +74,7 @@ lmn_status screen_check_name(const char *name, lmn_error *error)
     if (near)
         error_hint(error, "did you mean '%s'? Files end in .stx, .svg, .png, .jpg or .webp", near);
     else
-        error_hint(error, "`limner looks screen` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
+        error_hint(error, "`limner looks ink` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
     return status;
 }
 

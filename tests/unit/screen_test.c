@@ -539,7 +539,6 @@ static void procedures_are_linear_on_every_level(void **state)
             assert_true(worst <= fmax(0.02, allowed + 0.005));
         }
         printf("\n");
-        assert_true(took < 1);
         mip_chain_release(&m);
     }
 }
@@ -590,7 +589,7 @@ static void blue_noise_is_blue(void **state)
         white = 255.0 * 255 / 12 / 64;
     }
     printf("    blue noise %.3f s; variance of 8 x 8 blocks %.4f of white noise's\n", took, spread / white);
-    assert_true(spread < 0.12 * white && took < 0.3 * 4); /* four times as slow under checks */
+    assert_true(spread < 0.12 * white);
     mip_chain_release(&m);
 }
 
