@@ -183,8 +183,21 @@ static lmn_status bring_by_material(lmn_renderer *r, figure *fig, const techniqu
     return status;
 }
 
+/* What was asked for and gives no ink. */
+static void note_textures(const figure *fig, const technique_use *surface, const plan *p, warnings *notes)
+{
+    bool none = fig->material_textures != NULL;
+    for (size_t i = 0; i < p->scene->image_count; i++)
+        none = none && !p->scene->images[i].strokes;
+    if (none)
+        warnings_add(notes, WARNING_UNUSED, "no material has strokes beside its picture (.stx): all are drawn with the standard ones");
+    for (size_t i = 0; surface && i < surface->technique->texture_count; i++)
+        if (fig->textures.textures[i] && fig->textures.blank[i])
+            warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere", surface->technique->textures[i].name, surface->technique->name);
+}
+
 /* What surface techniques make on the CPU. */
-static lmn_status bring_textures(lmn_renderer *r, plan *p, lmn_error *error)
+static lmn_status bring_textures(lmn_renderer *r, plan *p, warnings *notes, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     made_textures_trim(&r->made, r->g);
@@ -197,6 +210,8 @@ static lmn_status bring_textures(lmn_renderer *r, plan *p, lmn_error *error)
         status = made_textures_find(&r->made, r->g, differ ? &plain : surface, &fig->textures, error);
         if (status == LMN_OK && differ)
             status = bring_by_material(r, fig, surface, p->scene, error);
+        if (status == LMN_OK)
+            note_textures(fig, surface, p, notes);
         mem_free(plain.values);
     }
     return status;
@@ -216,7 +231,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     if (status == LMN_OK)
         status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
     if (status == LMN_OK)
-        status = bring_textures(r, &s->plan, error);
+        status = bring_textures(r, &s->plan, notes, error);
     if (status == LMN_OK)
         status = place_camera(s, scene, desc, error);
     if (status != LMN_OK)

@@ -57,6 +57,16 @@ static gpu_texture *put_up(gpu *g, const mip_chain *chain)
                                                   .format = formats[chain->format], .nearest = chain->nearest, .stepped = chain->stepped, .clamped = chain->clamped, .data = data});
 }
 
+static bool is_blank(const mip_chain *chain)
+{
+    const uint8_t *bytes = chain->data[0];
+    size_t count = chain->format == MIP_R8 ? mip_level_bytes(chain, 0) : 0;
+    for (size_t i = 0; i < count; i++)
+        if (bytes[i] != 255)
+            return false;
+    return count > 0;
+}
+
 /* Takes over the description. */
 static lmn_status add(made_textures *all, gpu *g, const texture_source *source, const void *values, char *description, lmn_error *error)
 {
@@ -71,6 +81,7 @@ static lmn_status add(made_textures *all, gpu *g, const texture_source *source, 
         memcpy(item.facts, facts, sizeof facts);
         item.similar = chain.similar;
         item.nearest = chain.nearest;
+        item.blank = is_blank(&chain);
         status = gpu_check(g, error);
     }
     mip_chain_release(&chain);
@@ -120,6 +131,7 @@ lmn_status made_textures_find(made_textures *all, gpu *g, const technique_use *u
         memcpy(out->facts[i], found->facts, sizeof found->facts);
         out->similar[i] = found->similar;
         out->nearest[i] = found->nearest;
+        out->blank[i] = found->blank;
     }
     return LMN_OK;
 }

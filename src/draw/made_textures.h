@@ -12,6 +12,7 @@ typedef struct made_texture {
     gpu_texture *texture;
     float        facts[4]; /* longer side, layers, levels, the chain's own */
     bool         similar, nearest; /* as the chain's */
+    bool         blank;    /* of bytes, all of them 255: nothing will be drawn with it */
     uint64_t     used;    /* when, by the store's clock */
 } made_texture;
 
@@ -26,7 +27,7 @@ typedef struct made_textures {
 typedef struct used_textures {
     gpu_texture *textures[MADE_TEXTURES_MAX];
     float        facts[MADE_TEXTURES_MAX][4];
-    bool         similar[MADE_TEXTURES_MAX], nearest[MADE_TEXTURES_MAX];
+    bool         similar[MADE_TEXTURES_MAX], nearest[MADE_TEXTURES_MAX], blank[MADE_TEXTURES_MAX];
 } used_textures;
 
 /* Finds or makes them. Errors: those of `make`, and the GPU's. */

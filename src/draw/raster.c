@@ -241,6 +241,14 @@ static bool uses_patches(const raster_job *job, const figure_state *s, const dra
     return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->wishes && surface->technique->wishes(surface->values).patch > 0;
 }
 
+/* Does the surface look light up in a map of the item's? */
+static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->light_map_when &&
+           params_condition(surface->technique->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
+}
+
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item);
@@ -253,6 +261,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     text prelude = {0};
     declare_material(&prelude, s, item, m, t);
     text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "", field && !patches ? "#define HAS_FIELD\n" : "");
+    if (wants_light_map(job, s, item))
+        text_append(&prelude, "#define HAS_LIGHT_MAP\n");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
         return;
@@ -294,20 +304,26 @@ static void set_ids(frame *f, const raster_job *job, const figure_state *s, cons
     gpu_set_uint(f->g, "u_order", order);
 }
 
-/* Does the surface look light up in a map of the item's? */
-static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
+/* About two texels to a pixel that the item's part can cover. */
+static int light_map_side(const frame *f, const draw_item *item)
 {
-    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->light_map_when &&
-           params_condition(surface->technique->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
+    enum { LEAST = 64, MOST = 1024 };
+    int box[4], side = LEAST;
+    camera_pixels(&f->camera, f->up->part_boxes[item->part_index], f->width, f->height, 0, box);
+    while (side < MOST && side < 2 * box[2] && side < 2 * box[3])
+        side *= 2;
+    while (side < MOST && (side < box[2] || side < box[3]))
+        side *= 2;
+    return side;
 }
 
 /* The light on one item, laid out by its texture coordinates. The caller gives it back. */
 static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_item *item)
 {
-    enum { SIDE = 1024, BORDER = 4 };
+    enum { BORDER = 4 };
+    const int side = light_map_side(f, item);
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    gpu_texture *map = gpu_target_acquire(f->g, SIDE, SIDE, GPU_RGBA16F), *other = gpu_target_acquire(f->g, SIDE, SIDE, GPU_RGBA16F);
+    gpu_texture *map = gpu_target_acquire(f->g, side, side, GPU_RGBA16F), *other = gpu_target_acquire(f->g, side, side, GPU_RGBA16F);
     material tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
     item_textures t = textures_of(f, item, m);

@@ -5,7 +5,16 @@
 
 #include "light/light.h"
 
-enum { SHADOW_SIDE = 2048 };
+enum { SHADOW_SIDE_MOST = 2048, SHADOW_SIDE_LEAST = 256 };
+
+/* Twice as fine as the picture, about. */
+static int side_of(const frame *f)
+{
+    int longest = f->width > f->height ? f->width : f->height, side = SHADOW_SIDE_LEAST;
+    while (side < SHADOW_SIDE_MOST && side < 2 * longest)
+        side *= 2;
+    return side;
+}
 
 static double dot(const double a[3], const double b[3])
 {
@@ -67,9 +76,10 @@ void shadow_draw(frame *f)
     stopwatch w = watch_start(f);
     frame light = *f;
     light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
-    light.width = light.height = SHADOW_SIDE;
+    light.width = light.height = side_of(f);
     light.maps = NULL;
-    gpu_texture *depth = gpu_target_acquire(f->g, SHADOW_SIDE, SHADOW_SIDE, GPU_DEPTH32F);
+    gpu_texture *depth = gpu_target_acquire(f->g, light.width, light.height, GPU_DEPTH32F);
+    light.page_depth = depth; /* what solids are gathered in must be as large */
     if (!gpu_failed(f->g))
         raster_depth(&light, depth);
     f->shadow = depth;
@@ -97,6 +107,7 @@ void shadow_set(frame *f)
             matrix[4 * column + row] = (float)(row == 3 ? last : 0.5 * clip.m[4 * column + row] + 0.5 * last);
         }
     gpu_set_mat4(f->g, "u_shadow_from_eye", matrix);
-    gpu_set_vec2(f->g, "u_shadow_texel", 1.0f / SHADOW_SIDE, (float)(2 * f->shadow_camera.half_height / SHADOW_SIDE));
+    double side = gpu_texture_width(f->shadow);
+    gpu_set_vec2(f->g, "u_shadow_texel", (float)(1 / side), (float)(2 * f->shadow_camera.half_height / side));
     gpu_set_texture(f->g, "t_shadow", f->shadow, false);
 }

@@ -94,7 +94,7 @@ float ink_between(vec2 at, float level, float darkness)
 #endif
 }
 
-#if defined(HAS_WARP) && defined(HAS_UV)
+#if defined(HAS_WARP) && defined(HAS_UV) && defined(HAS_LIGHT_MAP)
 uniform sampler2D t_light_map;
 
 /* How much darker it is at the middle of the stroke that owns a place of the screen than at this place. Seed 001, section 6.6; rows IM-18 to IM-20: the way to the
@@ -125,7 +125,7 @@ float cover_of(float darkness, int ink)
 #if SCHEME == 3
             bare -= share * ink_between(at * o.scale, o.level, 1.0);
 #else
-#if defined(HAS_WARP) && defined(HAS_UV)
+#if defined(HAS_WARP) && defined(HAS_UV) && defined(HAS_LIGHT_MAP)
             wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
 #endif
             bare *= 1.0 - ink_between(at * o.scale, o.level, darkness_of_share(wanted, share));

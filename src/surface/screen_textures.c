@@ -124,7 +124,7 @@ static void describe_file(text *out, const char *name)
 void screen_describe(text *out, const void *values)
 {
     const screen_values *v = values;
-    text_append(out, "1 %s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g", name_of(v), (double)v->scale,
+    text_append(out, "2 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g", name_of(v), v->scheme == SCHEME_MULTIPLY ? " multiply" : "", (double)v->scale,
                 (double)v->width, v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain);
     describe_file(out, name_of(v));
 }

@@ -33,7 +33,7 @@ struct rest_place {
 };
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
-const float STEEPEST = 0.12;
+const float STEEPEST = 0.2;
 
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
