@@ -451,6 +451,37 @@ group_strokes() {
     row 4 '^limner: nosuch/x.stx: ' '' strokes cross -o nosuch/x.stx
 }
 
+group_halftones() {
+    local csg=$source/examples/csg/widget.csg spot=$source/examples/spot.obj small=(--size 120x100 -o x.png)
+    export LIMNER_CACHE=$PWD/.cache
+    # Solids throw shadows on every path.
+    row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit "${small[@]}"; mv x.png in-light.png
+    row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true "${small[@]}"
+    cmp -s x.png in-light.png && complain "a solid throws no shadow"
+    mv x.png in-shadow.png
+    row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true --set layers.evaluation=products "${small[@]}"
+    cmp -s x.png in-light.png && complain "a solid of products throws no shadow"
+    # What was drawn before, and is kept, changes nothing.
+    row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
+    row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
+    row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"
+    cmp -s x.png in-first.png || complain "a kept texture changes the picture"
+    LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"
+    cmp -s x.png in-first.png || complain "without a cache the picture is another"
+    # Layers have no light maps: whole strokes are what they are without.
+    row 0 '' 'x.png' draw "$spot" --look xray --set surface.technique=screen --set surface.coordinates=uv "${small[@]}"; mv x.png in-cut.png
+    row 0 '' 'x.png' draw "$spot" --look xray --set surface.technique=screen --set surface.coordinates=uv --set surface.whole=true "${small[@]}"
+    cmp -s x.png in-cut.png || complain "whole strokes in layers give another picture"
+    # What gives no ink is said, what is wrong is refused.
+    : > in-none.stx
+    row 0 "^limner: warning: the screen of surface 'screen' has no ink anywhere" 'x.png' draw "$spot" --look ink --set surface.screen=in-none.stx "${small[@]}"
+    row 0 '^limner: warning: no material has strokes beside its picture' 'x.png' draw "$spot" --look ink --set surface.screen=material "${small[@]}"
+    row 1 "^limner: surface.screen is 'brik'; allowed is a pattern" '' draw "$spot" --look ink --set surface.screen=brik "${small[@]}"
+    row 1 "^hint: did you mean 'brick'" '' draw "$spot" --look ink --set surface.screen=brik "${small[@]}"
+    row 1 "^limner: surface.indication is 'x.gif'; allowed are pictures" '' draw "$spot" --look ink --set surface.indication=x.gif "${small[@]}"
+    row 2 '^limner: nosuch.stx: ' '' draw "$spot" --look ink --set surface.screen=nosuch.stx "${small[@]}"
+}
+
 group_doctor() {
     row 0 '' '' doctor; out 'Limner can draw here'
     row 0 '' '' doctor --json; documented .stdout doctor.md
