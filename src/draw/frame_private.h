@@ -103,8 +103,6 @@ void lights_set(frame *f);
 /* --- shadow.c --- */
 /* Draws what the first light sees, where the look wants shadows and the light has a direction. The caller gives f->shadow back. */
 void shadow_draw(frame *f);
-/* From eye space of this frame to the shadow map. */
-void shadow_set(frame *f);
 /* The first light's direction in eye space, towards it; false when it has a place instead. */
 bool lights_first_direction(const frame *f, double out[3]);
 

@@ -76,13 +76,40 @@ void lights_declare(text *prelude, const frame *f)
     text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, f->shadow ? "#define HAS_SHADOW\n" : "");
 }
 
+/* From eye space of this frame to the shadow map. */
+static void set_shadow(frame *f)
+{
+    /* World from eye: the view is a rotation and a shift. */
+    mat4 world = mat4_identity();
+    const double *view = f->camera.view.m;
+    for (int row = 0; row < 3; row++) {
+        world.m[12 + row] = 0;
+        for (int k = 0; k < 3; k++) {
+            world.m[4 * k + row] = view[4 * row + k];
+            world.m[12 + row] -= view[4 * row + k] * view[12 + k];
+        }
+    }
+    mat4 clip = mat4_multiply(&f->shadow_camera.view, &world);
+    clip = mat4_multiply(&f->shadow_camera.projection, &clip);
+    float matrix[16];
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double last = column == 3 ? 1 : 0; /* w, for parallel rays */
+            matrix[4 * column + row] = (float)(row == 3 ? last : 0.5 * clip.m[4 * column + row] + 0.5 * last);
+        }
+    gpu_set_mat4(f->g, "u_shadow_from_eye", matrix);
+    double side = gpu_texture_width(f->shadow);
+    gpu_set_vec2(f->g, "u_shadow_texel", (float)(1 / side), (float)(2 * f->shadow_camera.half_height / side));
+    gpu_set_texture(f->g, "t_shadow", f->shadow, false);
+}
+
 void lights_set(frame *f)
 {
     light_list l = list_lights(f);
     gpu_set_vec4_array(f->g, "u_light_position", l.positions[0], l.count);
     gpu_set_vec4_array(f->g, "u_light_colour", l.colours[0], l.count);
     if (f->shadow)
-        shadow_set(f);
+        set_shadow(f);
 }
 
 bool lights_first_direction(const frame *f, double out[3])

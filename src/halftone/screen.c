@@ -48,11 +48,6 @@ typedef struct raster {
     int32_t drawn;
 } raster;
 
-bool is_power_of_two(int n)
-{
-    return n > 0 && (n & (n - 1)) == 0;
-}
-
 static bool is_dot(const stroke *s)
 {
     return s->u0 == s->u1 && s->v0 == s->v1;

@@ -14,7 +14,11 @@ void ink_equalise(uint8_t *out, const uint16_t *ink, size_t count, uint32_t *ton
 /* Screen values without that: 255 × (1 − ink). */
 void ink_encode(uint8_t *out, const uint16_t *ink, size_t count);
 
-bool is_power_of_two(int n);
+static inline bool is_power_of_two(int n)
+{
+    return n > 0 && (n & (n - 1)) == 0;
+}
+
 
 /* Ranks 0 … side² − 1 of a dispersed order in which no texels of near ranks are near each other, also around the border; by void and cluster. */
 lmn_status blue_noise_ranks(uint32_t *ranks, int side, lmn_error *error);
