@@ -1,10 +1,10 @@
 #include "draw/made_textures.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "draw/uniforms.h"
 #include "halftone/store.h"
 
 enum { DRAWINGS_KEPT = 8, NAME_SIZE = 48 };
@@ -142,11 +142,8 @@ void used_textures_declare(text *prelude, const technique_use *use, const used_t
         const char *name = use->technique->textures[i].name;
         if (!used->textures[i])
             continue;
-        char capitals[NAME_SIZE];
-        size_t k = 0;
-        for (; name[k] && k + 1 < sizeof capitals; k++)
-            capitals[k] = (char)toupper((unsigned char)name[k]);
-        capitals[k] = '\0';
+        char capitals[CAPITALS_SIZE];
+        uniforms_capitals(name, capitals);
         text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
         if (used->similar[i])
             text_append(prelude, "#define SIMILAR_%s\n", capitals);

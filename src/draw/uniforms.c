@@ -26,18 +26,18 @@ void target_declare(text *prelude, target t)
     text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
 }
 
-static void capitals_of(const char *key, char out[64])
+void uniforms_capitals(const char *key, char out[CAPITALS_SIZE])
 {
     size_t i = 0;
-    for (; key[i] && i + 1 < 64; i++)
+    for (; key[i] && i + 1 < CAPITALS_SIZE; i++)
         out[i] = (char)toupper((unsigned char)key[i]);
     out[i] = '\0';
 }
 
 static void declare_variant(text *prelude, const param *p, const void *values)
 {
-    char name[64];
-    capitals_of(p->key, name);
+    char name[CAPITALS_SIZE];
+    uniforms_capitals(p->key, name);
     const void *field = param_field(p, values);
     int value = p->type == PARAM_BOOL ? *(const bool *)field : *(const int32_t *)field;
     text_append(prelude, "#define %s %d\n", name, value);
@@ -45,8 +45,8 @@ static void declare_variant(text *prelude, const param *p, const void *values)
 
 static void declare_toggle(text *prelude, const param *p, const void *values)
 {
-    char name[64];
-    capitals_of(p->key, name);
+    char name[CAPITALS_SIZE];
+    uniforms_capitals(p->key, name);
     if (*(const float *)param_field(p, values) != 0)
         text_append(prelude, "#define WITH_%s\n", name);
 }

@@ -18,6 +18,10 @@ void uniforms_declare(text *prelude, param_set set);
 /* Sets the uniforms of the program in use. */
 void uniforms_set(gpu *g, param_set set);
 
+/* A key as it stands in the names of macros. */
+enum { CAPITALS_SIZE = 64 };
+void uniforms_capitals(const char *key, char out[CAPITALS_SIZE]);
+
 /* A linear colour from the sRGB of a parameter, premultiplied by nothing. */
 void uniforms_linear(colour c, float out[4]);
 

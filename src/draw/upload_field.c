@@ -34,20 +34,12 @@ static float (*tensors_of(const direction_field *field, const primitive *p))[6]
     return out;
 }
 
-static void *gather(const float *from, const uint32_t *source, uint32_t count, size_t components)
-{
-    float *out = from ? mem_alloc((size_t)count * components * sizeof *out) : NULL;
-    for (uint32_t i = 0; out && i < count; i++)
-        memcpy(out + i * components, from + source[i] * components, components * sizeof *out);
-    return out;
-}
-
 static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *l, const gpu_mesh_data *data, lmn_error *error)
 {
-    float *positions = gather(data->positions, l->source, l->vertex_count, 3), *normals = gather(data->normals, l->source, l->vertex_count, 3);
-    float *colours = gather(data->colours, l->source, l->vertex_count, 4), *uvs[2];
+    float *positions = upload_gather(data->positions, l->source, l->vertex_count, 3 * sizeof(float)), *normals = upload_gather(data->normals, l->source, l->vertex_count, 3 * sizeof(float));
+    float *colours = upload_gather(data->colours, l->source, l->vertex_count, 4 * sizeof(float)), *uvs[2];
     for (int i = 0; i < 2; i++)
-        uvs[i] = gather(data->uvs[i], l->source, l->vertex_count, 2);
+        uvs[i] = upload_gather(data->uvs[i], l->source, l->vertex_count, 2 * sizeof(float));
     bool done = positions && normals && (colours || !data->colours) && (uvs[0] || !data->uvs[0]) && (uvs[1] || !data->uvs[1]);
     if (done)
         *out = gpu_mesh_create(g, &(gpu_mesh_data){.vertex_count = l->vertex_count, .index_count = l->index_count, .positions = positions, .normals = normals,

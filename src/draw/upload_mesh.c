@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-static void *gather(const void *source, const uint32_t *map, uint32_t count, size_t size)
+void *upload_gather(const void *source, const uint32_t *map, uint32_t count, size_t size)
 {
     if (!source)
         return NULL;
@@ -47,16 +47,16 @@ static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_
         data->normals = (const float *)out->normals;
         data->positions = (const float *)out->positions;
     } else if (split->source) {
-        data->positions = gather(p->positions, split->source, count, sizeof(vec3));
+        data->positions = upload_gather(p->positions, split->source, count, sizeof(vec3));
         out->positions = (vec3 *)(void *)(uintptr_t)data->positions;
     }
     for (int i = 0; i < UV_SETS; i++) {
-        out->uvs[i] = split->source ? gather(p->uvs[i], split->source, count, sizeof(vec2)) : NULL;
+        out->uvs[i] = split->source ? upload_gather(p->uvs[i], split->source, count, sizeof(vec2)) : NULL;
         data->uvs[i] = (const float *)(split->source ? out->uvs[i] : p->uvs[i]);
         done = done && (!p->uvs[i] || data->uvs[i]);
     }
     if (split->source)
-        data->colours = (const float *)(out->colours = gather(p->colours, split->source, count, sizeof(vec4)));
+        data->colours = (const float *)(out->colours = upload_gather(p->colours, split->source, count, sizeof(vec4)));
     done = done && data->positions && data->normals && (!p->colours || data->colours);
     return done ? LMN_OK : error_memory(error);
 }

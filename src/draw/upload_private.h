@@ -36,6 +36,8 @@ typedef struct upload_part_job {
 } upload_part_job;
 
 /* --- upload_mesh.c --- */
+/* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The caller frees it. */
+void      *upload_gather(const void *source, const uint32_t *map, uint32_t count, size_t size);
 lmn_status posed_make(posed_mesh *out, const upload *u, const primitive *p, const part_pose *pose, lmn_error *error);
 void       posed_release(posed_mesh *m);
 /* A piece, which the upload owns. */

@@ -28,16 +28,14 @@ typedef struct header {
 
 static const uint32_t MAGIC = 0x4c6d4e74;
 
-/* FNV-1a. Each step can be undone, so that no single changed byte goes unnoticed. */
-static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+uint64_t store_hash(const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ at[i]) * UINT64_C(0x100000001b3);
     return hash;
 }
-
-static const uint64_t HASH_START = UINT64_C(0xcbf29ce484222325);
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
@@ -57,7 +55,7 @@ static bool find_folder(char *out, size_t room)
 
 static bool find_path(char *out, size_t room, const char *folder, const char *description)
 {
-    unsigned long long hash = hash_bytes(HASH_START, description, strlen(description));
+    unsigned long long hash = store_hash(description, strlen(description));
     int                length = snprintf(out, room, "%s/%016llx%s", folder, hash, ENDING);
     return length > 0 && (size_t)length < room;
 }
@@ -120,7 +118,7 @@ static bool read_chain(mip_chain *out, const file_data *file, const char *descri
     if (!is_sensible(&h) || h.description_size != told || file->size != sizeof h + told + content_size(&h) + sizeof sum)
         return false;
     memcpy(&sum, file->data + file->size - sizeof sum, sizeof sum);
-    if (memcmp(file->data + sizeof h, description, told) != 0 || sum != hash_bytes(HASH_START, file->data, file->size - sizeof sum))
+    if (memcmp(file->data + sizeof h, description, told) != 0 || sum != store_hash(file->data, file->size - sizeof sum))
         return false;
     return read_levels(out, &h, file->data + sizeof h + told);
 }
@@ -207,7 +205,7 @@ static void write_chain(text *out, const mip_chain *chain, const char *descripti
     text_append_bytes(out, description, strlen(description));
     for (int k = 0; k < chain->levels; k++)
         text_append_bytes(out, chain->data[k], mip_level_bytes(chain, k));
-    uint64_t sum = hash_bytes(HASH_START, out->data, out->size);
+    uint64_t sum = store_hash(out->data, out->size);
     text_append_bytes(out, (const char *)&sum, sizeof sum);
 }
 

@@ -4,6 +4,9 @@
 
 #include "base/mip_chain.h"
 
+/* FNV-1a. Each step can be undone, so that no single changed byte goes unnoticed. */
+uint64_t store_hash(const void *bytes, size_t size);
+
 /* Reads what was kept under this description (any text, all that decides the content, with a version). False when there is nothing, or when it is
  * damaged, of another description with the same hash, or unreadable: then it is made again. The folder is LIMNER_CACHE, else XDG_CACHE_HOME/limner, else
  * HOME/.cache/limner; LIMNER_CACHE set and empty, or none of them set: nothing is kept. */

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/image_read.h"
 #include "base/memory.h"
+#include "halftone/store.h"
 
 enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8, INDICATION_SIDE_MOST = 2048 };
 
@@ -94,15 +95,13 @@ static bool numbered(const char *first, int number, char **out)
     return *out != NULL;
 }
 
-/* A file's content by a number (FNV-1a), so that what was made from it is found again for as long as it is the same. */
+/* A file's content by a number, so that what was made from it is found again for as long as it is the same. */
 static uint64_t content_of(const char *path)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
     file_data file;
     if (file_load(&file, path, NULL) != LMN_OK)
         return 0;
-    for (size_t i = 0; i < file.size; i++)
-        hash = (hash ^ file.data[i]) * 0x100000001b3u;
+    uint64_t hash = store_hash(file.data, file.size);
     file_data_release(&file);
     return hash;
 }

@@ -453,7 +453,8 @@ group_strokes() {
 
 group_halftones() {
     local csg=$source/examples/csg/widget.csg spot=$source/examples/spot.obj small=(--size 120x100 -o x.png)
-    export LIMNER_CACHE=$PWD/.cache
+    local kept; kept=$(mktemp -d) # not here, where each row begins with an empty folder
+    export LIMNER_CACHE=$kept
     # Solids throw shadows on every path.
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit "${small[@]}"; mv x.png in-light.png
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true "${small[@]}"
@@ -461,6 +462,7 @@ group_halftones() {
     mv x.png in-shadow.png
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true --set layers.evaluation=products "${small[@]}"
     cmp -s x.png in-light.png && complain "a solid of products throws no shadow"
+    cmp -s x.png in-shadow.png || complain "shadows of a solid depend on how its surface is found"
     # What was drawn before, and is kept, changes nothing.
     row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
     row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
@@ -468,6 +470,9 @@ group_halftones() {
     cmp -s x.png in-first.png || complain "a kept texture changes the picture"
     LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"
     cmp -s x.png in-first.png || complain "without a cache the picture is another"
+    row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"; mv x.png in-sharp.png
+    LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
+    cmp -s x.png in-sharp.png || complain "what another scheme has kept changes the picture"
     # Layers have no light maps: whole strokes are what they are without.
     row 0 '' 'x.png' draw "$spot" --look xray --set surface.technique=screen --set surface.coordinates=uv "${small[@]}"; mv x.png in-cut.png
     row 0 '' 'x.png' draw "$spot" --look xray --set surface.technique=screen --set surface.coordinates=uv --set surface.whole=true "${small[@]}"
@@ -480,6 +485,7 @@ group_halftones() {
     row 1 "^hint: did you mean 'brick'" '' draw "$spot" --look ink --set surface.screen=brik "${small[@]}"
     row 1 "^limner: surface.indication is 'x.gif'; allowed are pictures" '' draw "$spot" --look ink --set surface.indication=x.gif "${small[@]}"
     row 2 '^limner: nosuch.stx: ' '' draw "$spot" --look ink --set surface.screen=nosuch.stx "${small[@]}"
+    rm -r "$kept"
 }
 
 group_doctor() {
