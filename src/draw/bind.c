@@ -184,6 +184,7 @@ static const gpu_format formats[TARGET_COUNT] = {
     [TARGET_NEARER] = GPU_RGBA16F,       [TARGET_DASH] = GPU_R8,             [TARGET_GROUND] = GPU_RGBA16F,
     [TARGET_ENLARGED] = GPU_RGBA32F,     [TARGET_TRACES] = GPU_RGBA32F,      [TARGET_TRACES_ROW] = GPU_RGBA32F,
     [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
+    [TARGET_DIRECTION] = GPU_RGBA16F,    [TARGET_DIRECTION_BEFORE] = GPU_RGBA16F,
     [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
 };
 
@@ -217,7 +218,7 @@ gpu_texture *frame_acquire_for(frame *f, const figure_state *s, target t)
 
 gpu_texture *target_of(const frame *f, const figure_state *s, target t)
 {
-    return t == TARGET_PAGE ? f->page : s->targets[t];
+    return t == TARGET_PAGE ? f->page : t == TARGET_SHADOW ? f->shadow : s->targets[t];
 }
 
 bool pass_applies(kind_id id, const pass *p, const technique_use *use)

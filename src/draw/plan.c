@@ -182,7 +182,9 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     }
     bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
     const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
-    f->deferred = front && front->shading == SHADING_DEFERRED && surface && !shades_with_geometry(surface);
+    const technique *shader = surface ? surface->technique : NULL;
+    bool later = shader && shader->deferred_when && params_condition(shader->deferred_when, shader->params, shader->param_count, surface->values);
+    f->deferred = surface && ((front && front->shading == SHADING_DEFERRED) || later) && !shades_with_geometry(surface);
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
     f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
     f->reflects = surface && surface->technique->reflects;

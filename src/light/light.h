@@ -17,6 +17,8 @@ typedef struct scene_values {
     int32_t   lights;
     float     light_scale;
     bool      shadows;
+    float       shadow_softness, occlusion, occlusion_radius;
+    float       focus, focus_at, focus_depth;
     param_words cut, cut_keep;
     float     cut_hatch, cut_angle, cut_width;
     colour    cut_colour, cut_fill;

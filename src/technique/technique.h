@@ -37,6 +37,9 @@ typedef enum target {
     TARGET_UNCERTAINTY, /* coarse RGBA16F: r, g = offset of lookups, −1 … 1; b = a third value of the same kind */
     TARGET_FIELD,      /* RGBA32F: uncertainty at each pixel, for maps */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
+    TARGET_SHADOW,     /* depth from the first light; there when the look has shadows or a pass reads it */
+    TARGET_DIRECTION,  /* RGBA16F, half as large: the way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis; s = how sure; b: eye depth */
+    TARGET_DIRECTION_BEFORE, /* on the way to it */
     TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
     TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
     TARGET_COUNT
@@ -71,6 +74,7 @@ typedef struct pass {
     bool      (*process)(const pass_pixels *in, void *out, const void *values);
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
+    bool        prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded with its geometry */
     bool        stylised; /* left out in maps, which show what was detected */
     bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
 } pass;
@@ -83,6 +87,8 @@ typedef struct mesh_wishes {
 
 struct pass;
 
+enum { PERTURB_NUMBERS_MAX = 96 };
+
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
     /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl. With BROAD_LINES also
@@ -92,7 +98,9 @@ typedef struct perturbation {
     float     (*reach)(const void *values);  /* how far it moves anything, pixels */
     float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
     uint32_t  (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
-    const struct pass *map; /* writes TARGET_FIELD */
+    /* Numbers that are the same for every pixel, into vec4 u_numbers[]; returns how many, at most PERTURB_NUMBERS_MAX. NULL: none. */
+    size_t    (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
+    const struct pass *map; /* writes TARGET_FIELD; NULL: there is none */
 } perturbation;
 
 /* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its longer side, layers, levels
@@ -127,6 +135,7 @@ typedef struct technique {
     bool         reflects;    /* surface: wants TARGET_REFLECTION */
     const char  *light_map_when; /* surface: condition under which it wants t_light_map, the light (its function light_of) laid out by texture coordinates */
     const char  *forward_when; /* surface: the same under this condition on its parameters; NULL: never */
+    const char  *deferred_when; /* surface: condition under which it is shaded from the G-buffer wherever that can be; NULL: as the layers say */
     mesh_wishes (*wishes)(const void *values); /* surface; NULL: nothing */
     /* surface: changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all
      * materials are alike. NULL: always so. */
