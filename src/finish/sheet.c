@@ -1,13 +1,53 @@
-/* sheet: the page's ground. */
+/* sheet: the page's ground, and the paper that what is drawn is rubbed onto. Notes: seed-pencil-city, section 3.6, P28. */
 #include "finish/finish.h"
+
+#include <math.h>
+
+#include "halftone/paper.h"
+
+static const char *const motion_names[] = {"fixed", "following", "zooming", NULL};
 
 static const param params[] = {
     PARAM_COLOUR_ROW(sheet_values, ground, .def_colour = {1, 1, 1, 1}, .cpu_only = true, .doc = "Colour of the page; none leaves it transparent."),
+    PARAM_ENUM_ROW(sheet_values, paper, .names = paper_names, .cpu_only = true,
+                   .doc = "What is drawn on: ink stays on the hills of its grain and leaves out the valleys, the fainter the more. smooth, drawing (fine tooth), "
+                          "rough, laid (ribs and chain lines) or canvas."),
+    PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "paper", .doc = "How much ink follows the grain."),
+    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1, .max = 32, .soft_max = 8, .unit = UNIT_PX, .logarithmic = true, .cpu_only = true, .only_if = "paper",
+                    .doc = "Size of the fine tooth; rough paper's hills, ribs and threads are a few times as large."),
+    PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
+                    .doc = "1: where ink is full it fills the valleys, and tones stay what they are; below, the darkest strokes are broken too, and lighter for it."),
+    PARAM_FLOAT_ROW(sheet_values, relief, .toggles = true, .def = 0, .min = 0, .max = 1, .soft_max = 0.3, .unit = UNIT_SHARE, .only_if = "paper",
+                    .doc = "How much the bare paper shows its grain by light from the upper left."),
+    PARAM_ENUM_ROW(sheet_values, motion, .names = motion_names, .variant = true, .only_if = "paper",
+                   .doc = "fixed: the paper lies still under what moves; following: it goes, turns and rolls along with the model; zooming: it also grows "
+                          "with it, while finer grain appears."),
+    PARAM_INT_ROW(sheet_values, paper_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .only_if = "paper", .doc = "Another sheet of the same kind."),
 };
 
+static void describe(text *out, const void *values)
+{
+    const sheet_values *v = values;
+    text_append(out, "1 %s seed=%d", paper_names[v->paper], v->paper_seed);
+}
+
+static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
+{
+    const sheet_values *v = values;
+    paper               sheet;
+    lmn_status          status = paper_create(&sheet, (paper_kind)v->paper, (uint32_t)v->paper_seed, error);
+    if (status == LMN_OK)
+        status = paper_texture(out, &sheet, error);
+    paper_release(&sheet);
+    return status;
+}
+
+static const texture_source textures[] = {{.name = "paper", .when = "paper&grain", .describe = describe, .make = make}};
+
 static const technique sheet = {
-    .name = "sheet", .doc = "The page's ground.", .example = "{\"surface\": \"lit\"}",
+    .name = "sheet", .doc = "The page's ground and the paper's grain.", .example = "{\"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(sheet_values),
+    .textures = textures, .texture_count = PARAM_COUNT(textures),
 };
 
 static const technique *const techniques[] = {&sheet};
@@ -17,3 +57,32 @@ const kind kind_finish = {
     .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &sheet,
     .selector_key = "technique", .look_wide = true,
 };
+
+/* --- where the paper lies ------------------------------------------------------------------------------------------ */
+
+static const double TURN = 6.283185307179586477;
+
+/* A sheet of `tiles` a pixel that rolls along like a ball of `radius` pixels, whose way around is a whole number of sheets so that a full turn ends where it
+ * began. */
+static sheet_place lay_rolling(const sheet_view *view, double tiles, double radius, double shift)
+{
+    double a = tiles * cos(view->roll), b = -tiles * sin(view->roll), around = fmax(round(TURN * radius * tiles), 1) / TURN;
+    double u = around * view->azimuth + shift - (a * view->anchor[0] - b * view->anchor[1]);
+    double v = around * view->elevation + shift - (b * view->anchor[0] + a * view->anchor[1]);
+    return (sheet_place){(float)a, (float)b, (float)(u - floor(u)), (float)(v - floor(v))};
+}
+
+float sheet_lay(const sheet_values *values, const sheet_view *view, sheet_place out[2])
+{
+    double tiles = (double)PAPER_TEXELS_A_GRAIN / PAPER_SIDE / (double)values->grain_size;
+    out[0] = out[1] = (sheet_place){.a = (float)tiles};
+    if (values->motion == SHEET_FOLLOWING)
+        out[0] = lay_rolling(view, tiles, view->radius * view->fitted, 0);
+    if (values->motion != SHEET_ZOOMING)
+        return 0;
+    /* Octave k has k times twice as many tiles a unit. Its number shifts it, so that it is not the next one magnified. */
+    double octave = log2(view->scale / view->fitted), coarse = floor(octave);
+    for (int k = 0; k < 2; k++)
+        out[k] = lay_rolling(view, tiles * exp2(coarse + k - octave), view->radius * view->scale, 0.381966 * (coarse + k));
+    return (float)(octave - coarse);
+}

@@ -140,7 +140,7 @@ typedef struct technique {
     /* surface: changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all
      * materials are alike. NULL: always so. */
     bool       (*by_material)(void *values, const char *strokes);
-    const texture_source *textures; /* surface: what it makes on the CPU */
+    const texture_source *textures; /* surface, finish: what it makes on the CPU */
     size_t       texture_count;
     const perturbation *perturbs; /* perturb: how lookups are moved */
 } technique;
