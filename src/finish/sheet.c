@@ -13,7 +13,7 @@ static const param params[] = {
                    .doc = "What is drawn on: ink stays on the hills of its grain and leaves out the valleys, the fainter the more. smooth, drawing (fine tooth), "
                           "rough, laid (ribs and chain lines) or canvas."),
     PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "paper", .doc = "How much ink follows the grain."),
-    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1, .max = 32, .soft_max = 8, .unit = UNIT_PX, .logarithmic = true, .cpu_only = true, .only_if = "paper",
+    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1.5, .max = 32, .soft_max = 8, .unit = UNIT_PX, .logarithmic = true, .cpu_only = true, .only_if = "paper",
                     .doc = "Size of the fine tooth; rough paper's hills, ribs and threads are a few times as large."),
     PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
                     .doc = "1: where ink is full it fills the valleys, and tones stay what they are; below, the darkest strokes are broken too, and lighter for it."),
@@ -42,7 +42,7 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
     return status;
 }
 
-static const texture_source textures[] = {{.name = "paper", .when = "paper&grain", .describe = describe, .make = make}};
+static const texture_source textures[] = {{.name = "paper", .when = "paper&grain", .describe = describe, .make = make, .kept = true}};
 
 static const technique sheet = {
     .name = "sheet", .doc = "The page's ground and the paper's grain.", .example = "{\"surface\": \"lit\"}",

@@ -16,7 +16,7 @@ static const double PI = 3.14159265358979323846;
 static const struct {
     float depth, steep;
 } natures[PAPER_COUNT] = {
-    [PAPER_SMOOTH] = {0.35f, 0.5f}, [PAPER_DRAWING] = {0.75f, 0.9f}, [PAPER_ROUGH] = {0.9f, 1.2f}, [PAPER_LAID] = {0.6f, 0.9f}, [PAPER_CANVAS] = {0.65f, 1.1f},
+    [PAPER_SMOOTH] = {0.35f, 0.5f}, [PAPER_DRAWING] = {0.65f, 0.9f}, [PAPER_ROUGH] = {0.9f, 1.2f}, [PAPER_LAID] = {0.6f, 0.9f}, [PAPER_CANVAS] = {0.65f, 1.1f},
 };
 
 /* The stroke comes from the upper left, as a right hand draws; the window stands there too. */
@@ -177,7 +177,7 @@ static void add_fibres(bench *b, float *scratch, int count, float weight)
             y += 0.7 * sin(turn);
         }
     }
-    blur(b, scratch, 1.1, 1.1);
+    blur(b, scratch, 1.3, 1.3);
     standardise(scratch);
     for (int i = 0; i < TEXELS; i++)
         b->field[i] += weight * scratch[i];
@@ -185,14 +185,14 @@ static void add_fibres(bench *b, float *scratch, int count, float weight)
 
 static void make_smooth(bench *b, float *scratch)
 {
-    add_band(b, scratch, 1.2, 2.5, 1);
-    add_fibres(b, scratch, 24000, 0.45f);
+    add_band(b, scratch, 1.5, 3, 1);
+    add_fibres(b, scratch, 24000, 0.4f);
     add_band(b, scratch, 3, 6, 0.2f);
 }
 
 static void make_drawing(bench *b, float *scratch)
 {
-    add_band(b, scratch, 1.5, 3.5, 1);
+    add_band(b, scratch, 1.7, 3.6, 1);
     add_fibres(b, scratch, 14000, 0.45f);
     add_band(b, scratch, 4, 8, 0.3f);
 }
@@ -200,18 +200,18 @@ static void make_drawing(bench *b, float *scratch)
 /* The felt's marks: hills whose tops are broad and whose pits are narrow. */
 static void make_rough(bench *b, float *scratch)
 {
-    band(b, b->field, 3.2, 6.5);
+    band(b, b->field, 3.5, 7);
     for (int i = 0; i < TEXELS; i++)
         b->field[i] = 1 - expf(-0.9f * b->field[i]);
     standardise(b->field);
-    add_band(b, scratch, 1.5, 3, 0.45f);
+    add_band(b, scratch, 1.6, 3.2, 0.4f);
     add_band(b, scratch, 6, 12, 0.35f);
 }
 
 /* Ribs run along x; the wires were laid by hand. */
 static void make_laid(bench *b, float *scratch)
 {
-    enum { RIBS = 64, CHAINS = 4 };
+    enum { RIBS = 96, CHAINS = 6 };
     float *strength = b->field; /* of ribs, which here and there were pressed flat */
     band(b, scratch, 5, 24);
     add_noise(b, strength);
@@ -224,7 +224,7 @@ static void make_laid(bench *b, float *scratch)
             double rib = sin(2 * PI * RIBS * y / SIDE + 0.45 * (double)scratch[i]);
             strength[i] = (float)(rib * (0.9 + 0.12 * (double)strength[i]) - 1.1 * exp(-chain * chain / 30));
         }
-    add_band(b, scratch, 1.4, 3.2, 0.55f);
+    add_band(b, scratch, 1.6, 3.2, 0.5f);
     add_fibres(b, scratch, 10000, 0.3f);
 }
 
@@ -244,7 +244,7 @@ static double weave_at(double x, double y, double width_x, double width_y)
 
 static void make_canvas(bench *b, float *scratch)
 {
-    enum { THREADS = 48 };
+    enum { THREADS = 64 };
     double widths[2][THREADS];
     for (int i = 0; i < 2 * THREADS; i++)
         widths[i / THREADS][i % THREADS] = 1 + 0.12 * random_hand(&b->random);
@@ -263,7 +263,7 @@ static void make_canvas(bench *b, float *scratch)
         }
     standardise(b->field);
     blur(b, b->field, 1, 1);
-    add_band(b, scratch, 1.3, 3, 0.28f);
+    add_band(b, scratch, 1.5, 3, 0.28f);
 }
 
 lmn_status paper_create(paper *out, paper_kind kind, uint32_t seed, lmn_error *error)

@@ -17,7 +17,7 @@ extern const char *const paper_names[PAPER_COUNT + 1]; /* NULL-terminated */
 
 enum {
     PAPER_SIDE = 1024,       /* texels of a sheet's side */
-    PAPER_TEXELS_A_GRAIN = 6 /* hardly anything is finer than one of these, so that sheets of small grain may be looked up a few texels apart */
+    PAPER_TEXELS_A_GRAIN = 4 /* hardly anything is finer than one of these, so that sheets of small grain may be looked up a few texels apart */
 };
 
 /* A sheet: heights 0 … 1, of which each tenth covers a tenth of the sheet; the steepness of its flanks goes with its relief. */
