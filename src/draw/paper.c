@@ -78,21 +78,27 @@ void paper_declare(text *prelude, const frame *f)
     used_textures_declare(prelude, sheet_of(f), &f->plan->sheet_textures);
 }
 
+static void set_place(gpu *g, const char *name, sheet_place place)
+{
+    gpu_set_vec4(g, name, (float[]){place.a, place.b, place.u, place.v});
+}
+
 void paper_set(frame *f)
 {
     if (!has_paper(f))
         return;
     const technique_use *sheet = sheet_of(f);
     sheet_view           view = view_of(f);
-    sheet_place          places[2];
-    float                ground[4], share = sheet_lay(sheet->values, &view, places);
+    sheet_lie            lie = sheet_lay(sheet->values, &view);
+    float                ground[4];
     uniforms_linear(f->ground, ground);
     for (int k = 0; k < 3; k++)
         ground[k] *= f->ground.a;
     uniforms_set(f->g, use_own_set(KIND_FINISH, sheet));
     used_textures_set(f->g, sheet, &f->plan->sheet_textures);
     gpu_set_vec4(f->g, "u_sheet", ground);
-    gpu_set_vec4(f->g, "u_paper_place", (float[]){places[0].a, places[0].b, places[0].u, places[0].v});
-    gpu_set_vec4(f->g, "u_paper_finer", (float[]){places[1].a, places[1].b, places[1].u, places[1].v});
-    gpu_set_float(f->g, "u_paper_share", share);
+    set_place(f->g, "u_paper_place", lie.octaves[0]);
+    set_place(f->g, "u_paper_finer", lie.octaves[1]);
+    set_place(f->g, "u_paper_pieces", lie.pieces);
+    gpu_set_vec4(f->g, "u_paper_shares", (float[]){lie.finer, lie.begun, lie.begin[0], lie.begin[1]});
 }

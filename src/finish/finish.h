@@ -30,7 +30,17 @@ typedef struct sheet_place {
     float a, b, u, v;
 } sheet_place;
 
-/* Where the paper lies: a function of the view alone. Papers that zoom are two, of one octave each; the share of the finer one is returned, else 0. */
-float sheet_lay(const sheet_values *values, const sheet_view *view, sheet_place out[2]);
+/* How the paper lies. Papers that zoom are two, of one octave each. A paper that has rolled half around has come to its end, and begins again: around there
+ * some of its pieces are where it ends and some where it begins. */
+typedef struct sheet_lie {
+    sheet_place octaves[2];
+    float       finer;     /* share of the second octave; 0: there is one only */
+    float       begin[2];  /* of each octave, what is to be added to u where it begins again */
+    float       begun;     /* share of the pieces that do */
+    sheet_place pieces;    /* from pixels to what tells pieces apart: those begin whose contact there is less than the share */
+} sheet_lie;
+
+/* A function of the view alone. */
+sheet_lie sheet_lay(const sheet_values *values, const sheet_view *view);
 
 #endif

@@ -3,16 +3,16 @@
 uniform vec4 u_sheet;         /* the ground, linear, premultiplied */
 uniform vec4 u_paper_place;   /* from pixels to the paper: turn and size, shift */
 uniform vec4 u_paper_finer;   /* the same for the next octave */
-uniform float u_paper_share;  /* of that */
+uniform vec4 u_paper_pieces;  /* and for what tells its pieces apart */
+uniform vec4 u_paper_shares;  /* of the finer octave; of the pieces that begin again; how far those are shifted, of each octave */
 
 const float FAINTEST = 3.0; /* n of the faintest ink on the deepest paper */
 
-vec2 paper_at(vec4 place, vec2 pixel)
+vec2 paper_at(vec4 place, vec2 pixel, float shift)
 {
-    return texture(t_paper, vec3(place.x * pixel + place.y * vec2(-pixel.y, pixel.x) + place.zw, 0.0)).rg;
+    return texture(t_paper, vec3(place.x * pixel + place.y * vec2(-pixel.y, pixel.x) + place.zw + vec2(shift, 0.0), 0.0)).rg;
 }
 
-#if MOTION == 2
 /* Two octaves as one: the share of the sheet where their weighted sum is less. */
 float together(vec2 contacts, float share)
 {
@@ -20,15 +20,19 @@ float together(vec2 contacts, float share)
     float ends = 0.5 / (least * most);
     return x < least ? x * x * ends : x > most ? 1.0 - y * y * ends : (x - 0.5 * least) / most;
 }
-#endif
 
 /* Contact, and light of the bare sheet. */
 vec2 paper_here(vec2 pixel)
 {
-    vec2 here = paper_at(u_paper_place, pixel);
+    float begins = 0.0;
+#if MOTION > 0
+    if (u_paper_shares.y > 0.0)
+        begins = float(paper_at(u_paper_pieces, pixel, 0.0).x < u_paper_shares.y);
+#endif
+    vec2 here = paper_at(u_paper_place, pixel, begins * u_paper_shares.z);
 #if MOTION == 2
-    vec2 finer = paper_at(u_paper_finer, pixel);
-    here = vec2(together(vec2(here.x, finer.x), u_paper_share), mix(here.y, finer.y, u_paper_share));
+    vec2 finer = paper_at(u_paper_finer, pixel, begins * u_paper_shares.w);
+    here = vec2(together(vec2(here.x, finer.x), u_paper_shares.x), mix(here.y, finer.y, u_paper_shares.x));
 #endif
     return vec2(here.x * (255.0 / 256.0) + 0.5 / 256.0, here.y);
 }

@@ -61,28 +61,48 @@ const kind kind_finish = {
 /* --- where the paper lies ------------------------------------------------------------------------------------------ */
 
 static const double TURN = 6.283185307179586477;
+static const double END = 0.5;          /* radians before and after the half turn in which the paper begins again */
+static const double PIECE = 0.3;        /* size of a grain over that of a piece */
 
-/* A sheet of `tiles` a pixel that rolls along like a ball of `radius` pixels, whose way around is a whole number of sheets so that a full turn ends where it
- * began. */
-static sheet_place lay_rolling(const sheet_view *view, double tiles, double radius, double shift)
+static float fraction(double value)
 {
-    double a = tiles * cos(view->roll), b = -tiles * sin(view->roll), around = fmax(round(TURN * radius * tiles), 1) / TURN;
-    double u = around * view->azimuth + shift - (a * view->anchor[0] - b * view->anchor[1]);
-    double v = around * view->elevation + shift - (b * view->anchor[0] + a * view->anchor[1]);
-    return (sheet_place){(float)a, (float)b, (float)(u - floor(u)), (float)(v - floor(v))};
+    return (float)(value - floor(value));
 }
 
-float sheet_lay(const sheet_values *values, const sheet_view *view, sheet_place out[2])
+/* A sheet of `tiles` a pixel that has gone so far from the middle of the model. */
+static sheet_place lay_at(const sheet_view *view, double tiles, double u, double v)
 {
-    double tiles = (double)PAPER_TEXELS_A_GRAIN / PAPER_SIDE / (double)values->grain_size;
-    out[0] = out[1] = (sheet_place){.a = (float)tiles};
+    double a = tiles * cos(view->roll), b = -tiles * sin(view->roll);
+    u -= a * view->anchor[0] - b * view->anchor[1];
+    v -= b * view->anchor[0] + a * view->anchor[1];
+    return (sheet_place){(float)a, (float)b, fraction(u), fraction(v)};
+}
+
+/* One octave, which rolls along like a ball of `radius` pixels. Its number shifts it, so that it is not the next one magnified. */
+static void roll_octave(sheet_lie *out, int index, const sheet_view *view, double tiles, double radius, double number)
+{
+    double around = radius * tiles, shift = 0.381966 * number, azimuth = view->azimuth;
+    if (azimuth < END - TURN / 2)
+        azimuth += TURN;
+    out->octaves[index] = lay_at(view, tiles, around * azimuth + shift, around * view->elevation + shift);
+    out->begin[index] = fraction(-TURN * around);
+    out->begun = (float)fmax((azimuth - (TURN / 2 - END)) / (2 * END), 0);
+}
+
+sheet_lie sheet_lay(const sheet_values *values, const sheet_view *view)
+{
+    double    tiles = (double)PAPER_TEXELS_A_GRAIN / PAPER_SIDE / (double)values->grain_size;
+    sheet_lie out = {.octaves = {{.a = (float)tiles}, {.a = (float)tiles}}};
+    if (values->motion != SHEET_FIXED)
+        out.pieces = lay_at(view, tiles * PIECE, 0, 0);
     if (values->motion == SHEET_FOLLOWING)
-        out[0] = lay_rolling(view, tiles, view->radius * view->fitted, 0);
+        roll_octave(&out, 0, view, tiles, view->radius * view->fitted, 0);
     if (values->motion != SHEET_ZOOMING)
-        return 0;
-    /* Octave k has k times twice as many tiles a unit. Its number shifts it, so that it is not the next one magnified. */
+        return out;
+    /* Octave k has 2ᵏ times as many tiles a unit of the model. */
     double octave = log2(view->scale / view->fitted), coarse = floor(octave);
     for (int k = 0; k < 2; k++)
-        out[k] = lay_rolling(view, tiles * exp2(coarse + k - octave), view->radius * view->scale, 0.381966 * (coarse + k));
-    return (float)(octave - coarse);
+        roll_octave(&out, k, view, tiles * exp2(coarse + k - octave), view->radius * view->scale, coarse + k);
+    out.finer = (float)(octave - coarse);
+    return out;
 }
