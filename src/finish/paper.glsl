@@ -42,8 +42,6 @@ vec4 on_paper(vec4 page, vec2 pixel)
     vec2 here = paper_here(pixel);
     page.rgb = clamp(page.rgb, 0.0, page.a);
     vec4 more = page - u_sheet;
-    /* The ground is rounded where the page keeps it; that is no ink. */
-    more *= float(any(greaterThan(abs(more), u_sheet * 0.001)));
     vec4 room = mix(1.0 - u_sheet, u_sheet, vec4(lessThan(more, vec4(0.0))));
     vec4 shares = abs(more) / max(room, 1e-4);
     float ink = clamp(max(max(shares.r, shares.g), max(shares.b, shares.a)), 1e-4, 1.0);

@@ -142,9 +142,10 @@ static void bare_paper_is_its_ground(void)
         for (int kind = 1; kind < KINDS; kind++)
             for (int samples = 1; samples <= 4; samples += 3) {
                 shot without, with;
-                if (!take(&without, (wanted){.samples = samples, .ink = "#777777", .ground = grounds[g], .keys = ""}))
+                const char *ink = g == 2 ? "#a0a0a0" : g == 4 ? "#909090" : g >= 5 ? "#88a87840" : "#88a878";
+                if (!take(&without, (wanted){.samples = samples, .ink = ink, .ground = grounds[g], .keys = ""}))
                     return;
-                if (take(&with, (wanted){.paper = kind, .samples = samples, .ink = "#777777", .ground = grounds[g], .keys = ",\"relief\":0"})) {
+                if (take(&with, (wanted){.paper = kind, .samples = samples, .ink = ink, .ground = grounds[g], .keys = ",\"grain\":1,\"relief\":0"})) {
                     check_that("P28", same_pixels(&without, &with, SIDE * 3 / 4, SIDE / 4), "%s, %s, %d samples: bare paper is the ground to the byte", paper_names[kind], grounds[g],
                                samples);
                     check_at_least("P28", shot_differing(&without, &with, 8), SIDE * SIDE / 4, "pixels of ink that it changes");
@@ -181,7 +182,7 @@ static void tones_stay(void)
     for (int k = 0; k < 4; k++)
         for (int kind = 1; kind < KINDS; kind++) {
             double mid = 0, full = 0;
-            for (int i = 1; i <= 20; i++) {
+            for (int i = 2; i <= 20; i += 2) {
                 double ink;
                 shot   s;
                 if (!take(&s, (wanted){.paper = kind, .ink = grey(i / 20.0, &ink), .ground = "#ffffff", .keys = cases[k].keys}))
@@ -194,6 +195,39 @@ static void tones_stay(void)
             check_at_most("P28", mid, cases[k].mid, "%s%s: mean ink off, up to half ink", paper_names[kind], cases[k].keys);
             check_at_most("P28", full, cases[k].full, "up to full ink");
         }
+}
+
+/* Between its ground and the strongest ink of its hue: differences from the ground keep their proportions, whatever the grain makes of them. */
+static void ink_keeps_its_hue(void)
+{
+    static const struct {
+        const char *ink, *ground;
+    } cases[] = {{"#d04020", "#ffffff"}, {"#70a0d0", "#f4ecd8"}, {"#f0c040", "#20283c"}};
+    for (int k = 0; k < 3; k++) {
+        shot   plain, grained;
+        double off = 0;
+        int    at = SIDE / 2 * SIDE + 7, bare = (SIDE - 2) * SIDE + 7;
+        if (!take(&plain, (wanted){.ink = cases[k].ink, .ground = cases[k].ground, .keys = ""}))
+            return;
+        if (take(&grained, (wanted){.paper = PAPER_ROUGH, .ink = cases[k].ink, .ground = cases[k].ground, .keys = ",\"grain\":1,\"pressure\":0.8"})) {
+            double wanted[3], ground[3], size = 0;
+            for (int c = 0; c < 3; c++) {
+                ground[c] = picture_linear(plain.picture[4 * bare + c]);
+                wanted[c] = picture_linear(plain.picture[4 * at + c]) - ground[c];
+                size += wanted[c] * wanted[c];
+            }
+            for (int i = 0; i < SIDE * SIDE * 3 / 4; i++) {
+                double along = 0;
+                for (int c = 0; c < 3; c++)
+                    along += (picture_linear(grained.picture[4 * i + c]) - ground[c]) * wanted[c] / size;
+                for (int c = 0; c < 3; c++)
+                    off = fmax(off, fabs(picture_linear(grained.picture[4 * i + c]) - ground[c] - along * wanted[c]));
+            }
+            check_at_most("P28", off, 0.01, "%s on %s: how far a pixel is off the line from its ground through its ink", cases[k].ink, cases[k].ground);
+            shot_release(&grained);
+        }
+        shot_release(&plain);
+    }
 }
 
 static void more_ink_gives_more(void)
@@ -491,6 +525,40 @@ static void paper_depends_on_the_view_alone(void)
     shape_release(&model);
 }
 
+/* All around in steps of half a degree there is no jump. */
+static void paper_never_jumps(void)
+{
+    static const char *const motions[] = {"following", "zooming"};
+    shape model = {0};
+    shape_sphere(&model, "ball", dvec_of(0, 0, 0), 1, 24, 48, true);
+    for (int m = 0; m < 2; m++) {
+        shot   before = {0}, now;
+        char   look[400];
+        double most = 0, sum = 0;
+        int    at = 0;
+        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain_size\":8,\"motion\":\"%s\"},\"rules\":[{\"surface\":{\"technique\":\"flat\","
+                                    "\"colour\":\"#bbbbbb\"}}]}", motions[m]);
+        for (int i = 0; i <= 720; i++) {
+            shot_view view = view_at((stand){i * 0.5, 10, 5, 0, 0});
+            view.width = view.height = 96;
+            view.without_maps = true;
+            if (!shot_of_shape(&now, &model, "around.glb", look, NULL, &view))
+                break;
+            if (i) {
+                double step = halftone_difference(&before, &now);
+                at = step > most ? i : at;
+                most = fmax(most, step);
+                sum += step / 720;
+                shot_release(&before);
+            }
+            before = now;
+        }
+        shot_release(&before);
+        check_at_most("P28", most, 2.5 * sum, "%s: the largest change in half a degree (at %.1f) against the mean one of all around", motions[m], at * 0.5);
+    }
+    shape_release(&model);
+}
+
 /* Mean size of steps from pixel to pixel on the model: how fine the grain is. */
 static double steps_of(const shot *s)
 {
@@ -539,12 +607,14 @@ int main(int argc, char **argv)
                                        {"bare", bare_paper_is_its_ground},
                                        {"grainless", no_grain_is_no_paper},
                                        {"tones", tones_stay},
+                                       {"hue", ink_keeps_its_hue},
                                        {"more", more_ink_gives_more},
                                        {"samples", samples_and_size_do_not_matter},
                                        {"transparent", transparent_pages_keep_their_ink},
                                        {"relief", relief_shows_on_bare_paper},
                                        {"motion", paper_goes_with_the_model},
                                        {"round", paper_depends_on_the_view_alone},
+                                       {"jumps", paper_never_jumps},
                                        {"zoom", grain_stays_as_fine_when_nearer}};
     halftone_begin();
     int status = check_main(argc, argv, "paper", cases, sizeof cases / sizeof *cases);
