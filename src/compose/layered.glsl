@@ -109,8 +109,11 @@ void main()
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(place));
-        depth = min(depth, line_depth);
-        ink = over(own_ink, ink);
+#ifdef HAS_FOCUS
+        own_ink *= in_focus_of_window(line_depth);
+#endif
+        depth = min(depth, depth_of_copy(line_depth, own_ink));
+        ink = join_ink(ink, own_ink, i);
     }
 #endif
     vec4 colour = ink + fill * (fill_share() * (1.0 - ink.a));

@@ -1,5 +1,8 @@
 /* Where a composition looks the figure's maps up: at the pixel itself, unless a technique of the kind "perturb" says otherwise; its file
  * then comes first and has these functions. Integer places are the centres of pixels. */
+#ifdef HAS_FOCUS
+#include "light/focus.glsl"
+#endif
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;
@@ -32,6 +35,14 @@ vec4 copy_ink(vec4 ink, int i)
 float fill_share()
 {
     return 1.0;
+}
+#endif
+
+#ifndef JOINS_INK
+/* The nearer of all that is looked up has the pixel; seed 003, section 4.4. */
+float depth_of_copy(float depth, vec4 ink)
+{
+    return depth;
 }
 #endif
 

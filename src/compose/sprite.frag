@@ -58,16 +58,21 @@ void main()
         vec4 own_ink = copy_ink(ink_at(place), i);
 #ifdef PERTURBED
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
+#ifndef FILL_STAYS
         int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
         for (int once = 0; once < bare; once++)
             fill = fallback_of(texelFetch(t_shade, pixel_at(place), 0).a);
+#endif
 #else
         int search = line_depth >= 1.0 && max(own_ink.a, fill.a) > 0.0 ? 1 : 0;
 #endif
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(place));
-        depth = min(depth, line_depth);
-        ink = over(own_ink, ink);
+#ifdef HAS_FOCUS
+        own_ink *= in_focus_of_window(line_depth);
+#endif
+        depth = min(depth, depth_of_copy(line_depth, own_ink));
+        ink = join_ink(ink, own_ink, i);
     }
 #endif
 #ifdef PERTURBED

@@ -72,15 +72,26 @@ static void set_part_frames(frame *f, const figure_state *s)
     gpu_set_int(f->g, "u_only_part", only);
 }
 
+static void set_numbers(frame *f, const technique_use *use)
+{
+    float numbers[PERTURB_NUMBERS_MAX][4];
+    size_t count = use->technique->perturbs->numbers(use->values, f->seed, f->width, f->height, numbers);
+    gpu_set_vec4_array(f->g, "u_numbers", numbers[0], (int)count);
+}
+
 /* What the coarse pictures of a perturbation are measured in. */
 static void set_field(frame *f, const figure_state *s)
 {
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
     const perturbation *p = use->technique->perturbs;
-    int size[2];
-    coarse_size(f, s, size);
-    gpu_set_float(f->g, "u_cell", p->cell(use->values));
-    gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
+    if (p->numbers && gpu_has_uniform(f->g, "u_numbers"))
+        set_numbers(f, use);
+    if (p->cell) {
+        int size[2];
+        coarse_size(f, s, size);
+        gpu_set_float(f->g, "u_cell", p->cell(use->values));
+        gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
+    }
     gpu_set_float(f->g, "u_reach", fmaxf(p->reach(use->values), 1));
     gpu_set_uint(f->g, "u_seed", p->seed(use->values, f->seed, f->time_s));
     /* What the pictures of normals and depth were cleared to. */
@@ -93,6 +104,16 @@ static float forward_of(const frame *f, const figure *fig)
 {
     double far = f->camera.far, range = far - f->camera.near;
     return fig->ghostly && range > 0 ? (float)fmin(2e-6 + 5e-7 * far / range, 1e-3) : 0;
+}
+
+/* The range is that of all that is drawn, so that figures agree. */
+static void set_focus(frame *f)
+{
+    const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
+    double range = fmax(farthest - nearest, 1e-30);
+    gpu_set_vec4(f->g, "u_focus", (float[]){v->focus, (float)(nearest + (double)v->focus_at * range), (float)(1 / ((double)v->focus_depth * range)), 0});
 }
 
 void frame_set_common(frame *f, const figure_state *s)
@@ -123,6 +144,8 @@ void frame_set_common(frame *f, const figure_state *s)
         lights_set(f);
     if (gpu_has_uniform(g, "u_cut_lines"))
         set_cut(f);
+    if (gpu_has_uniform(g, "u_focus"))
+        set_focus(f);
 }
 
 /* The normal matrix in single precision is scaled so that it neither over- nor underflows. */
@@ -302,6 +325,8 @@ static void declare_id_bits(text *prelude)
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     declare_id_bits(prelude);
+    if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
+        text_append(prelude, "#define HAS_FOCUS\n");
     char *finished = text_take(prelude);
     gpu_program *p = finished ? gpu_program_of(f->g, dialect, vertex, fragment, finished) : NULL;
     if (!finished)

@@ -47,6 +47,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         const technique_use *lines = rule_inked_lines(s->figure->rule);
         if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
             text_append(&prelude, "#define BROAD_LINES\n");
+        used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->perturb_textures);
         snprintf(path, sizeof path, "%s+%s", params->perturbed->places, p->shader);
     }
     return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
@@ -124,6 +125,8 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
+        if (params->perturbed && page)
+            used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->perturb_textures);
         gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
         if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
@@ -274,7 +277,7 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
             s->targets[TARGET_NORMAL_DEPTH] = s->geometry;
         }
     }
-    if (f->maps && id == KIND_PERTURB && rule_use(r, id)) {
+    if (f->maps && id == KIND_PERTURB && rule_use(r, id) && rule_use(r, id)->technique->perturbs->map) {
         const technique_use *use = rule_use(r, id);
         run_pass(f, s, use->technique->perturbs->map, &(pass_params){.sets = {use_own_set(id, use)}, .count = 1}, kinds[id]->name, 0);
         collect_uncertainty(f, s);
