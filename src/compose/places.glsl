@@ -38,14 +38,6 @@ float fill_share()
 }
 #endif
 
-#ifndef JOINS_INK
-/* The nearer of all that is looked up has the pixel; seed 003, section 4.4. */
-float depth_of_copy(float depth, vec4 ink)
-{
-    return depth;
-}
-#endif
-
 /* The pixel at a place. */
 ivec2 pixel_at(vec2 place)
 {

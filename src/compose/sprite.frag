@@ -26,6 +26,10 @@ float own_depth(ivec2 at)
 #include "compose/reach.glsl"
 #endif
 
+#if defined(HAS_LINES) && defined(JOINS_INK)
+#include "compose/joined.glsl"
+#endif
+
 #ifdef PERTURBED
 /* Paper where the fill fell short of the outline, and under the grains that it leaves bare; not where a surface has none. What stands behind is
  * hidden by it. Seed 000, section 6.4. */
@@ -52,17 +56,18 @@ void main()
 #ifdef MERGED
     detect_edges();
 #endif
+#ifdef JOINS_INK
+    ink = ink_of_copies(depth);
+#else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
         vec2 place = line_place(i);
         float line_depth = own_depth(pixel_at(place));
         vec4 own_ink = copy_ink(ink_at(place), i);
 #ifdef PERTURBED
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
-#ifndef FILL_STAYS
         int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
         for (int once = 0; once < bare; once++)
             fill = fallback_of(texelFetch(t_shade, pixel_at(place), 0).a);
-#endif
 #else
         int search = line_depth >= 1.0 && max(own_ink.a, fill.a) > 0.0 ? 1 : 0;
 #endif
@@ -71,9 +76,10 @@ void main()
 #ifdef HAS_FOCUS
         own_ink *= in_focus_of_window(line_depth);
 #endif
-        depth = min(depth, depth_of_copy(line_depth, own_ink));
-        ink = join_ink(ink, own_ink, i);
+        depth = min(depth, line_depth);
+        ink = over(own_ink, ink);
     }
+#endif
 #endif
 #ifdef PERTURBED
     fill = mix(fallback_of(fill.a), fill, fill_share());

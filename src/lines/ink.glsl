@@ -39,14 +39,6 @@ vec4 over(vec4 front, vec4 back)
     return front + back * (1.0 - front.a);
 }
 
-/* What repetitions add up to, those drawn first at the bottom; called from the last one to the first. A perturbation may have its own. */
-#ifndef JOINS_INK
-vec4 join_ink(vec4 sum, vec4 own, int i)
-{
-    return over(own, sum);
-}
-#endif
-
 vec4 ink_of(vec4 edge, vec4 colour, vec4 inner_colour, vec4 id_colour)
 {
     float profile = clamp((1.0 - edge.r) * u_line_profile_weight, 0.0, 1.0) * colour.a;

@@ -6,7 +6,6 @@ uniform vec2 u_size;
 
 #define LINE_COPIES (DARK + LIGHT)
 #define JOINS_INK
-#define FILL_STAYS
 
 uniform vec4 u_numbers[2 * LINE_COPIES + 1]; /* numbers_of in pencil.c */
 
@@ -86,16 +85,6 @@ vec2 line_place(int i)
     return s_place + rest.z * sway - rest.xy;
 }
 
-float depth_of_copy(float depth, vec4 ink)
-{
-    return ink.a > 0.0 ? depth : 1.0;
-}
-
-vec4 copy_ink(vec4 ink, int i)
-{
-    return ink;
-}
-
 /* Shown grey to light. */
 float light_of_grey(float grey)
 {
@@ -111,12 +100,14 @@ void read_graphite()
 #endif
 }
 
+vec4 ink_of_mean(vec4 mean);
+
 /* Both groups as ink: light lines fade as if noise were bleached into them (Screen), and of both groups the darker one is seen (Darken). */
-vec4 joined()
+vec4 groups_joined()
 {
     read_graphite();
-    vec4 light = s_light * (u_perturb_sketch * (1.0 - s_fading));
-    vec4 dark = s_dark;
+    vec4 light = ink_of_mean(s_light / float(max(LIGHT, 1))) * (u_perturb_sketch * (1.0 - s_fading));
+    vec4 dark = ink_of_mean(s_dark / float(max(DARK, 1)));
 #ifdef WITH_PRESSURE
     dark *= 1.0 - u_perturb_pressure * (1.0 - s_fading);
 #endif
@@ -125,19 +116,20 @@ vec4 joined()
     return ink * ((1.0 - light_of_grey(1.0 - seen)) / max(ink.a, 1e-4));
 }
 
-vec4 join_ink(vec4 sum, vec4 own, int i)
+vec4 joined_ink()
 {
-    if (i >= DARK)
-        s_light += own * (1.0 / float(max(LIGHT, 1)));
-    else
-        s_dark += own * (1.0 / float(max(DARK, 1)));
-#if DARK > 0
-    vec4 pencil_colour = u_perturb_colours[i % max(u_perturb_colours_count, 1)];
-    s_through *= i < DARK ? mix(vec3(1.0), pencil_colour.rgb, own.a * pencil_colour.a) : vec3(1.0);
-#endif
     vec4 ink = vec4(0.0);
-    int last = i == 0 && max(s_dark.a, s_light.a) > 0.0 ? 1 : 0;
-    for (int once = 0; once < last; once++)
-        ink = joined();
+    vec4 sum = s_dark + s_light;
+    int drawn = sum.r + sum.g + sum.b + sum.a > 0.0 ? 1 : 0;
+    for (int once = 0; once < drawn; once++)
+        ink = groups_joined();
     return ink;
+}
+
+void join_copy(vec4 own, int i)
+{
+    if (i < DARK)
+        s_dark += own;
+    else
+        s_light += own;
 }
