@@ -88,7 +88,7 @@ static void set_field(frame *f, const figure_state *s)
         set_numbers(f, use);
     if (p->cell) {
         int size[2];
-        coarse_size(f, s, size);
+        coarse_size(f, s, TARGET_UNCERTAINTY, size);
         gpu_set_float(f->g, "u_cell", p->cell(use->values));
         gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
     }
@@ -114,6 +114,19 @@ static void set_focus(frame *f)
     camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
     double range = fmax(farthest - nearest, 1e-30);
     gpu_set_vec4(f->g, "u_focus", (float[]){v->focus, (float)(nearest + (double)v->focus_at * range), (float)(1 / ((double)v->focus_depth * range)), 0});
+}
+
+/* Where the middle of all that is drawn lies on the page, and how long a pixel is there: strokes on the page are tied to it. */
+static void set_anchor(frame *f)
+{
+    box3 box = f->plan->box;
+    const double *view = f->camera.view.m, *projection = f->camera.projection.m;
+    double middle[3] = {((double)box.min.x + (double)box.max.x) / 2, ((double)box.min.y + (double)box.max.y) / 2, ((double)box.min.z + (double)box.max.z) / 2}, eye[3];
+    for (int k = 0; k < 3; k++)
+        eye[k] = view[k] * middle[0] + view[4 + k] * middle[1] + view[8 + k] * middle[2] + view[12 + k];
+    double depth = f->camera.orthographic ? 1 : fmax(-eye[2], f->camera.near);
+    gpu_set_vec4(f->g, "u_anchor", (float[]){(float)((projection[0] * eye[0] / depth + 1) * f->width / 2), (float)((projection[5] * eye[1] / depth + 1) * f->height / 2),
+                                             (float)(2 * depth / (projection[5] * f->height)), 0});
 }
 
 void frame_set_common(frame *f, const figure_state *s)
@@ -146,6 +159,8 @@ void frame_set_common(frame *f, const figure_state *s)
         set_cut(f);
     if (gpu_has_uniform(g, "u_focus"))
         set_focus(f);
+    if (gpu_has_uniform(g, "u_anchor"))
+        set_anchor(f);
 }
 
 /* The normal matrix in single precision is scaled so that it neither over- nor underflows. */
@@ -207,7 +222,7 @@ static const gpu_format formats[TARGET_COUNT] = {
     [TARGET_NEARER] = GPU_RGBA16F,       [TARGET_DASH] = GPU_R8,             [TARGET_GROUND] = GPU_RGBA16F,
     [TARGET_ENLARGED] = GPU_RGBA32F,     [TARGET_TRACES] = GPU_RGBA32F,      [TARGET_TRACES_ROW] = GPU_RGBA32F,
     [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
-    [TARGET_DIRECTION] = GPU_RGBA16F,    [TARGET_DIRECTION_BEFORE] = GPU_RGBA16F,
+    [TARGET_DIRECTION] = GPU_RGBA16F,
     [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
 };
 
@@ -218,11 +233,16 @@ gpu_texture *frame_acquire(frame *f, target t)
 
 bool target_is_coarse(target t)
 {
-    return t == TARGET_TRACES || t == TARGET_TRACES_ROW || t == TARGET_UNCERTAINTY;
+    return t == TARGET_TRACES || t == TARGET_TRACES_ROW || t == TARGET_UNCERTAINTY || t == TARGET_DIRECTION;
 }
 
-void coarse_size(const frame *f, const figure_state *s, int out[2])
+void coarse_size(const frame *f, const figure_state *s, target t, int out[2])
 {
+    if (t == TARGET_DIRECTION) {
+        out[0] = (f->width + 1) / 2;
+        out[1] = (f->height + 1) / 2;
+        return;
+    }
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
     float cell = use->technique->perturbs->cell(use->values);
     /* One more, so that every pixel lies between two texels. */
@@ -235,7 +255,7 @@ gpu_texture *frame_acquire_for(frame *f, const figure_state *s, target t)
     if (!target_is_coarse(t))
         return frame_acquire(f, t);
     int size[2];
-    coarse_size(f, s, size);
+    coarse_size(f, s, t, size);
     return gpu_target_acquire(f->g, size[0], size[1], formats[t]);
 }
 
@@ -383,7 +403,7 @@ void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
     for (int i = 0; i < count; i++) {
         /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
         bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE || reads[i] == TARGET_FILTERED ||
-                      reads[i] == TARGET_UNCERTAINTY;
+                      reads[i] == TARGET_UNCERTAINTY || reads[i] == TARGET_DIRECTION;
         gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
     }
 }

@@ -568,6 +568,10 @@ void raster_shade_deferred(frame *f, figure_state *s)
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     used_textures_declare(&prelude, surface, &s->figure->textures);
     text_append(&prelude, "#define SHADED_LATER\n");
+    if (s->targets[TARGET_DIRECTION]) {
+        text_append(&prelude, "#define HAS_DIRECTION\n");
+        target_declare(&prelude, TARGET_DIRECTION);
+    }
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
     if (f->plan->has_cut)
@@ -586,6 +590,8 @@ void raster_shade_deferred(frame *f, figure_state *s)
         gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
         gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
         gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);
+        if (s->targets[TARGET_DIRECTION])
+            gpu_set_texture(f->g, "t_direction", s->targets[TARGET_DIRECTION], true);
         gpu_draw_screen(f->g);
     }
     watch_stop(f, w, "", "deferred shading");
