@@ -72,10 +72,12 @@ static void set_part_frames(frame *f, const figure_state *s)
     gpu_set_int(f->g, "u_only_part", only);
 }
 
-static void set_numbers(frame *f, const technique_use *use)
+void frame_set_numbers(frame *f, const technique_use *use)
 {
-    float numbers[PERTURB_NUMBERS_MAX][4];
-    size_t count = use->technique->perturbs->numbers(use->values, f->seed, f->width, f->height, numbers);
+    if (!use->technique->numbers || !gpu_has_uniform(f->g, "u_numbers"))
+        return;
+    float numbers[NUMBERS_MAX][4];
+    size_t count = use->technique->numbers(use->values, f->seed, f->width, f->height, numbers);
     gpu_set_vec4_array(f->g, "u_numbers", numbers[0], (int)count);
 }
 
@@ -84,8 +86,6 @@ static void set_field(frame *f, const figure_state *s)
 {
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
     const perturbation *p = use->technique->perturbs;
-    if (p->numbers && gpu_has_uniform(f->g, "u_numbers"))
-        set_numbers(f, use);
     if (p->cell) {
         int size[2];
         coarse_size(f, s, TARGET_UNCERTAINTY, size);

@@ -112,6 +112,8 @@ gpu_texture         *frame_acquire(frame *f, target t);
 gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
 bool                 target_is_coarse(target t);
 void                 coarse_size(const frame *f, const figure_state *s, target t, int out[2]);
+/* What a technique works out once for all pixels. */
+void                 frame_set_numbers(frame *f, const technique_use *use);
 void                 frame_set_common(frame *f, const figure_state *s);
 /* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
 void frame_set_transform(frame *f, const mat4 *world);

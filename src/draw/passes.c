@@ -125,8 +125,10 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
-        if (params->perturbed && page)
+        if (params->perturbed && page) {
             used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->perturb_textures);
+            frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
+        }
         gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
         if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);

@@ -119,12 +119,12 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
 static const texture_source textures[] = {{.name = "graphite", .describe = describe, .make = make}};
 
 static const perturbation perturbs = {
-    .places = "perturb/pencil.glsl", .active = is_active, .reach = reach_of, .seed = seed_of, .numbers = numbers_of,
+    .places = "perturb/pencil.glsl", .active = is_active, .reach = reach_of, .seed = seed_of,
 };
 
 const technique perturb_pencil = {
     .name = "pencil", .doc = "Lines restated several times, over a faint first sketch.",
     .example = "{\"perturb\": {\"technique\": \"pencil\", \"texture\": 0.3}, \"lines\": \"discontinuity\", \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(pencil),
-    .perturbs = &perturbs, .textures = textures, .texture_count = PARAM_COUNT(textures),
+    .perturbs = &perturbs, .numbers = numbers_of, .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

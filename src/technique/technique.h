@@ -45,7 +45,7 @@ typedef enum target {
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 11 };
+enum { PASS_READS_MAX = 11, NUMBERS_MAX = 96 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
@@ -87,8 +87,6 @@ typedef struct mesh_wishes {
 
 struct pass;
 
-enum { PERTURB_NUMBERS_MAX = 96 };
-
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
     /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl. With BROAD_LINES also
@@ -98,8 +96,6 @@ typedef struct perturbation {
     float     (*reach)(const void *values);  /* how far it moves anything, pixels */
     float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
     uint32_t  (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
-    /* Numbers that are the same for every pixel, into vec4 u_numbers[]; returns how many, at most PERTURB_NUMBERS_MAX. NULL: none. */
-    size_t    (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
     const struct pass *map; /* writes TARGET_FIELD; NULL: there is none */
 } perturbation;
 
@@ -142,6 +138,8 @@ typedef struct technique {
     bool       (*by_material)(void *values, const char *strokes);
     const texture_source *textures; /* surface: what it makes on the CPU */
     size_t       texture_count;
+    /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how many, at most NUMBERS_MAX. NULL: nothing. */
+    size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
     const perturbation *perturbs; /* perturb: how lookups are moved */
 } technique;
 
