@@ -116,7 +116,7 @@ static void set_focus(frame *f)
     gpu_set_vec4(f->g, "u_focus", (float[]){v->focus, (float)(nearest + (double)v->focus_at * range), (float)(1 / ((double)v->focus_depth * range)), 0});
 }
 
-/* Where the middle of all that is drawn lies on the page, and how long a pixel is there: strokes on the page are tied to it. */
+/* Where the middle of all that is drawn lies on the page: strokes on the page move with it. */
 static void set_anchor(frame *f)
 {
     box3 box = f->plan->box;
@@ -125,8 +125,7 @@ static void set_anchor(frame *f)
     for (int k = 0; k < 3; k++)
         eye[k] = view[k] * middle[0] + view[4 + k] * middle[1] + view[8 + k] * middle[2] + view[12 + k];
     double depth = f->camera.orthographic ? 1 : fmax(-eye[2], f->camera.near);
-    gpu_set_vec4(f->g, "u_anchor", (float[]){(float)((projection[0] * eye[0] / depth + 1) * f->width / 2), (float)((projection[5] * eye[1] / depth + 1) * f->height / 2),
-                                             (float)(2 * depth / (projection[5] * f->height)), 0});
+    gpu_set_vec2(f->g, "u_anchor", (float)((projection[0] * eye[0] / depth + 1) * f->width / 2), (float)((projection[5] * eye[1] / depth + 1) * f->height / 2));
 }
 
 void frame_set_common(frame *f, const figure_state *s)

@@ -34,11 +34,28 @@ vec2 turn_of_degrees(float degrees)
     return vec2(cosine, sine);
 }
 
+/* Ink of the strokes on a plane. On the page they are as large as they were made; on surfaces two sizes hand over to each other as one comes nearer. */
+float strokes_at(stroke_plane s, float darkness, vec2 start)
+{
+#if defined(HAS_FORM) || COORDINATES == 2
+    return map_ink(s.at / (u_tones_facts.x * u_scale) + start, 0.0, darkness);
+#else
+    float level = screen_level(s, u_tones_facts.x, u_scale), bare = 1.0;
+    for (int k = 0; k < 2; k++) {
+        screen_octave o = octave_of(s, level, k, -1e9, false);
+        int used = o.weight > 0.01 ? 1 : 0;
+        for (int once = 0; once < used; once++)
+            bare *= 1.0 - map_ink(s.at * o.scale + start, o.level, darkness_of_share(darkness, o.weight));
+    }
+    return 1.0 - bare;
+#endif
+}
+
 /* Share of the paper that one time over covers. Row P36: each turns and starts elsewhere, so that what is seen of one's seams others cover. */
 float cover_of(float darkness, int overlay)
 {
     float share = OVERLAYS > 1 ? float(overlay) / float(OVERLAYS) : 0.0;
-#if COORDINATES > 5
+#ifdef HAS_FORM
     s_between = share;
 #endif
     vec2 turn = turns_added(u_angle, turn_of_degrees(u_vary * (OVERLAYS > 1 ? 2.0 * float(overlay) / float(OVERLAYS - 1) - 1.0 : 0.0)));
@@ -46,16 +63,8 @@ float cover_of(float darkness, int overlay)
     for (int i = 0; i < PLANES; i++) {
         stroke_plane s = plane_of(s_point, s_rest, i, turn);
         int there = s.weight > 0.01 ? 1 : 0;
-        for (int once = 0; once < there; once++) {
-            float level = screen_level(s, u_tones_facts.x, u_scale);
-            vec2 start = vec2(0.37, 0.61) * float(overlay + OVERLAYS * int(s.key & 15u));
-            for (int k = 0; k < 2; k++) {
-                screen_octave o = octave_of(s, level, k, -1e9, false);
-                int used = o.weight > 0.01 ? 1 : 0;
-                for (int again = 0; again < used; again++)
-                    bare *= 1.0 - map_ink(s.at * o.scale + start, o.level, darkness_of_share(min(darkness, u_tones_facts.w), s.weight * o.weight));
-            }
-        }
+        for (int once = 0; once < there; once++)
+            bare *= 1.0 - strokes_at(s, darkness_of_share(min(darkness, u_tones_facts.w), s.weight), vec2(0.37, 0.61) * float(overlay + OVERLAYS * int(s.key & 15u)));
     }
     return 1.0 - bare;
 }

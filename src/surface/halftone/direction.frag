@@ -73,8 +73,9 @@ void main()
     float apart = length(doubled), mean = 0.5 * (shape.x + shape.z);
     float unlike = apart / (apart + abs(mean) + 1e-20);
     float pixel_length = 2.0 * u_unproject.y / u_size.y * (u_perspective > 0.5 ? own.w : 1.0);
-    /* A normal that turns by less than this from pixel to pixel does not turn. */
-    float sure = unlike * smoothstep(2e-5, 2e-4, (apart + abs(mean)) * pixel_length);
+    /* A normal that hardly turns from pixel to pixel does not turn; one that turns very much is an edge's, which has no room for strokes of its own. */
+    float turn = (apart + abs(mean)) * pixel_length;
+    float sure = unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.05, 0.12, turn));
     vec2 way = apart > 0.0 ? doubled * ((mean < 0.0 ? -1.0 : 1.0) / apart) : vec2(1.0, 0.0);
     vec2 bent = on_page(origin, tangent_of(way, frame));
     part_frame part = frame_of_part(id.r);
