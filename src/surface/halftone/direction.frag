@@ -82,5 +82,6 @@ void main()
     mat3 to_part = part.turn * mat3(u_world_from_eye);
     vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward) * to_part);
     float there = id.r == 0u ? 0.0 : 1.0;
-    out_0 = vec4((bent * sure + plain * (0.05 * (1.0 - sure))) * there, 0.0, there);
+    /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a way of their own. */
+    out_0 = vec4((bent * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure)))) * there, 0.0, there);
 }

@@ -66,7 +66,7 @@ vec2 way_on_page(surface_point p, vec3 rest_normal, vec3 upward)
     vec2 doubled = vec2(dot(frame[0], turned), dot(frame[1], turned));
     float sure = length(doubled);
     vec2 plain = on_page(p.eye, plain_tangent(rest_normal, upward) * turn_to_rest());
-    return sure > 0.0 ? on_page(p.eye, tangent_of(doubled / sure, frame)) * sure + plain * (0.05 * max(1.0 - sure, 0.0)) : plain;
+    return sure > 0.0 ? on_page(p.eye, tangent_of(doubled / sure, frame)) * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure))) : plain;
 #endif
 }
 
