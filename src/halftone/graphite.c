@@ -14,7 +14,7 @@ const char *const lead_grade_names[LEAD_COUNT + 1] = {"6H", "5H", "4H", "3H", "2
 float lead_darkest(lead_grade grade)
 {
     float soft = (float)grade / (float)(LEAD_COUNT - 1);
-    return 0.36f + 0.59f * (1 - (1 - soft) * (1 - soft) * (0.55f + 0.45f * (1 - soft)));
+    return 0.36f + 0.59f * (1 - (1 - soft) * sqrtf(1 - soft));
 }
 
 float lead_ink(lead_grade grade)

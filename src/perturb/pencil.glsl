@@ -6,6 +6,7 @@ uniform vec2 u_size;
 
 #define LINE_COPIES (DARK + LIGHT)
 #define JOINS_INK
+#undef BROAD_LINES
 
 uniform vec4 u_numbers[2 * LINE_COPIES + 1]; /* numbers_of in pencil.c */
 
@@ -16,15 +17,15 @@ float s_bare;
 float s_fading; /* noise, 0 … 1 */
 float s_streak;
 vec4  s_dark, s_light;
-vec3  s_through; /* what coloured pencils let through */
 
-/* Sine of an angle up to some hundred radians, within 0.0011. */
+/* Sine of an angle up to some hundred radians, within 0.00002. */
 vec2 near_sine(vec2 angle)
 {
     vec2 turn = angle * 0.15915494 + 0.5;
-    turn = (turn - floor(turn)) * 2.0 - 1.0; /* −1 … 1, half a turn on */
-    vec2 arch = 4.0 * turn * (1.0 - abs(turn));
-    return -arch * (0.775 + 0.225 * abs(arch)) * -1.0;
+    turn = (turn - floor(turn)) * 2.0 - 1.0; /* in half turns, −1 … 1 */
+    turn -= sign(turn) * max(2.0 * abs(turn) - 1.0, vec2(0.0)); /* the same sine in −1/2 … 1/2 */
+    vec2 square = turn * turn;
+    return turn * (3.1415904 + square * (-5.1676023 + square * (2.5442290 + square * -0.5557037)));
 }
 
 #ifdef WITH_OVERRUN
@@ -52,7 +53,6 @@ void find_places(ivec2 pixel)
     s_place = vec2(pixel);
     s_share = (s_place + 0.5) / u_size;
     s_dark = s_light = vec4(0.0);
-    s_through = vec3(1.0);
     s_fading = s_streak = 1.0;
     s_bare = 1.0;
     s_fill = s_place;
@@ -85,10 +85,10 @@ vec2 line_place(int i)
     return s_place + rest.z * sway - rest.xy;
 }
 
-/* Shown grey to light. */
+/* Shown grey to light, the sRGB curve within 0.8/255 of what is shown; exact for white. */
 float light_of_grey(float grey)
 {
-    return grey * (grey * (grey * 0.305306011 + 0.682171111) + 0.012522878);
+    return grey * (0.05929177 + grey * (0.31961537 + grey * (1.23331372 + grey * (-0.96944738 + grey * 0.35722652))));
 }
 
 void read_graphite()
@@ -100,7 +100,27 @@ void read_graphite()
 #endif
 }
 
+/* The composition's: compose/joined.glsl. */
+vec4 averaged_at(vec2 place, int i);
 vec4 ink_of_mean(vec4 mean);
+
+/* Darkness of displayed grey to a share of light. */
+float share_of_darkness(float darkness)
+{
+    return 1.0 - light_of_grey(1.0 - darkness);
+}
+
+/* Row P34: coloured copies lie over each other, each takes its colour away from what comes through. As ink over white paper. */
+vec4 coloured_ink(float darkest)
+{
+    vec3 through = vec3(1.0);
+    for (int i = 0; i < DARK; i++) {
+        vec4 pencil = u_perturb_colours[i % max(u_perturb_colours_count, 1)];
+        through *= 1.0 - (1.0 - pencil.rgb) * (share_of_darkness(ink_of_mean(averaged_at(line_place(i), i)).a * darkest) * pencil.a);
+    }
+    float bare = min(through.r, min(through.g, through.b));
+    return vec4(through - bare, 1.0 - bare);
+}
 
 /* Both groups as ink: light lines fade as if noise were bleached into them (Screen), and of both groups the darker one is seen (Darken). */
 vec4 groups_joined()
@@ -108,12 +128,17 @@ vec4 groups_joined()
     read_graphite();
     vec4 light = ink_of_mean(s_light / float(max(LIGHT, 1))) * (u_perturb_sketch * (1.0 - s_fading));
     vec4 dark = ink_of_mean(s_dark / float(max(DARK, 1)));
+    float force = s_streak;
 #ifdef WITH_PRESSURE
-    dark *= 1.0 - u_perturb_pressure * (1.0 - s_fading);
+    force *= dark.a >= light.a ? 1.0 - u_perturb_pressure * (1.0 - s_fading) : 1.0;
 #endif
+    float darkest = u_numbers[2 * LINE_COPIES].x * force;
     vec4 ink = dark.a >= light.a ? dark : light;
-    float seen = ink.a * u_numbers[2 * LINE_COPIES].x * s_streak;
-    return ink * ((1.0 - light_of_grey(1.0 - seen)) / max(ink.a, 1e-4));
+    ink *= share_of_darkness(ink.a * darkest) / max(ink.a, 1e-4);
+    int coloured = u_perturb_colours_count > 1 && dark.a >= light.a ? 1 : 0;
+    for (int once = 0; once < coloured; once++)
+        ink = coloured_ink(darkest);
+    return ink;
 }
 
 vec4 joined_ink()
