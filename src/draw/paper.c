@@ -90,13 +90,16 @@ void paper_set(frame *f)
     const technique_use *sheet = sheet_of(f);
     sheet_view           view = view_of(f);
     sheet_lie            lie = sheet_lay(sheet->values, &view);
-    float                ground[4];
+    float                ground[4], less[4], more[4];
     uniforms_linear(f->ground, ground);
     for (int k = 0; k < 3; k++)
         ground[k] *= f->ground.a;
     uniforms_set(f->g, use_own_set(KIND_FINISH, sheet));
     used_textures_set(f->g, sheet, &f->plan->sheet_textures);
+    sheet_room(sheet->values, ground, less, more);
     gpu_set_vec4(f->g, "u_sheet", ground);
+    gpu_set_vec4(f->g, "u_room_below", less);
+    gpu_set_vec4(f->g, "u_room_above", more);
     set_place(f->g, "u_paper_place", lie.octaves[0]);
     set_place(f->g, "u_paper_finer", lie.octaves[1]);
     set_place(f->g, "u_paper_pieces", lie.pieces);

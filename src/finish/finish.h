@@ -10,7 +10,7 @@ typedef enum sheet_motion { SHEET_FIXED, SHEET_FOLLOWING, SHEET_ZOOMING } sheet_
 
 /* The parameters, read by src/draw when it lays out the page. */
 typedef struct sheet_values {
-    colour  ground;
+    colour  ground, ink;
     int32_t paper, motion, paper_seed;
     float   grain, grain_size, pressure, relief;
 } sheet_values;
@@ -39,6 +39,9 @@ typedef struct sheet_lie {
     float       begun;     /* share of the pieces that do */
     sheet_place pieces;    /* from pixels to what tells pieces apart: those begin whose contact there is less than the share */
 } sheet_lie;
+
+/* What the strongest ink differs by from a ground (linear, premultiplied), where it takes away from it and where it adds to it. */
+void sheet_room(const sheet_values *values, const float ground[4], float less[4], float more[4]);
 
 /* A function of the view alone. */
 sheet_lie sheet_lay(const sheet_values *values, const sheet_view *view);

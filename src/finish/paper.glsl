@@ -1,6 +1,8 @@
 /* Ink on a paper's grain. A place of contact c, of which each tenth covers a tenth of the sheet, gets (n + 1) cⁿ times its ink: for any n that is once on the
  * mean. Faint ink has a large n and stays on the hills; full ink has n = 0 and fills the valleys, or as much of them as its pressure does. */
 uniform vec4 u_sheet;         /* the ground, linear, premultiplied */
+uniform vec4 u_room_below;    /* what the strongest ink takes from it, */
+uniform vec4 u_room_above;    /* and what it adds */
 uniform vec4 u_paper_place;   /* from pixels to the paper: turn and size, shift */
 uniform vec4 u_paper_finer;   /* the same for the next octave */
 uniform vec4 u_paper_pieces;  /* and for what tells its pieces apart */
@@ -42,7 +44,7 @@ vec4 on_paper(vec4 page, vec2 pixel)
     vec2 here = paper_here(pixel);
     page.rgb = clamp(page.rgb, 0.0, page.a);
     vec4 more = page - u_sheet;
-    vec4 room = mix(1.0 - u_sheet, u_sheet, vec4(lessThan(more, vec4(0.0))));
+    vec4 room = mix(u_room_above, u_room_below, vec4(lessThan(more, vec4(0.0))));
     vec4 shares = abs(more) / max(room, 1e-4);
     float ink = clamp(max(max(shares.r, shares.g), max(shares.b, shares.a)), 1e-4, 1.0);
     float n = u_paper_facts.w * min(1.0 / (ink * u_pressure) - 1.0, FAINTEST);

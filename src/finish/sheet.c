@@ -17,6 +17,8 @@ static const param params[] = {
                     .doc = "Size of the fine tooth; rough paper's hills, ribs and threads are a few times as large."),
     PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
                     .doc = "1: where ink is full it fills the valleys, and tones stay what they are; below, the darkest strokes are broken too, and lighter for it."),
+    PARAM_COLOUR_ROW(sheet_values, ink, .def_colour = {NAN, NAN, NAN, 1}, .can_auto = true, .def_auto = true, .cpu_only = true, .only_if = "paper",
+                     .doc = "The strongest ink: the pencil's colour, beyond which hills do not go; auto: as far as colours go, so that grey ink gets black specks."),
     PARAM_FLOAT_ROW(sheet_values, relief, .toggles = true, .def = 0, .min = 0, .max = 1, .soft_max = 0.3, .unit = UNIT_SHARE, .only_if = "paper",
                     .doc = "How much the bare paper shows its grain by light from the upper left."),
     PARAM_ENUM_ROW(sheet_values, motion, .names = motion_names, .variant = true, .only_if = "paper",
@@ -57,6 +59,16 @@ const kind kind_finish = {
     .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &sheet,
     .selector_key = "technique", .look_wide = true,
 };
+
+void sheet_room(const sheet_values *values, const float ground[4], float less[4], float more[4])
+{
+    const colour c = values->ink;
+    const float  ink[4] = {colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), 1};
+    for (int k = 0; k < 4; k++) {
+        less[k] = isnan(c.r) ? ground[k] : fmaxf(ground[k] - ink[k], 0);
+        more[k] = isnan(c.r) ? 1 - ground[k] : fmaxf(ink[k] - ground[k], 0);
+    }
+}
 
 /* --- where the paper lies ------------------------------------------------------------------------------------------ */
 

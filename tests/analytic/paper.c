@@ -15,6 +15,7 @@ enum { SIDE = 256, KINDS = PAPER_COUNT };
 
 typedef struct wanted {
     int         paper, samples, size; /* 0: 1 sample, SIDE */
+    bool        es;
     const char *ink, *ground, *keys;  /* of the sheet, beginning with a comma, or "" */
 } wanted;
 
@@ -28,6 +29,7 @@ static bool take(shot *out, wanted w)
     halftone_scene s = {0};
     shot_view      view = halftone_view(size, size, size / 4.0);
     view.samples = w.samples;
+    view.es = w.es;
     halftone_add_wall(&s, "wall", (halftone_wall){-1, 1, 0, 6, 6, 1});
     bool ok = halftone_shot(out, &s, "paper.gltf", look, NULL, &view);
     halftone_release(&s);
@@ -230,6 +232,36 @@ static void ink_keeps_its_hue(void)
     }
 }
 
+/* Hills get no more than the pencil has, and tones stay. */
+static void hills_get_no_more_than_the_pencil_has(void)
+{
+    static const struct {
+        const char *ink, *ground, *keys;
+        int         byte, sign; /* of the strongest ink; whether ink is darker or lighter than its ground */
+    } cases[] = {{"#8a8a8a", "#ffffff", ",\"grain\":1,\"pressure\":1,\"ink\":\"#505050\"", 0x50, -1}, {"#808080", "#202020", ",\"grain\":1,\"pressure\":1,\"ink\":\"#b0b0b0\"", 0xb0, 1}};
+    for (int k = 0; k < 2; k++)
+        for (int kind = 1; kind < KINDS; kind++) {
+            shot limited, not;
+            int  beyond[2] = {0}, most = 0;
+            if (!take(&limited, (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = cases[k].keys}))
+                return;
+            if (take(&not, (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = ",\"grain\":1,\"pressure\":1"})) {
+                for (int i = 0; i < SIDE * SIDE * 3 / 4; i++) {
+                    int now = (limited.picture[4 * i] - cases[k].byte) * cases[k].sign;
+                    beyond[0] += now > 1;
+                    beyond[1] += (not.picture[4 * i] - cases[k].byte) * cases[k].sign > 1;
+                    most += now > -4;
+                }
+                check_at_most("P28", beyond[0], 0, "%s: pixels of %s on %s beyond the pencil's own", paper_names[kind], cases[k].ink, cases[k].ground);
+                check_at_least("P28", beyond[1], 500, "without a limit");
+                check_at_least("P28", most, 500, "that have all of it");
+                check_near("P28", mean_of(&limited), mean_of(&not), 0.012, "mean ink with and without");
+                shot_release(&not);
+            }
+            shot_release(&limited);
+        }
+}
+
 static void more_ink_gives_more(void)
 {
     for (int kind = 1; kind < KINDS; kind++) {
@@ -262,7 +294,7 @@ static void more_ink_gives_more(void)
 static void samples_and_size_do_not_matter(void)
 {
     for (int kind = 1; kind < KINDS; kind++) {
-        shot one, four, large;
+        shot one, four, large, es;
         wanted w = {.paper = kind, .ink = "#888888", .ground = "#f0f0f0", .keys = ",\"grain_size\":3"};
         if (!take(&one, w))
             return;
@@ -272,6 +304,12 @@ static void samples_and_size_do_not_matter(void)
             shot_release(&four);
         }
         w.samples = 1;
+        w.es = true;
+        if (take(&es, w)) {
+            check_at_most("P28", shot_differing(&one, &es, 1), 0, "pixels in which OpenGL ES differs");
+            shot_release(&es);
+        }
+        w.es = false;
         w.size = 2 * SIDE;
         if (take(&large, w)) {
             int differ = 0;
@@ -608,6 +646,7 @@ int main(int argc, char **argv)
                                        {"grainless", no_grain_is_no_paper},
                                        {"tones", tones_stay},
                                        {"hue", ink_keeps_its_hue},
+                                       {"strongest", hills_get_no_more_than_the_pencil_has},
                                        {"more", more_ink_gives_more},
                                        {"samples", samples_and_size_do_not_matter},
                                        {"transparent", transparent_pages_keep_their_ink},
