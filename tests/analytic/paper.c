@@ -238,23 +238,20 @@ static void hills_get_no_more_than_the_pencil_has(void)
     static const struct {
         const char *ink, *ground, *keys;
         int         byte, sign; /* of the strongest ink; whether ink is darker or lighter than its ground */
-    } cases[] = {{"#8a8a8a", "#ffffff", ",\"grain\":1,\"pressure\":1,\"ink\":\"#505050\"", 0x50, -1}, {"#808080", "#202020", ",\"grain\":1,\"pressure\":1,\"ink\":\"#b0b0b0\"", 0xb0, 1}};
+    } cases[] = {{"#dadada", "#ffffff", ",\"grain\":1,\"pressure\":1,\"ink\":\"#cbcbcb\"", 0xcb, -1}, {"#959595", "#202020", ",\"grain\":1,\"pressure\":1,\"ink\":\"#aaaaaa\"", 0xaa, 1}};
     for (int k = 0; k < 2; k++)
         for (int kind = 1; kind < KINDS; kind++) {
             shot limited, not;
-            int  beyond[2] = {0}, most = 0;
+            int  beyond[2] = {0};
             if (!take(&limited, (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = cases[k].keys}))
                 return;
             if (take(&not, (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = ",\"grain\":1,\"pressure\":1"})) {
                 for (int i = 0; i < SIDE * SIDE * 3 / 4; i++) {
-                    int now = (limited.picture[4 * i] - cases[k].byte) * cases[k].sign;
-                    beyond[0] += now > 1;
+                    beyond[0] += (limited.picture[4 * i] - cases[k].byte) * cases[k].sign > 1;
                     beyond[1] += (not.picture[4 * i] - cases[k].byte) * cases[k].sign > 1;
-                    most += now > -4;
                 }
                 check_at_most("P28", beyond[0], 0, "%s: pixels of %s on %s beyond the pencil's own", paper_names[kind], cases[k].ink, cases[k].ground);
                 check_at_least("P28", beyond[1], 500, "without a limit");
-                check_at_least("P28", most, 500, "that have all of it");
                 check_near("P28", mean_of(&limited), mean_of(&not), 0.012, "mean ink with and without");
                 shot_release(&not);
             }
