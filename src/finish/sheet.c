@@ -30,7 +30,7 @@ static const param params[] = {
 static void describe(text *out, const void *values)
 {
     const sheet_values *v = values;
-    text_append(out, "1 %s seed=%d", paper_names[v->paper], v->paper_seed);
+    text_append(out, "2 %s seed=%d", paper_names[v->paper], v->paper_seed);
 }
 
 static lmn_status make(mip_chain *out, const void *values, lmn_error *error)

@@ -12,11 +12,12 @@ enum { SIDE = PAPER_SIDE, MASK = SIDE - 1, TEXELS = SIDE * SIDE, BINS = 1 << 14,
 
 static const double PI = 3.14159265358979323846;
 
-/* By paper: how much of its valleys stays out of reach, and its steepest slopes' share of 45 degrees. */
+/* By paper: how much of its valleys stays out of reach, its steepest slopes' share of 45 degrees, and the deviation in texels of its widest marks. */
 static const struct {
     float depth, steep;
+    double widest;
 } natures[PAPER_COUNT] = {
-    [PAPER_SMOOTH] = {0.35f, 0.5f}, [PAPER_DRAWING] = {0.65f, 0.9f}, [PAPER_ROUGH] = {0.9f, 1.2f}, [PAPER_LAID] = {0.6f, 0.9f}, [PAPER_CANVAS] = {0.65f, 1.1f},
+    [PAPER_SMOOTH] = {0.35f, 0.5f, 8}, [PAPER_DRAWING] = {0.65f, 0.9f, 10}, [PAPER_ROUGH] = {0.9f, 1.2f, 12}, [PAPER_LAID] = {0.6f, 0.9f, 20}, [PAPER_CANVAS] = {0.65f, 1.1f, 20},
 };
 
 /* The stroke comes from the upper left, as a right hand draws; the window stands there too. */
@@ -160,6 +161,15 @@ static bool flatten(float *field)
     return true;
 }
 
+/* Takes out what is wider than a paper's own marks: from sheet to sheet it would be seen to come back. */
+static void level(bench *b, double deviation)
+{
+    memcpy(b->other, b->field, TEXELS * sizeof *b->field);
+    blur(b, b->other, deviation, deviation);
+    for (int i = 0; i < TEXELS; i++)
+        b->field[i] -= b->other[i];
+}
+
 /* --- papers -------------------------------------------------------------------------------------------------------- */
 
 /* Fibres that lie on each other in all directions: thin ridges that bend a little. */
@@ -279,6 +289,8 @@ lmn_status paper_create(paper *out, paper_kind kind, uint32_t seed, lmn_error *e
     if (good) {
         makers[kind](&b, scratch);
         good = flatten(b.field);
+        level(&b, natures[kind].widest);
+        good = good && flatten(b.field);
     }
     mem_free(b.other);
     mem_free(b.room);

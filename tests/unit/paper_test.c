@@ -153,6 +153,26 @@ static void papers_differ(void **state)
         assert_true(regular[PAPER_CANVAS][up] > 0.2 && whole_periods(period[PAPER_CANVAS][up], 64) < 0.1);
 }
 
+/* Blocks much larger than a grain are all alike, or the eye finds them again in the next sheet. */
+static void there_are_no_clouds(void **state)
+{
+    (void)state;
+    enum { BLOCK = 64 };
+    for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
+        paper  p = sheet_of((paper_kind)kind, 0);
+        double squares = 0;
+        for (int block = 0; block < TEXELS / BLOCK / BLOCK; block++) {
+            double mean = 0;
+            for (int i = 0; i < BLOCK * BLOCK; i++)
+                mean += (double)height_at(&p, block * BLOCK % SIDE + i % BLOCK, block * BLOCK / SIDE * BLOCK + i / BLOCK) / (BLOCK * BLOCK);
+            squares += (mean - 0.5) * (mean - 0.5) / (TEXELS / BLOCK / BLOCK);
+        }
+        printf("    %s: means of blocks of %d texels differ by %.4f\n", paper_names[kind], BLOCK, sqrt(squares));
+        assert_true(sqrt(squares) < 0.012);
+        paper_release(&p);
+    }
+}
+
 /* Sheets are looked up texel by texel, so that nothing may flicker from one to the next. */
 static void nothing_is_finer_than_a_texel(void **state)
 {
@@ -256,7 +276,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_tenth_covers_a_tenth),          cmocka_unit_test(borders_are_like_the_inside),        cmocka_unit_test(papers_differ),
         cmocka_unit_test(nothing_is_finer_than_a_texel),      cmocka_unit_test(the_same_seed_gives_the_same_sheet), cmocka_unit_test(normals_lean_away_from_hills),
-        cmocka_unit_test(contact_is_of_height_and_of_flanks), cmocka_unit_test(failing_memory_is_reported),
+        cmocka_unit_test(there_are_no_clouds),                cmocka_unit_test(contact_is_of_height_and_of_flanks), cmocka_unit_test(failing_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
