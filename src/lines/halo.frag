@@ -1,0 +1,76 @@
+/* Haloed lines: ink clearly behind an outline is taken away for some pixels beside it, so that objects separate. What is behind is told by the
+ * surface's own plane: of two places of a convex body neither is before the other's, so that nothing on it is taken away. At outlines of
+ * round things depth runs away within a pixel, so that how steep it is there counts, too. Ink on the farther side of an outline is the
+ * outline's own. */
+#include "lines/halo.glsl"
+layout(location = 0) out vec4 out_0;
+
+/* Whose line this pixel's ink is: x, y = where, from here; z = its window depth. */
+vec3 owner_here()
+{
+    vec3 owner = vec3(0.0, 0.0, depth_at(vec2(0.0)));
+    int own = int(ceil(own_reach()));
+    for (int y = -own; y <= own; y++)
+        for (int x = -own; x <= own; x++) {
+            vec2 off = vec2(float(x), float(y));
+            bool outline = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).r > 0.0;
+            float depth = outline ? depth_at(off) : 1.0;
+            owner = depth < owner.z ? vec3(off, depth) : owner;
+        }
+    return owner;
+}
+
+bool has_nearer(float depth)
+{
+    int reach = int(ceil(halo_reach()));
+    float nearest = 0.0;
+    for (int y = -reach; y <= reach; y++)
+        nearest = max(nearest, textureLod(t_nearer_row, (gl_FragCoord.xy + vec2(0.0, float(y))) * u_texel, 0.0).r);
+    return nearest * 1.001 + 1e-6 > 1.0 - depth + clear_step(min(depth, 0.9999999)); /* rows are kept in half precision */
+}
+
+/* Share of the ink that stays. */
+float kept_of(vec3 owner, float clear_times)
+{
+    float limit = halo_reach(), kept = 1.0;
+    int reach = int(ceil(limit));
+    vec2 slope = owner.z < 1.0 ? slope_at(owner) : vec2(0.0);
+    float rough = abs(slope.x) + abs(slope.y);
+    for (int y = -reach; y <= reach; y++)
+        for (int x = -reach; x <= reach; x++) {
+            vec2 off = vec2(float(x), float(y));
+            float beyond = length(off) - limit;
+            vec2 there = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).rg;
+            bool outline = beyond < 1.0 && there.r > 0.0;
+            float depth = outline ? depth_at(off) : 1.0, clear = clear_step(min(depth, 0.9999999));
+            float apart = clear * (clear_times + there.g) + rough;
+            bool nearer = owner.z + min(0.0, dot(slope, off - owner.xy)) - depth > apart;
+            kept = outline && nearer ? min(kept, clamp(beyond, 0.0, 1.0)) : kept;
+        }
+    return kept;
+}
+
+void main()
+{
+    vec4 edge = texelFetch(t_edge, ivec2(gl_FragCoord.xy), 0);
+    vec3 owner = vec3(0.0, 0.0, 1.0);
+    float kept = 1.0, clear_times = 1.0;
+    /* Loops that run once or not at all: software drivers skip these, not branches. */
+    int inked = min(edge.b, edge.a) < 1.0 ? 1 : 0;
+    for (int once = 0; once < inked; once++) {
+        owner = owner_here();
+#ifdef HAS_OVERSHOOT
+        /* A line that runs on does so in space, on no surface that tells its slope. */
+        uint bits = texelFetch(t_overshoot, ivec2(gl_FragCoord.xy), 0).g;
+        float eye = uintBitsToFloat(bits);
+        float window = 0.5 * (u_window_depth.y - u_window_depth.x * eye) / (u_window_depth.w - u_window_depth.z * eye) + 0.5;
+        clear_times = bits != 0u && window < owner.z ? 4.0 : 1.0;
+        owner = bits != 0u && window < owner.z ? vec3(0.0, 0.0, window) : owner;
+#endif
+        int crossed = has_nearer(owner.z) ? 1 : 0;
+        for (int again = 0; again < crossed; again++)
+            kept = kept_of(owner, clear_times);
+    }
+    vec4 left = 1.0 - (1.0 - edge) * kept;
+    out_0 = vec4(left.r, left.g, left.r * left.g, left.a);
+}
