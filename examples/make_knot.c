@@ -67,8 +67,8 @@ static triple surface_at(double u, double v)
 static triple normal_at(double u, double v)
 {
     const double step = 1e-4;
-    return unit(cross(minus(surface_at(u, v + step), surface_at(u, v - step)),
-                      minus(surface_at(u + step, v), surface_at(u - step, v))));
+    return unit(cross(minus(surface_at(u + step, v), surface_at(u - step, v)),
+                      minus(surface_at(u, v + step), surface_at(u, v - step))));
 }
 
 static char *put_short(char *to, long value)
@@ -100,7 +100,7 @@ static void fill(char *bytes)
         }
     for (int i = 0; i < ALONG; i++)
         for (int j = 0; j < AROUND; j++) {
-            const int a = i * COLUMNS + j, b = a + COLUMNS, corners[6] = {a, b + 1, b, a, a + 1, b + 1};
+            const int a = i * COLUMNS + j, b = a + COLUMNS, corners[6] = {a, b, b + 1, a, b + 1, a + 1};
             for (int k = 0; k < 6; k++)
                 indices = put_short(indices, corners[k]);
         }
