@@ -245,10 +245,10 @@ static void tower_walls(mesh *m, const building *b)
         box(m, in - 0.5, to - 0.45, -b->depth + in - 0.5, b->width - in + 0.5, to + 0.5, -in + 0.5); /* cornice */
         for (double y = t ? from + 0.5 + storey : ground_floor; banded && y < to - 1; y += (b->floors > 11 ? 2 : 1) * storey)
             box(m, in - 0.4, y - 0.42, -b->depth + in - 0.4, b->width - in + 0.4, y + (b->floors > 11 ? 1.2 : 0.42), -in + 0.4);
-        for (int i = 0; !banded && i <= 4; i++) {
-            double x = in + 0.35 + (b->width - 2 * in - 0.7) * i / 4, z = in + 0.35 + (b->depth - 2 * in - 0.7) * i / 4;
+        for (int i = 0; !banded && i <= 3; i++) {
+            double x = in + 0.35 + (b->width - 2 * in - 0.7) * i / 3, z = in + 0.35 + (b->depth - 2 * in - 0.7) * i / 3;
             box(m, x - 0.28, from + 0.01, -b->depth + in - 0.38, x + 0.28, to - 0.2, -in + 0.38);
-            if (i > 0 && i < 4)
+            if (i > 0 && i < 3)
                 box(m, in - 0.38, from + 0.02, -z - 0.28, b->width - in + 0.38, to - 0.21, -z + 0.28);
         }
     }
