@@ -26,7 +26,7 @@ bool has_nearer(float depth)
     float nearest = 0.0;
     for (int y = -reach; y <= reach; y++)
         nearest = max(nearest, textureLod(t_nearer_row, (gl_FragCoord.xy + vec2(0.0, float(y))) * u_texel, 0.0).r);
-    return nearest * 1.001 + 1e-6 > 1.0 - depth + clear_step(min(depth, 0.9999999)); /* rows are kept in half precision */
+    return nearest * 1.001 + 1e-6 > 1.0 - depth + clear_step(depth); /* rows are kept in half precision */
 }
 
 /* Share of the ink that stays. */
@@ -34,17 +34,16 @@ float kept_of(vec3 owner, float clear_times)
 {
     float limit = halo_reach(), kept = 1.0;
     int reach = int(ceil(limit));
-    vec2 slope = owner.z < 1.0 ? slope_at(owner) : vec2(0.0);
-    float rough = abs(slope.x) + abs(slope.y);
+    vec3 plane = owner.z < 1.0 && clear_times == 1.0 ? plane_at(owner) : vec3(0.0);
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
             vec2 off = vec2(float(x), float(y));
             float beyond = length(off) - limit;
             vec2 there = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).rg;
             bool outline = beyond < 1.0 && there.r > 0.0;
-            float depth = outline ? depth_at(off) : 1.0, clear = clear_step(min(depth, 0.9999999));
-            float apart = clear * (clear_times + there.g) + rough;
-            bool nearer = owner.z + min(0.0, dot(slope, off - owner.xy)) - depth > apart;
+            float depth = outline ? depth_at(off) : 1.0, clear = clear_step(depth);
+            float apart = clear * (clear_times + (plane.z > 0.0 ? there.g : 0.0)) + plane.z * (1.0 + 0.125 * length(off));
+            bool nearer = owner.z + min(0.0, dot(plane.xy, off - owner.xy)) - depth > apart;
             kept = outline && nearer ? min(kept, clamp(beyond, 0.0, 1.0)) : kept;
         }
     return kept;

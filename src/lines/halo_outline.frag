@@ -1,4 +1,5 @@
-/* Where the outlines are that give farther lines a halo: r = 1 − window depth, 0 elsewhere; g = how steep the surface is there, in clear steps. */
+/* Where the outlines are that give farther lines a halo: r = 1 − window depth, 0 elsewhere; g = how
+ * uncertain its slope is there, in clear steps. */
 #include "lines/halo.glsl"
 layout(location = 0) out vec4 out_0;
 
@@ -28,8 +29,7 @@ void main()
         for (int k = 0; k < 4; k++)
             if (steps_down(depth, sides[k], clear) && (is_ink(vec2(0.0)) || is_ink(sides[k])))
                 nearness = max(1.0 - depth, 1e-4);
-        vec2 slope = slope_at(vec3(0.0, 0.0, depth));
-        steep = min((abs(slope.x) + abs(slope.y)) / clear, 60000.0);
+        steep = min(plane_at(vec3(0.0, 0.0, depth)).z / clear, 60000.0);
     }
     out_0 = vec4(nearness, steep, 0.0, 0.0);
 }

@@ -40,12 +40,12 @@ enum { LINES_GROW_FROM = 2 };
      .writes = TARGET_OVERSHOOT, .when = "overshoot", .stylised = true},                                              \
     {.name = "overshoot ink", .shader = "lines/edge/overshoot.frag", .reads = {TARGET_EDGE, TARGET_OVERSHOOT},        \
      .writes = TARGET_EDGE, .when = "overshoot", .stylised = true},                                                   \
-    {.name = "halo outlines", .shader = "lines/halo_outline.frag", .reads = {TARGET_EDGE, TARGET_DEPTH},              \
+    {.name = "halo outlines", .shader = "lines/halo_outline.frag", .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH}, \
      .writes = TARGET_OUTLINES, .when = "halo", .stylised = true, .zero_outside = true},                              \
     {.name = "halo across", .shader = "lines/halo_row.frag", .reads = {TARGET_OUTLINES}, .writes = TARGET_NEARER_ROW, \
      .when = "halo", .stylised = true, .zero_outside = true},                                                         \
     {.name = "halo", .shader = "lines/halo.frag",                                                                     \
-     .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_OUTLINES, TARGET_NEARER_ROW, TARGET_OVERSHOOT},                      \
+     .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, TARGET_OUTLINES, TARGET_NEARER_ROW, TARGET_OVERSHOOT}, \
      .writes = TARGET_EDGE, .when = "halo", .stylised = true},                                                        \
     {.name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",        \
      .stylised = true},                                                                                               \
