@@ -196,7 +196,7 @@ static void note_textures(const figure *fig, const technique_use *surface, const
             warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere", surface->technique->textures[i].name, surface->technique->name);
 }
 
-/* What surface techniques make on the CPU. */
+/* What techniques make on the CPU. */
 static lmn_status bring_textures(lmn_renderer *r, plan *p, warnings *notes, lmn_error *error)
 {
     lmn_status status = LMN_OK;
@@ -212,6 +212,8 @@ static lmn_status bring_textures(lmn_renderer *r, plan *p, warnings *notes, lmn_
             status = bring_by_material(r, fig, surface, p->scene, error);
         if (status == LMN_OK)
             note_textures(fig, surface, p, notes);
+        if (status == LMN_OK)
+            status = made_textures_find(&r->made, r->g, rule_use(fig->rule, KIND_PERTURB), &fig->perturb_textures, error);
         mem_free(plain.values);
     }
     return status;

@@ -72,8 +72,10 @@ static void draw_figure(frame *f, const figure *fig)
     } else {
         raster_figure(f, &s);
         s.geometry = s.targets[TARGET_NORMAL_DEPTH];
-        if (fig->deferred)
+        if (fig->deferred) {
+            passes_prepare(f, &s);
             raster_shade_deferred(f, &s);
+        }
         draw_sprite(f, &s);
         mem_free(s.edges);
     }

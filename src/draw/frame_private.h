@@ -111,7 +111,9 @@ gpu_texture         *frame_acquire(frame *f, target t);
 /* The same, coarse pictures in the size that the figure's perturbation asks for. */
 gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
 bool                 target_is_coarse(target t);
-void                 coarse_size(const frame *f, const figure_state *s, int out[2]); /* the rule perturbs */
+void                 coarse_size(const frame *f, const figure_state *s, target t, int out[2]);
+/* What a technique works out once for all pixels. */
+void                 frame_set_numbers(frame *f, const technique_use *use);
 void                 frame_set_common(frame *f, const figure_state *s);
 /* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
 void frame_set_transform(frame *f, const mat4 *world);
@@ -192,6 +194,8 @@ void lists_layer(frame *f, layer_stack *stack, int index);
 void lists_release(frame *f, layer_stack *stack);
 
 /* --- passes.c: declared passes --- */
+/* What a surface technique looks at when it shades from the G-buffer. */
+void passes_prepare(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
@@ -205,5 +209,6 @@ void collect_edges(frame *f, figure_state *s);
 void collect_figure(frame *f, figure_state *s);
 void collect_layer(frame *f, figure_state *s); /* of layer s->layer */
 void collect_uncertainty(frame *f, figure_state *s);
+void collect_direction(frame *f, figure_state *s);
 
 #endif

@@ -23,6 +23,7 @@ typedef struct figure {
     bool        layered;    /* composed layer by layer */
     bool        ghostly;    /* of ghosts alone */
     int         layer_count; /* layers at most */
+    used_textures perturb_textures; /* of what perturbs it */
     used_textures textures;  /* of the surface technique; found by who draws */
     used_textures *material_textures; /* the same, one a material of the scene, where these differ; else NULL */
 } figure;
