@@ -20,32 +20,48 @@ vec3 owner_here()
     return owner;
 }
 
-bool has_nearer(float depth)
+/* Window depth of the nearest outline in the row at `y` within reach. Rows are kept in half precision; this is never too deep. */
+float nearest_in_row(float y)
 {
-    int reach = int(ceil(halo_reach()));
-    float nearest = 0.0;
-    for (int y = -reach; y <= reach; y++)
-        nearest = max(nearest, textureLod(t_nearer_row, (gl_FragCoord.xy + vec2(0.0, float(y))) * u_texel, 0.0).r);
-    return nearest * 1.001 + 1e-6 > 1.0 - depth + clear_step(depth); /* rows are kept in half precision */
+    return 1.0 - 1.001 * textureLod(t_nearer_row, (gl_FragCoord.xy + vec2(0.0, y)) * u_texel, 0.0).r - 1e-6;
 }
 
-/* Share of the ink that stays. */
+/* Where an outline must be to be clearly before this place. */
+float before_this(vec3 owner)
+{
+    return owner.z - clear_step(owner.z);
+}
+
+bool has_nearer(vec3 owner)
+{
+    int reach = int(ceil(halo_reach()));
+    float nearest = 1.0;
+    for (int y = -reach; y <= reach; y++)
+        nearest = min(nearest, nearest_in_row(float(y)));
+    return nearest < before_this(owner);
+}
+
+/* Share of the ink that stays beside an outline's pixel at `off`; `plane` is that of the ink's owner. */
+float kept_beside(vec2 off, float beyond, vec3 owner, vec3 plane, float clear_times)
+{
+    vec2 there = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).rg;
+    float depth = depth_at(off), apart = plane.z * (1.0 + 0.125 * length(off));
+    apart += clear_step(depth) * (clear_times + (plane.z > 0.0 ? there.g : 0.0));
+    bool nearer = owner.z + min(0.0, dot(plane.xy, off - owner.xy)) - depth > apart;
+    return there.r > 0.0 && nearer ? clamp(beyond, 0.0, 1.0) : 1.0;
+}
+
+/* The same of all outlines around; rows that have none nearer are left out. */
 float kept_of(vec3 owner, float clear_times)
 {
-    float limit = halo_reach(), kept = 1.0;
+    float limit = halo_reach(), kept = 1.0, before = before_this(owner);
     int reach = int(ceil(limit));
     vec3 plane = owner.z < 1.0 && clear_times == 1.0 ? plane_at(owner) : vec3(0.0);
-    for (int y = -reach; y <= reach; y++)
-        for (int x = -reach; x <= reach; x++) {
-            vec2 off = vec2(float(x), float(y));
-            float beyond = length(off) - limit;
-            vec2 there = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).rg;
-            bool outline = beyond < 1.0 && there.r > 0.0;
-            float depth = outline ? depth_at(off) : 1.0, clear = clear_step(depth);
-            float apart = clear * (clear_times + (plane.z > 0.0 ? there.g : 0.0)) + plane.z * (1.0 + 0.125 * length(off));
-            bool nearer = owner.z + min(0.0, dot(plane.xy, off - owner.xy)) - depth > apart;
-            kept = outline && nearer ? min(kept, clamp(beyond, 0.0, 1.0)) : kept;
-        }
+    for (int y = -reach; y <= reach; y++) {
+        int across = nearest_in_row(float(y)) < before ? int(sqrt(max((limit + 1.0) * (limit + 1.0) - float(y * y), 0.0))) : -1;
+        for (int x = -across; x <= across; x++)
+            kept = min(kept, kept_beside(vec2(float(x), float(y)), length(vec2(float(x), float(y))) - limit, owner, plane, clear_times));
+    }
     return kept;
 }
 
@@ -66,7 +82,7 @@ void main()
         clear_times = bits != 0u && window < owner.z ? 4.0 : 1.0;
         owner = bits != 0u && window < owner.z ? vec3(0.0, 0.0, window) : owner;
 #endif
-        int crossed = has_nearer(owner.z) ? 1 : 0;
+        int crossed = has_nearer(owner) ? 1 : 0;
         for (int again = 0; again < crossed; again++)
             kept = kept_of(owner, clear_times);
     }

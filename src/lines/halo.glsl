@@ -11,7 +11,7 @@ uniform vec4  u_window_depth; /* of the projection: what makes window depth of e
 /* Ink of less than this is shading; see lines.c. */
 const float LINE_INK = 0.15;
 /* A step that separates objects, as a share of the figure's depth range; and what rounding can add up to. */
-const float CLEARLY = 0.003;
+const float CLEARLY = 0.005;
 /* Slopes of what bends count up to this, in pixels. */
 const float STEEP = 24.0;
 const float DEPTH_NOISE = 16.0 * 5.96e-8;

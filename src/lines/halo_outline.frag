@@ -21,15 +21,17 @@ bool steps_down(float depth, vec2 side, float clear)
 void main()
 {
     float depth = depth_at(vec2(0.0)), nearness = 0.0, steep = 0.0;
-    /* A loop that runs once or not at all: software drivers skip loops, not branches. */
-    int busy = depth < 1.0 && (is_ink(vec2(0.0)) || own_reach() < 1.0) ? 1 : 0;
+    bool inked = is_ink(vec2(0.0));
+    /* Loops that run once or not at all: software drivers skip loops, not branches. Thin lines may lie on the farther side alone. */
+    int busy = depth < 1.0 && (inked || own_reach() < 1.0) ? 1 : 0;
     for (int once = 0; once < busy; once++) {
         float clear = clear_step(depth);
         const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
         for (int k = 0; k < 4; k++)
-            if (steps_down(depth, sides[k], clear) && (is_ink(vec2(0.0)) || is_ink(sides[k])))
-                nearness = max(1.0 - depth, 1e-4);
-        steep = min(plane_at(vec3(0.0, 0.0, depth)).z / clear, 60000.0);
+            nearness = steps_down(depth, sides[k], clear) && (inked || is_ink(sides[k])) ? max(1.0 - depth, 1e-4) : nearness;
+        int found = nearness > 0.0 ? 1 : 0;
+        for (int again = 0; again < found; again++)
+            steep = min(plane_at(vec3(0.0, 0.0, depth)).z / clear, 60000.0);
     }
     out_0 = vec4(nearness, steep, 0.0, 0.0);
 }
