@@ -128,13 +128,14 @@ static void build_church_roofs(mesh *m)
 
 enum { PLASTER, OCHRE, GREY, ROSE, WHITE, WALLS, TILE = WALLS, GLASS, STONE, ASPHALT, LEAVES, IRON, SLATE, MATERIALS };
 
+/* Light, as paper is: drawings take their tone from it. */
 static const model_material materials[MATERIALS] = {
-    [PLASTER] = {"Plaster", {0.720, 0.660, 0.560}}, [OCHRE] = {"Ochre render", {0.660, 0.520, 0.330}},
-    [GREY] = {"Grey render", {0.540, 0.540, 0.520}}, [ROSE] = {"Brick", {0.560, 0.370, 0.300}},
-    [WHITE] = {"White render", {0.780, 0.770, 0.740}}, [TILE] = {"Tiles", {0.430, 0.190, 0.120}},
-    [GLASS] = {"Glass", {0.160, 0.190, 0.210}},     [STONE] = {"Paving", {0.560, 0.540, 0.510}},
-    [ASPHALT] = {"Asphalt", {0.400, 0.400, 0.410}}, [LEAVES] = {"Leaves", {0.170, 0.270, 0.100}},
-    [IRON] = {"Iron", {0.100, 0.100, 0.110}},       [SLATE] = {"Slate", {0.230, 0.260, 0.280}},
+    [PLASTER] = {"Plaster", {0.860, 0.810, 0.710}}, [OCHRE] = {"Ochre render", {0.820, 0.700, 0.500}},
+    [GREY] = {"Grey render", {0.720, 0.720, 0.700}}, [ROSE] = {"Brick", {0.740, 0.540, 0.460}},
+    [WHITE] = {"White render", {0.900, 0.890, 0.860}}, [TILE] = {"Tiles", {0.600, 0.320, 0.230}},
+    [GLASS] = {"Glass", {0.260, 0.300, 0.330}},     [STONE] = {"Paving", {0.760, 0.740, 0.700}},
+    [ASPHALT] = {"Asphalt", {0.640, 0.640, 0.640}}, [LEAVES] = {"Leaves", {0.420, 0.540, 0.300}},
+    [IRON] = {"Iron", {0.200, 0.200, 0.210}},       [SLATE] = {"Slate", {0.440, 0.470, 0.500}},
 };
 
 enum { HOUSES, ROOFS, WINDOWS, STREETS, TREES, CHURCH, GROUPS };
