@@ -9,7 +9,7 @@
 typedef struct pencil_values {
     halftone_values common;
     int32_t shading, overlays, lead, map_seed;
-    float   vary, scale, width, length, gloss;
+    float   vary, scale, width, length, opacity, gloss;
     palette pencils;
     bool    cross;
 } pencil_values;
@@ -24,7 +24,8 @@ static const param params[] = {
                    .doc = "hatching: strokes with gaps, in so many tones; gradation: strokes cover each other, and tones pass into one another."),
     PARAM_INT_ROW(pencil_values, overlays, .def = 2, .min = 1, .max = 6, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "How often the surface is gone over; each time has its part of the darkness and turns a little."),
-    PARAM_FLOAT_ROW(pencil_values, vary, .def = 6, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES, .doc = "How far each time turns at most."),
+    PARAM_FLOAT_ROW(pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES,
+                    .doc = "How far each time turns besides; on the page each has ways of its own between those of the others, which hides where they meet."),
     PARAM_ENUM_ROW(pencil_values, lead, .names = lead_grade_names, .def = LEAD_4B, .cpu_only = true, .doc = "The lead, from hard and light to soft and dark."),
     PARAM_FLOAT_ROW(pencil_values, gloss, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of a small highlight that stays bare."),
     PARAM_PALETTE_ROW(pencil_values, pencils, .def_palette = {1, {{0, 0, 0, 1}}},
@@ -33,6 +34,8 @@ static const param params[] = {
                     .doc = "Pixels that a texel of the strokes takes: how coarse they are."),
     PARAM_FLOAT_ROW(pencil_values, width, .def = 1.6, .min = 0.6, .max = 16, .soft_max = 6, .cpu_only = true, .doc = "Width of strokes in texels."),
     PARAM_FLOAT_ROW(pencil_values, length, .def = 0.6, .min = 0.06, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .doc = "Length of the longest strokes, share of 256 texels."),
+    PARAM_FLOAT_ROW(pencil_values, opacity, .def = 0.7, .min = 0.2, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+                    .doc = "How much of what is left of the paper a stroke covers; with gradation half as much."),
     PARAM_BOOL_ROW(pencil_values, cross, .def = 0, .cpu_only = true, .doc = "Darker tones are crossed by a second set of strokes."),
     PARAM_INT_ROW(pencil_values, map_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .doc = "Other strokes of the same kind."),
 };
@@ -45,7 +48,7 @@ static bool is_gradation(const pencil_values *v)
 static void describe(text *out, const void *values)
 {
     const pencil_values *v = values;
-    text_append(out, "1 shading=%d width=%.6g length=%.6g cross=%d seed=%d", v->shading, (double)v->width, (double)v->length, v->cross, v->map_seed);
+    text_append(out, "1 shading=%d width=%.6g length=%.6g opacity=%.6g cross=%d seed=%d", v->shading, (double)v->width, (double)v->length, (double)v->opacity, v->cross, v->map_seed);
 }
 
 /* What a stroke leaves of the paper. Its darkness is the shader's. */
@@ -54,7 +57,7 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
     const pencil_values *v = values;
     const double darkest = is_gradation(v) ? 0.9 : 0.82;
     const tam_wishes wishes = {.side = SIDE, .tones = TONES, .darkest = darkest, .width = (double)v->width, .length = (double)v->length,
-                               .opacity = is_gradation(v) ? 0.35 : 1, .cross = v->cross, .uneven = is_gradation(v) ? 0.6f : 0.3f, .placement = TAM_BEST_FIT,
+                               .opacity = (double)v->opacity * (is_gradation(v) ? 0.5 : 1), .cross = v->cross, .uneven = is_gradation(v) ? 0.6f : 0.3f, .placement = TAM_BEST_FIT,
                                .seed = (uint32_t)v->map_seed};
     lmn_status status = tonal_art_map(out, NULL, &wishes, error);
     out->fact = (float)darkest; /* which the shader tells tones by */
