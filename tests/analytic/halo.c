@@ -304,10 +304,33 @@ static void with_overshoot(void)
     shape_release(&s);
 }
 
+/* What is in front may be drawn by another rule, and with another operator. */
+static void among_others(void)
+{
+    static const char *const operators[] = {"discontinuity", "id", "four-tap", "sobel"};
+    for (int o = 0; o < 4; o++) {
+        char  look[768];
+        shape s = {0};
+        shot  drawing;
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":["
+                 "{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"%s\",\"colour\":\"#000000\","
+                 "\"gain\":8,\"halo\":8}},"
+                 "{\"select\":\"plate\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"%s\",\"colour\":"
+                 "\"#000000\",\"gain\":8}}]}", operators[o], operators[o]);
+        plate_and_bar(&s, 0);
+        if (shot_of_shape(&drawing, &s, "halo.glb", look, NULL, &straight))
+            for (int i = 0; i < 4; i++)
+                check_near("P35", gap_of(&drawing, 0, i % 2, i / 2), 8, 1, "px of gap beside what another rule draws, operator %s", operators[o]);
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"gaps", gaps}, {"near", near_object_stays}, {"convex", convex_bodies_stay}, {"same", same_again}, {"balls", balls}, {"overshoot", with_overshoot},
+        {"gaps", gaps}, {"near", near_object_stays}, {"convex", convex_bodies_stay}, {"same", same_again}, {"balls", balls}, {"overshoot", with_overshoot}, {"others", among_others},
     };
     int status = check_main(argc, argv, "halo", cases, sizeof cases / sizeof *cases);
     shot_end();
