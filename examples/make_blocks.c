@@ -94,14 +94,14 @@ static void build_church_openings(mesh *m)
 {
     const double front = far_end - 14;
     outline portal = round_headed(church_axis, 0.2, 4.2, 1.7, 14), frame_of_it = round_headed_frame(church_axis, 0.2, 4.2, 1.72, 0.6, 14);
-    elevation(m, &portal, NULL, 0, front - 0.5, front + 0.1);
-    elevation(m, &frame_of_it, NULL, 0, front - 0.4, front + 0.35);
+    elevation(m, &portal, NULL, 0, front - 0.5, front + 0.35);
+    elevation(m, &frame_of_it, NULL, 0, front - 0.4, front + 0.7);
     for (int level = 0; level < 2; level++)
         for (int k = -1; k <= 1; k += 2) {
             double  x = church_axis + k * (level ? 1.5 : 0);
             outline o = round_headed(x, level ? 24.5 : 13.5, level ? 29 : 18.6, level ? 0.95 : 1.3, 12);
             if (level || k > 0)
-                elevation(m, &o, NULL, 0, front - 0.5, front + 0.12);
+                elevation(m, &o, NULL, 0, front - 0.5, front + 0.4);
         }
 }
 
