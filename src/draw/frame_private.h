@@ -1,4 +1,4 @@
-/* What the files that draw a frame share: profile.c, lighting.c, bind.c, raster.c, passes.c, mirror.c, collect.c and frame.c. */
+/* What the files that draw a frame share: profile.c, lighting.c, bind.c, raster.c, passes.c, paper.c, mirror.c, collect.c and frame.c. */
 #ifndef LIMNER_DRAW_FRAME_PRIVATE_H
 #define LIMNER_DRAW_FRAME_PRIVATE_H
 
@@ -199,6 +199,10 @@ void passes_prepare(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
+
+/* --- paper.c: what the sheet's ink is rubbed onto; nothing where there is no paper --- */
+void paper_declare(text *prelude, const frame *f);
+void paper_set(frame *f);
 
 /* --- mirror.c --- */
 /* Makes a frame of what the mirror's plane shows, without pictures to draw into; false when the part has no plane. */

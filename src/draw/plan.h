@@ -41,6 +41,7 @@ typedef struct plan {
     size_t           figure_count;
     box3             box; /* of the selection, which the picture is fitted to, before it is cut */
     bool             has_cut; /* there are cut faces */
+    used_textures    sheet_textures; /* of the sheet; found by who draws */
 } plan;
 
 /* How a drawing wants its plan. */

@@ -137,7 +137,7 @@ typedef struct technique {
     /* surface: changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all
      * materials are alike. NULL: always so. */
     bool       (*by_material)(void *values, const char *strokes);
-    const texture_source *textures; /* surface: what it makes on the CPU */
+    const texture_source *textures; /* surface, finish: what it makes on the CPU */
     size_t       texture_count;
     /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how many, at most NUMBERS_MAX. NULL: nothing. */
     size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
