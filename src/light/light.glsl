@@ -8,6 +8,9 @@ uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 #ifdef HAS_SHADOW
 #include "light/shadow.glsl"
 #endif
+#if defined(HAS_SOFT_SHADOW) || defined(HAS_OCCLUSION)
+#include "light/arrived.glsl"
+#endif
 
 vec3 towards_light(int i, vec3 eye)
 {
@@ -18,8 +21,27 @@ vec3 towards_light(int i, vec3 eye)
 /* Share of a light that is not kept off by what lies between. Only the first one has shadows. */
 float unshadowed(int i, surface_point p)
 {
-#ifdef HAS_SHADOW
+#if defined(HAS_SOFT_SHADOW)
+    if (i > 0)
+        return 1.0;
+    arrived_light arrived = light_at(p);
+    float share = arrived.light;
+    int sharp = arrived.known < 1.0 ? 1 : 0; /* a loop, because software drivers skip it */
+    for (int once = 0; once < sharp; once++)
+        share = mix(lit_share(p.eye, p.normal, towards_light(0, p.eye)), share, arrived.known);
+    return share;
+#elif defined(HAS_SHADOW)
     return i == 0 ? lit_share(p.eye, p.normal, towards_light(0, p.eye)) : 1.0;
+#else
+    return 1.0;
+#endif
+}
+
+/* Share of all light that corners and clefts leave. */
+float sky_share(surface_point p)
+{
+#ifdef HAS_OCCLUSION
+    return light_at(p).sky;
 #else
     return 1.0;
 #endif
@@ -31,7 +53,7 @@ vec3 diffuse_light(surface_point p)
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LIGHT_COUNT; i++)
         sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * unshadowed(i, p));
-    return sum;
+    return sum * sky_share(p);
 }
 
 /* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. */
@@ -45,7 +67,7 @@ float wrapped_light(surface_point p)
         sum += strength * (0.5 * (turned > 0.0 ? turned * unshadowed(i, p) : turned) + 0.5);
         total += strength;
     }
-    return total > 0.0 ? sum / total : 0.0;
+    return total > 0.0 ? sum / total * sky_share(p) : 0.0;
 }
 
 /* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one
@@ -54,5 +76,5 @@ float highlight(surface_point p, float shininess)
 {
     vec3 light = towards_light(0, p.eye);
     float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
-    return unshadowed(0, p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
+    return unshadowed(0, p) * sky_share(p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
 }
