@@ -106,6 +106,9 @@ void shadow_set(frame *f)
     lights_first_direction(f, towards);
     gpu_set_vec3(f->g, "u_shadow_light", (float[]){(float)towards[0], (float)towards[1], (float)towards[2]});
     gpu_set_float(f->g, "u_shadow_depth", (float)depth);
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->shadow_camera, f->plan->box, &nearest, &farthest);
+    gpu_set_float(f->g, "u_shadow_nearest", (float)((nearest - f->shadow_camera.near) / depth));
     double half = (double)scene_of(f)->shadow_softness * (3.14159265358979 / 360);
     gpu_set_float(f->g, "u_cone", (float)(tan(half) * depth / (2 * f->shadow_camera.half_height)));
 }

@@ -7,13 +7,13 @@
 
 enum { SHADOW_SIDE_MOST = 2048, SHADOW_SIDE_LEAST = 256 };
 
-/* Twice as fine as the picture, about. */
-static int side_of(const frame *f)
+/* Twice as fine as the picture, about; half of that is enough for soft borders. */
+static int side_of(const frame *f, bool soft)
 {
     int longest = f->width > f->height ? f->width : f->height, side = SHADOW_SIDE_LEAST;
     while (side < SHADOW_SIDE_MOST && side < 2 * longest)
         side *= 2;
-    return side;
+    return soft ? side / 2 : side;
 }
 
 static double dot(const double a[3], const double b[3])
@@ -76,7 +76,7 @@ void shadow_draw(frame *f)
     stopwatch w = watch_start(f);
     frame light = *f;
     light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
-    light.width = light.height = side_of(f);
+    light.width = light.height = side_of(f, v->shadows && v->shadow_softness > 0);
     light.maps = NULL;
     gpu_texture *depth = gpu_target_acquire(f->g, light.width, light.height, GPU_DEPTH32F);
     light.page_depth = depth; /* what solids are gathered in must be as large */

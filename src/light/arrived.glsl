@@ -32,5 +32,5 @@ arrived_light light_at(surface_point p)
     float penumbra = min(min(radii.x, radii.y), min(radii.z, radii.w));
     bool there = sum > 1e-5;
     return arrived_light(dot(weights, vec4(a.x, b.x, c.x, d.x)), there ? mix(1.0, dot(weights, vec4(a.y, b.y, c.y, d.y)), u_occlusion) : 1.0,
-                         there ? clamp(penumbra - 0.7, 0.0, 1.0) : 0.0);
+                         there ? clamp(penumbra - 0.2, 0.0, 1.0) : 0.0);
 }

@@ -42,6 +42,7 @@ uniform sampler2D t_shadow;
 uniform mat4  u_shadow_from_eye;
 uniform vec2  u_shadow_texel;   /* side of a texel: of the map, and in eye space */
 uniform float u_shadow_depth;   /* what the map's depth 0 … 1 is in eye space */
+uniform float u_shadow_nearest; /* nothing is nearer to the light */
 uniform float u_cone;           /* half the light's width at distance 1; both in the map's units */
 
 const int SEARCHED = 12, COMPARED = 16;
@@ -50,6 +51,15 @@ const mat2 GOLDEN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688); /* by t
 vec2 turned_by(float turns)
 {
     return vec2(cos(6.2831853 * turns), sin(6.2831853 * turns));
+}
+
+/* The texel of the map at an offset: 1 when it is before the surface's own plane; how far to the side; how far before the place. */
+vec3 in_the_way(vec3 place, vec2 offset, vec2 rise, float bias, float lean)
+{
+    ivec2 texel = clamp(ivec2((place.xy + offset) / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1);
+    vec2 off = (vec2(texel) + 0.5) * u_shadow_texel.x - place.xy;
+    float above = place.z - texelFetch(t_shadow, texel, 0).r, aside = length(off);
+    return vec3(above + dot(rise, off) > bias + lean * aside ? 1.0 : 0.0, aside, above);
 }
 
 /* Share of the light's disc that is seen, and the radius of the penumbra in eye space; 0: nothing is in the way. */
@@ -61,31 +71,28 @@ vec2 light_share(vec3 eye, vec3 normal, float turns, float jitter)
     /* The surface's own plane, as depth over the map: only what is before it is in the way. */
     float facing = across.z * u_shadow_depth;
     vec2 rise = -across.xy * width / (abs(facing) > 0.03 ? facing : facing < 0.0 ? -0.03 : 0.03) * ratio;
-    float side = 1.0 / u_shadow_texel.x, steep = dot(rise, rise) / (ratio * ratio);
+    float steep = dot(rise, rise) / (ratio * ratio);
     float bias = u_shadow_texel.x * ratio * (0.15 + 0.1 * sqrt(steep)), lean = ratio * 0.002 * (1.0 + steep);
-    float reach = min(place.z * u_cone, 0.25);
+    float reach = clamp((place.z - u_shadow_nearest) * u_cone, 0.0, 0.25);
     vec2 way = turned_by(turns);
     float found = 0.0, sum = 0.0;
     for (int i = 0; i < SEARCHED; i++) {
-        float radius = reach * (float(i) + jitter) / float(SEARCHED);
-        ivec2 texel = ivec2((place.xy + way * radius) * side);
-        vec2 off = (vec2(texel) + 0.5) * u_shadow_texel.x - place.xy;
-        float nearest = texelFetch(t_shadow, texel, 0).r, distant = length(off);
-        float above = place.z - nearest;
-        /* A disc of light is hidden by what is inside the cone towards it. */
-        float hides = above + dot(rise, off) > bias + lean * distant && distant <= above * u_cone + u_shadow_texel.x ? radius : 0.0;
+        /* Densest in the middle, where what is near and thin is. */
+        float share = (float(i) + jitter) / float(SEARCHED), radius = i > 0 ? reach * share * share : 0.0;
+        vec3 here = in_the_way(place, way * radius, rise, bias, lean);
+        float hides = here.x * (here.y <= here.z * u_cone + 0.75 * u_shadow_texel.x ? share * share * share + 1e-3 : 0.0);
         found += hides;
-        sum += hides * above;
+        sum += hides * here.z;
         way = GOLDEN * way;
     }
     float between = sum / max(found, 1e-12);
     float radius = max(between * u_cone, 0.7 * u_shadow_texel.x), lit = float(COMPARED);
+    /* What the average over pixels adds to the width is left out here. */
+    float added = pixel_size(-eye.z) / width, compared_in = radius * sqrt(max(1.0 - 1.2 * added * added / (radius * radius), 0.4));
     int compared = found > 0.0 ? COMPARED : 0;
     for (int i = 0; i < compared; i++) {
-        ivec2 texel = ivec2((place.xy + way * (radius * sqrt((float(i) + jitter) / float(COMPARED)))) * side);
-        vec2 off = (vec2(texel) + 0.5) * u_shadow_texel.x - place.xy;
-        float above = place.z - texelFetch(t_shadow, texel, 0).r, distant = length(off);
-        lit -= above + dot(rise, off) > bias + lean * distant && distant <= (2.0 * above) * u_cone + 1.5 * u_shadow_texel.x ? 1.0 : 0.0;
+        vec3 here = in_the_way(place, way * (compared_in * sqrt((float(i) + jitter) / float(COMPARED))), rise, bias, lean);
+        lit -= here.x * (here.y <= 2.0 * here.z * u_cone + 1.5 * u_shadow_texel.x ? 1.0 : 0.0);
         way = GOLDEN * way;
     }
     return vec2(lit / float(COMPARED), found > 0.0 ? radius * width : 0.0);

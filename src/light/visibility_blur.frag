@@ -25,7 +25,7 @@ void main()
             vec4 other = texelFetch(t_share, clamp(at, ivec2(0), last), 0);
             float off = abs(dot(normal, on_ray(ray_of(vec2(at) + 0.5), other.z)) - level) * narrow;
             float weight = clamp(at, ivec2(0), last) == at ? clamp(2.0 - off, 0.0, 1.0) * (abs(i) == 2 ? 0.5 : 1.0) : 0.0;
-            float inside = clamp(min(own.w, other.w) + 0.5 - float(abs(i)) * 0.5, 0.0, 1.0);
+            float inside = clamp(0.4 * min(own.w, other.w) + 1.0 - float(abs(i)), 0.0, 1.0);
             vec2 both = weight * vec2(inside, 1.0);
             sum += other.xy * both;
             weights += both;
