@@ -124,18 +124,20 @@ float sky_below(float cosine, vec2 normal)
 float hidden_sky(ivec2 pixel, ivec2 way, vec3 eye, vec3 viewer, vec2 normal, float most, float jitter)
 {
     float cosine = -normal.y * inversesqrt(max(dot(normal, normal), 1e-12));
-    float seen = sky_below(cosine, normal), hidden = 0.0, narrow = 1.0 / (u_radius * u_radius);
+    float seen = sky_below(cosine, normal), hidden = 0.0, narrow = 1.0 / (u_radius * u_radius), before = 0.0;
     for (int i = 0; i < STEPS; i++) {
         float share = (float(i) + jitter) / float(STEPS);
         ivec2 at = pixel + way * int(max(share * (0.3 + 0.7 * share) * most + 0.5, 1.0));
         float depth = depth_at(at);
         vec3 off = eye_at(at, depth) - eye;
-        float far = dot(off, off), near = max(1.0 - far * narrow, 0.0);
-        bool counts = depth < NOTHING && near > 0.0 && clamp(at, ivec2(0), last) == at;
+        /* What hides a part of the sky begins somewhere between the last sample and this one. */
+        float far = dot(off, off), near = max(1.0 - 0.5 * (far + before) * narrow, 0.0);
+        bool counts = depth < NOTHING && far * narrow < 1.0 && clamp(at, ivec2(0), last) == at;
         cosine = counts ? max(cosine, dot(off, viewer) * inversesqrt(max(far, 1e-30))) : cosine;
         float left = sky_below(cosine, normal);
         hidden += near * near * (seen - left);
         seen = left;
+        before = counts ? far : before;
     }
     return hidden;
 }

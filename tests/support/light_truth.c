@@ -23,10 +23,10 @@ bool light_shot(shot *out, const light_scene *l, bool kept_off)
     char look[1024];
     dvec eye = seen_from(&l->view, l->towards);
     snprintf(look, sizeof look,
-             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":0,\"light_scale\":0.99,\"light_direction\":\"%.9f,%.9f,%.9f\",\"shadows\":%s,\"shadow_softness\":%g,\"occlusion\":%g,"
-             "\"occlusion_radius\":%g%s},\"rules\":[{\"surface\":{\"technique\":\"lambert\",\"ambient\":0}%s}]}",
-             eye.x, eye.y, eye.z, kept_off && l->softness >= 0 ? "true" : "false", l->softness > 0 && kept_off ? l->softness : 0, kept_off ? l->occlusion : 0,
-             l->radius > 0 ? l->radius : 0.1, l->scene ? l->scene : "", l->layers ? l->layers : "");
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":%g,\"light_scale\":0.99,\"light_direction\":\"%.9f,%.9f,%.9f\",\"shadows\":%s,\"shadow_softness\":%g,\"occlusion\":%g,"
+             "\"occlusion_radius\":%g},\"rules\":[{\"surface\":{\"technique\":\"lambert\",\"ambient\":0}%s}]}",
+             l->fill, eye.x, eye.y, eye.z, kept_off && l->softness >= 0 ? "true" : "false", l->softness > 0 && kept_off ? l->softness : 0, kept_off ? l->occlusion : 0,
+             l->radius > 0 ? l->radius : 0.1, l->layers ? l->layers : "");
     if (strstr(l->file, ".csg"))
         return shot_take(out, l->file, look, NULL, &l->view);
     return shot_of_shape(out, &l->s, l->file, look, NULL, &l->view);

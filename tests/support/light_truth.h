@@ -15,7 +15,7 @@ typedef struct light_scene {
     double      softness; /* degrees across */
     double      occlusion, radius; /* strength; share of the box's diagonal */
     const char *layers;   /* the rule's, JSON behind a comma; NULL: none */
-    const char *scene;    /* more of the look's "scene", JSON behind a comma; NULL: none */
+    double      fill;     /* strength of a second light */
 } light_scene;
 
 /* With or without what keeps light off. */
