@@ -1,5 +1,7 @@
 /* How much of the key light reaches a place: its depth as the light sees it against what is nearest there. */
+#ifndef SHADOW_DECLARED
 uniform sampler2D t_shadow;      /* depth from the light */
+#endif
 uniform mat4 u_shadow_from_eye;  /* to 0 … 1 in all three */
 uniform vec2 u_shadow_texel;     /* side of a texel: of the map, and in eye space */
 
