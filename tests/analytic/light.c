@@ -523,11 +523,201 @@ static void no_halo(void)
     shape_release(&l.s);
 }
 
+/* --- lines around shadows --------------------------------------------------------------------------------------- */
+
+/* What a place is, by rays: lit, in a shadow, or nothing that a line is drawn for (empty, turned away, hardly facing the light). */
+typedef enum lit_state { LIT, SHADOWED, NO_MATTER } lit_state;
+
+typedef struct hard_map {
+    int       width, height;
+    uint8_t  *state;
+    trace_map seen;
+} hard_map;
+
+static void hard_map_make(hard_map *m, const light_scene *l, const shot *s, double least)
+{
+    tracer *t = tracer_create(&l->s);
+    dvec    towards = dvec_unit(shot_to_eye(s, l->towards, 0));
+    *m = (hard_map){.width = s->width, .height = s->height, .state = check_alloc((size_t)s->width * (size_t)s->height, 1)};
+    trace_map_make(&m->seen, t, s);
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            dvec      origin, direction;
+            trace_hit hit;
+            size_t    at = (size_t)y * (size_t)s->width + (size_t)x;
+            m->state[at] = NO_MATTER;
+            shot_ray(s, x + 0.5, y + 0.5, &origin, &direction);
+            if (!m->seen.id[at] || dvec_dot(m->seen.normal[at], towards) < least || !tracer_hit(t, origin, direction, s->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
+                continue;
+            size_t count;
+            const trace_triangle *f = &tracer_triangles(t, &count)[hit.triangle];
+            dvec normal = dvec_dot(f->flat, l->towards) < 0 ? dvec_scale(f->flat, -1) : f->flat;
+            m->state[at] = light_of_disc(t, dvec_add(origin, dvec_scale(direction, hit.t)), normal, l->towards, 0, 1) > 0.5 ? LIT : SHADOWED;
+        }
+    tracer_destroy(t);
+}
+
+/* Does the shadow end between this pixel and one within `reach` of it, on one surface? */
+static bool shadow_ends(const hard_map *m, int x, int y, int reach)
+{
+    size_t own = (size_t)y * (size_t)m->width + (size_t)x;
+    bool   lit = false, dark = false;
+    for (int j = y - reach; j <= y + reach; j++)
+        for (int i = x - reach; i <= x + reach; i++) {
+            size_t at = (size_t)j * (size_t)m->width + (size_t)i;
+            if (i < 0 || j < 0 || i >= m->width || j >= m->height || m->seen.id[at] != m->seen.id[own] || dvec_dot(m->seen.normal[at], m->seen.normal[own]) < 0.7)
+                continue;
+            lit = lit || m->state[at] == LIT;
+            dark = dark || m->state[at] == SHADOWED;
+        }
+    return lit && dark;
+}
+
+static bool ink_near(const shot *s, int x, int y, int reach)
+{
+    for (int j = y - reach; j <= y + reach; j++)
+        for (int i = x - reach; i <= x + reach; i++)
+            if (i >= 0 && j >= 0 && i < s->width && j < s->height && s->picture[4 * (j * s->width + i)] < 160)
+                return true;
+    return false;
+}
+
+static const char *outline_look(const light_scene *l, const char *more, const char *layers)
+{
+    static char look[768];
+    dvec back = dvec_unit(dvec_sub(l->view.eye, l->view.target)), right = dvec_unit(dvec_cross(l->view.up, back)), up = dvec_cross(back, right);
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"light_direction\":\"%.9f,%.9f,%.9f\"%s},\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
+             "\"lines\":{\"operator\":\"shadow\",\"colour\":\"#000000\"}%s}]}", dvec_dot(right, l->towards), dvec_dot(up, l->towards), dvec_dot(back, l->towards), more, layers);
+    return look;
+}
+
+static void outlines_lie_on_borders(void)
+{
+    for (int k = 0; k < 6; k++) {
+        light_scene l = {.file = "court.glb", .towards = lights[k % 3], .view = view_of(k < 3 ? 25 : -35, k >= 3)};
+        hard_map    sure, perhaps;
+        shot        s;
+        l.view.width = 640;
+        l.view.height = 512;
+        court(&l.s);
+        if (shot_of_shape(&s, &l.s, l.file, outline_look(&l, "", ""), NULL, &l.view)) {
+            int ink = 0, stray = 0, border = 0, missed = 0;
+            hard_map_make(&sure, &l, &s, 0.25);
+            hard_map_make(&perhaps, &l, &s, 0.04);
+            for (int y = 0; y < s.height; y++)
+                for (int x = 0; x < s.width; x++) {
+                    if (s.picture[4 * (y * s.width + x)] < 128) {
+                        ink++;
+                        stray += !shadow_ends(&perhaps, x, y, 3);
+                    }
+                    if (shadow_ends(&sure, x, y, 1) && !trace_map_border(&sure.seen, x, y, 0.02)) {
+                        border++;
+                        missed += !ink_near(&s, x, y, 2);
+                    }
+                }
+            check_at_least("P15", border, 300, "pixels at shadows' borders, light %d, %s", k % 3, k < 3 ? "perspective" : "parallel rays");
+            check_at_most("P15", missed, 0.02 * border, "of them without a line");
+            check_at_most("P15", stray, 0.01 * ink, "pixels of lines elsewhere (of %d)", ink);
+            free(sure.state);
+            free(perhaps.state);
+            trace_map_release(&sure.seen);
+            trace_map_release(&perhaps.seen);
+            shot_release(&s);
+        }
+        shape_release(&l.s);
+    }
+}
+
+/* Balls have silhouettes and terminators, and no shadow ends on them. */
+static void outlines_nowhere_else(void)
+{
+    static const int facets[] = {16, 32, 96};
+    for (int k = 0; k < 9; k++) {
+        light_scene l = {.file = "ball.glb", .towards = lights[k % 3], .view = view_of(10 + 40 * k, k % 2)};
+        shot        s;
+        shape_sphere(&l.s, "ball", dvec_of(0, 0, 0), 2, facets[k / 3], 2 * facets[k / 3], true);
+        if (shot_of_shape(&s, &l.s, l.file, outline_look(&l, "", ""), NULL, &l.view)) {
+            int ink = 0;
+            for (int i = 0; i < s.width * s.height; i++)
+                ink += s.picture[4 * i] < 160;
+            check_at_most("P15", ink, 0, "pixels of lines on a ball of %d facets around", 2 * facets[k / 3]);
+            shot_release(&s);
+        }
+        shape_release(&l.s);
+    }
+    /* The lines are the same with shadows, with layers, and soft. */
+    light_scene l = {.file = "court.glb", .towards = lights[0], .view = view_of(25, false)};
+    shot        s, other;
+    court(&l.s);
+    static const char *const scenes[] = {",\"shadows\":true", ",\"shadows\":true,\"shadow_softness\":8,\"occlusion\":1", ""};
+    static const char *const layers[] = {"", "", ",\"layers\":{\"technique\":\"peel\",\"count\":1}"};
+    if (shot_of_shape(&s, &l.s, l.file, outline_look(&l, "", ""), NULL, &l.view)) {
+        for (int k = 0; k < 3; k++)
+            if (shot_of_shape(&other, &l.s, l.file, outline_look(&l, scenes[k], layers[k]), NULL, &l.view)) {
+                check_at_most("P15", shot_differing(&s, &other, 2), 0, "values that differ, way %d", k);
+                shot_release(&other);
+            }
+        shot_release(&s);
+    }
+    shape_release(&l.s);
+}
+
+/* --- halftones --------------------------------------------------------------------------------------------------- */
+
+/* Blocks of dots have as much ink as shadow and corner take light. */
+static void dots_follow(void)
+{
+    enum { BLOCK = 20 };
+    light_scene l = {.file = "court.glb", .towards = lights[1], .softness = 10, .occlusion = 0.9, .radius = 0.12, .view = view_of(25, false)};
+    shot        light, dots;
+    char        look[768];
+    l.view.width = 800;
+    l.view.height = 640;
+    court(&l.s);
+    dvec back = dvec_unit(dvec_sub(l.view.eye, l.view.target)), right = dvec_unit(dvec_cross(l.view.up, back)), up = dvec_cross(back, right);
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":0,\"light_scale\":0.99,\"light_direction\":\"%.9f,%.9f,%.9f\",\"shadows\":true,\"shadow_softness\":10,\"occlusion\":0.9,\"occlusion_radius\":0.12},"
+             "\"rules\":[{\"surface\":{\"technique\":\"dots\",\"uneven\":0,\"shadow\":0,\"light\":1,\"contrast\":1,\"texture\":0,\"ink\":\"#000000\",\"paper\":\"#ffffff\",\"diameter\":2}}]}",
+             dvec_dot(right, l.towards), dvec_dot(up, l.towards), dvec_dot(back, l.towards));
+    if (light_shot(&light, &l, true)) {
+        if (shot_of_shape(&dots, &l.s, l.file, look, NULL, &l.view)) {
+            double off = 0, low = 1, high = 0;
+            int    blocks = 0;
+            for (int y = 0; y + BLOCK <= light.height; y += BLOCK)
+                for (int x = 0; x + BLOCK <= light.width; x += BLOCK) {
+                    double tone = 0, drawn = 0;
+                    bool   whole = true;
+                    for (int j = y; j < y + BLOCK; j++)
+                        for (int i = x; i < x + BLOCK; i++) {
+                            size_t at = (size_t)j * (size_t)light.width + (size_t)i;
+                            whole = whole && light.depth[at] < INFINITY && light.id[at] == light.id[(size_t)y * (size_t)light.width + (size_t)x];
+                            tone += picture_linear(light.picture[4 * at]) / (BLOCK * BLOCK);
+                            drawn += picture_linear(dots.picture[4 * at]) / (BLOCK * BLOCK);
+                        }
+                    if (!whole)
+                        continue;
+                    off += fabs(tone - drawn);
+                    low = fmin(low, tone);
+                    high = fmax(high, tone);
+                    blocks++;
+                }
+            check_at_least("P21", blocks, 100, "blocks of one surface, tones from %.2f to %.2f", low, high);
+            check_at_least("P21", high - low, 0.5, "range of their tones");
+            check_at_most("P21", off / blocks, 0.05, "mean difference of paper left from light that arrives");
+            shot_release(&dots);
+        }
+        shot_release(&light);
+    }
+    shape_release(&l.s);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"penumbra", penumbras_grow}, {"shadows", shadows_are_a_discs}, {"hard", hard_is_hard}, {"contact", contact_has_no_gap}, {"acne", no_acne}, {"lights", other_lights_stay},
         {"paths", one_picture}, {"solid", solids_too}, {"motion", light_moves}, {"corners", corners_are_darker}, {"falloff", darkness_falls_off}, {"plane", planes_stay}, {"halo", no_halo},
+        {"outlines", outlines_lie_on_borders}, {"elsewhere", outlines_nowhere_else}, {"dots", dots_follow},
     };
     int status = check_main(argc, argv, "light", cases, sizeof cases / sizeof *cases);
     shot_end();

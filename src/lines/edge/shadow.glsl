@@ -16,14 +16,15 @@ shadow_place place_at(ivec2 at)
 {
     vec4 normal_depth = texel(t_normal_depth, at);
     vec3 eye = vec3((2.0 * (vec2(at) + 0.5) / u_size - 1.0) * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
-    vec3 viewer = u_perspective > 0.5 ? -eye : vec3(0.0, 0.0, 1.0);
-    return shadow_place(eye, normal_depth.xyz * (dot(normal_depth.xyz, viewer) < 0.0 ? -1.0 : 1.0));
+    vec3 viewer = u_perspective > 0.5 ? -normalize(eye) : vec3(0.0, 0.0, 1.0);
+    /* Sheets seen from behind turn around; rims of smooth shapes, where normals tip a little too far, do not. */
+    return shadow_place(eye, normal_depth.xyz * (dot(normal_depth.xyz, viewer) < -0.25 ? -1.0 : 1.0));
 }
 
-/* 1: faces the light well; 0: hardly or not. Near the terminator a coarse shape shadows itself. */
+/* 1: faces the light well; 0: hardly or not, or nothing is there. Near the terminator a coarse shape shadows itself. */
 float facing_light(shadow_place p)
 {
-    return smoothstep(0.05, 0.2, dot(p.normal, u_shadow_light));
+    return -p.eye.z < u_far ? smoothstep(0.05, 0.2, dot(p.normal, u_shadow_light)) : 0.0;
 }
 
 /* The light at a pixel beside, UNKNOWN where that is another surface. */
