@@ -1,12 +1,12 @@
 /* What the small picture says about a place: light/visibility.frag. */
 #include "light/visibility.glsl"
 
-uniform sampler2D t_visibility; /* share of the first light, share of the sky, eye depth, radius of the penumbra in pixels */
+uniform sampler2D t_visibility; /* share of the first light, share of the sky, eye depth */
 uniform float     u_occlusion;  /* how much of what the sky does not give is missed */
 
 struct arrived_light {
     float light, sky;
-    float known; /* 0: ask the shadow map itself */
+    bool  known;
 };
 
 /* The four samples around the place, those most that lie in the plane of its surface. Where none does, as on what is thinner than the samples' distance, and in
@@ -27,10 +27,6 @@ arrived_light light_at(surface_point p)
     vec4 weights = (vec4(back.x * back.y, share.x * back.y, back.x * share.y, share.x * share.y) + 0.002) / (0.05 + off * off) * step(abs(off), vec4(3.0));
     float sum = dot(weights, vec4(1.0));
     weights /= max(sum, 1e-6);
-    /* Sharp shadows are sharpest in the shadow map. */
-    vec4 radii = mix(vec4(1e3), vec4(a.w, b.w, c.w, d.w), step(vec4(1e-3), weights));
-    float penumbra = min(min(radii.x, radii.y), min(radii.z, radii.w));
-    bool there = sum > 1e-5;
-    return arrived_light(dot(weights, vec4(a.x, b.x, c.x, d.x)), there ? mix(1.0, dot(weights, vec4(a.y, b.y, c.y, d.y)), u_occlusion) : 1.0,
-                         there ? clamp(penumbra - 0.2, 0.0, 1.0) : 0.0);
+    bool known = sum > 1e-5;
+    return arrived_light(dot(weights, vec4(a.x, b.x, c.x, d.x)), known ? mix(1.0, dot(weights, vec4(a.y, b.y, c.y, d.y)), u_occlusion) : 1.0, known);
 }

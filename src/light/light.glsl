@@ -24,11 +24,7 @@ float unshadowed(surface_point p)
 {
 #if defined(HAS_SOFT_SHADOW)
     arrived_light arrived = light_at(p);
-    float share = arrived.light;
-    int sharp = arrived.known < 1.0 ? 1 : 0; /* a loop, because software drivers skip it */
-    for (int once = 0; once < sharp; once++)
-        share = mix(lit_share(p.eye, p.normal, towards_light(0, p.eye)), share, arrived.known);
-    return share;
+    return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
 #elif defined(HAS_SHADOW)
     return lit_share(p.eye, p.normal, towards_light(0, p.eye));
 #else

@@ -72,7 +72,7 @@ vec2 light_share(vec3 eye, vec3 normal, float turns, float jitter)
     float facing = across.z * u_shadow_depth;
     vec2 rise = -across.xy * width / (abs(facing) > 0.03 ? facing : facing < 0.0 ? -0.03 : 0.03) * ratio;
     float steep = dot(rise, rise) / (ratio * ratio);
-    float bias = u_shadow_texel.x * ratio * (0.15 + 0.1 * sqrt(steep)), lean = ratio * 0.002 * (1.0 + steep);
+    float bias = u_shadow_texel.x * ratio * (0.6 + 0.3 * sqrt(steep)), lean = ratio * 0.002 * (1.0 + steep);
     float reach = clamp((place.z - u_shadow_nearest) * u_cone, 0.0, 0.25);
     vec2 way = turned_by(turns);
     float found = 0.0, sum = 0.0;

@@ -17,20 +17,18 @@ void main()
         vec3 normal = texelFetch(t_normals, pixel, 0).xyz;
         float level = dot(normal, on_ray(ray_of(gl_FragCoord.xy), own.z)), narrow = 1.0 / pixel_size(own.z);
         vec2 sum = own.xy, weights = vec2(1.0);
-        float penumbra = own.w;
         for (int i = -2; i <= 2; i++) {
             if (i == 0)
                 continue;
             ivec2 at = pixel + way * i;
             vec4 other = texelFetch(t_share, clamp(at, ivec2(0), last), 0);
             float off = abs(dot(normal, on_ray(ray_of(vec2(at) + 0.5), other.z)) - level) * narrow;
-            float weight = clamp(at, ivec2(0), last) == at ? clamp(2.0 - off, 0.0, 1.0) * (abs(i) == 2 ? 0.5 : 1.0) : 0.0;
+            float weight = clamp(at, ivec2(0), last) == at ? clamp(1.5 - 2.0 * off, 0.0, 1.0) * (abs(i) == 2 ? 0.5 : 1.0) : 0.0;
             float inside = clamp(0.4 * min(own.w, other.w) + 1.0 - float(abs(i)), 0.0, 1.0);
             vec2 both = weight * vec2(inside, 1.0);
             sum += other.xy * both;
             weights += both;
-            penumbra = both.x > 0.0 ? min(penumbra, other.w) : penumbra;
         }
-        out_share = vec4(sum / weights, own.z, penumbra);
+        out_share = vec4(sum / weights, own.zw);
     }
 }
