@@ -154,6 +154,9 @@ void frame_set_common(frame *f, const figure_state *s)
         set_part_frames(f, s);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);
+    if (f->shadow && gpu_has_uniform(g, "u_shadow_from_eye"))
+        shadow_set(f);
+    visibility_set(f);
     if (gpu_has_uniform(g, "u_cut_lines"))
         set_cut(f);
     if (gpu_has_uniform(g, "u_focus"))

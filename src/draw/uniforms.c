@@ -26,6 +26,8 @@ const char *target_name(target t)
 void target_declare(text *prelude, target t)
 {
     text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
+    if (t == TARGET_SHADOW)
+        text_append(prelude, "#define SHADOW_DECLARED\n");
 }
 
 void uniforms_capitals(const char *key, char out[CAPITALS_SIZE])

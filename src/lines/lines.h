@@ -57,6 +57,6 @@ enum { LINES_GROW_FROM = 2 };
      .repeat = 2, .when = "contrast>1"}
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
-    lines_denormal, lines_id, lines_colour;
+    lines_denormal, lines_id, lines_colour, lines_shadow;
 
 #endif
