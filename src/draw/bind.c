@@ -154,6 +154,9 @@ void frame_set_common(frame *f, const figure_state *s)
         set_part_frames(f, s);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);
+    if (f->shadow && gpu_has_uniform(g, "u_shadow_from_eye"))
+        shadow_set(f);
+    visibility_set(f);
     if (gpu_has_uniform(g, "u_cut_lines"))
         set_cut(f);
     if (gpu_has_uniform(g, "u_focus"))
@@ -223,6 +226,7 @@ static const gpu_format formats[TARGET_COUNT] = {
     [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
     [TARGET_DIRECTION] = GPU_RGBA16F,
     [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
+    [TARGET_OUTLINES] = GPU_RGBA16F,
 };
 
 gpu_texture *frame_acquire(frame *f, target t)

@@ -120,6 +120,8 @@ void frame_draw(frame *f, gpu_texture *out)
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     shadow_draw(f);
+    if (!gpu_failed(f->g))
+        visibility_draw(f);
     if (!gpu_failed(f->g)) {
         clear_page(f);
         draw_figures(f);
@@ -129,5 +131,6 @@ void frame_draw(frame *f, gpu_texture *out)
     gpu_target_release(f->g, f->page);
     gpu_target_release(f->g, f->page_depth);
     gpu_target_release(f->g, f->shadow);
-    f->shadow = NULL;
+    gpu_target_release(f->g, f->visibility);
+    f->shadow = f->visibility = NULL;
 }

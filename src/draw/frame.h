@@ -31,6 +31,7 @@ typedef struct frame {
     gpu_texture     *page, *page_depth;
     gpu_texture     *shadow;          /* depth of what the first light sees; NULL: it throws no shadow */
     view_camera      shadow_camera;   /* the light's eye */
+    gpu_texture     *visibility;      /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor occlusion */
     float            clip_plane[4];   /* eye space, while a mirror's view is drawn */
     int              layers;          /* drawn by the deepest stack */
     const char      *producer;        /* of layers; NULL: there were none */

@@ -100,9 +100,20 @@ void      watch_stop(frame *f, stopwatch w, const char *group, const char *name)
 void lights_declare(text *prelude, const frame *f);
 void lights_set(frame *f);
 
+void shadow_set(frame *f); /* uniforms of light/shadow.glsl */
+
 /* --- shadow.c --- */
-/* Draws what the first light sees, where the look wants shadows and the light has a direction. The caller gives f->shadow back. */
+/* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a direction. The caller gives f->shadow back. */
 void shadow_draw(frame *f);
+
+/* --- visibility.c: soft shadows and ambient occlusion --- */
+/* Draws f->visibility, where the look wants it. The caller gives it back. */
+void visibility_draw(frame *f);
+/* For programs that ask for light. */
+void visibility_declare(text *prelude, const frame *f);
+void visibility_set(frame *f);
+
+/* --- lighting.c --- */
 /* The first light's direction in eye space, towards it; false when it has a place instead. */
 bool lights_first_direction(const frame *f, double out[3]);
 

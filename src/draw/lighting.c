@@ -73,11 +73,12 @@ static light_list list_lights(const frame *f)
 void lights_declare(text *prelude, const frame *f)
 {
     light_list l = list_lights(f);
-    text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, f->shadow ? "#define HAS_SHADOW\n" : "");
+    text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, f->shadow && scene_of(f)->shadows ? "#define HAS_SHADOW\n" : "");
+    visibility_declare(prelude, f);
 }
 
 /* From eye space of this frame to the shadow map. */
-static void set_shadow(frame *f)
+void shadow_set(frame *f)
 {
     /* World from eye: the view is a rotation and a shift. */
     mat4 world = mat4_identity();
@@ -101,6 +102,15 @@ static void set_shadow(frame *f)
     double side = gpu_texture_width(f->shadow);
     gpu_set_vec2(f->g, "u_shadow_texel", (float)(1 / side), (float)(2 * f->shadow_camera.half_height / side));
     gpu_set_texture(f->g, "t_shadow", f->shadow, false);
+    double towards[3], depth = f->shadow_camera.far - f->shadow_camera.near;
+    lights_first_direction(f, towards);
+    gpu_set_vec3(f->g, "u_shadow_light", (float[]){(float)towards[0], (float)towards[1], (float)towards[2]});
+    gpu_set_float(f->g, "u_shadow_depth", (float)depth);
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->shadow_camera, f->plan->box, &nearest, &farthest);
+    gpu_set_float(f->g, "u_shadow_nearest", (float)((nearest - f->shadow_camera.near) / depth));
+    double half = (double)scene_of(f)->shadow_softness * (3.14159265358979 / 360);
+    gpu_set_float(f->g, "u_cone", (float)(tan(half) * depth / (2 * f->shadow_camera.half_height)));
 }
 
 void lights_set(frame *f)
@@ -108,8 +118,6 @@ void lights_set(frame *f)
     light_list l = list_lights(f);
     gpu_set_vec4_array(f->g, "u_light_position", l.positions[0], l.count);
     gpu_set_vec4_array(f->g, "u_light_colour", l.colours[0], l.count);
-    if (f->shadow)
-        set_shadow(f);
 }
 
 bool lights_first_direction(const frame *f, double out[3])

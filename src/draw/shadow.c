@@ -7,13 +7,13 @@
 
 enum { SHADOW_SIDE_MOST = 2048, SHADOW_SIDE_LEAST = 256 };
 
-/* Twice as fine as the picture, about. */
-static int side_of(const frame *f)
+/* Twice as fine as the picture, about; half of that is enough for soft borders. */
+static int side_of(const frame *f, bool soft)
 {
     int longest = f->width > f->height ? f->width : f->height, side = SHADOW_SIDE_LEAST;
     while (side < SHADOW_SIDE_MOST && side < 2 * longest)
         side *= 2;
-    return side;
+    return soft ? side / 2 : side;
 }
 
 static double dot(const double a[3], const double b[3])
@@ -64,11 +64,34 @@ static view_camera camera_of_light(box3 box, const double back[3])
     return c;
 }
 
+static bool rule_reads_shadow(const rule *r)
+{
+    for (int k = 0; r && k < KIND_COUNT; k++)
+        for (size_t i = 0; i < r->use_counts[k]; i++) {
+            const technique_use *use = &r->uses[k][i];
+            for (size_t p = 0; p < use->technique->pass_count; p++)
+                for (int n = 0; n < PASS_READS_MAX && use->technique->passes[p].reads[n]; n++)
+                    if (use->technique->passes[p].reads[n] == TARGET_SHADOW && pass_applies((kind_id)k, &use->technique->passes[p], use))
+                        return true;
+        }
+    return false;
+}
+
+/* Does some pass look at shadows whether or not they are drawn? */
+static bool is_read(const frame *f)
+{
+    for (size_t i = 0; i < f->plan->figure_count; i++)
+        if (rule_reads_shadow(f->plan->figures[i].rule) || rule_reads_shadow(f->plan->figures[i].hidden))
+            return true;
+    return false;
+}
+
 void shadow_draw(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
     double towards[3], back[3];
-    if (!v->shadows || box3_is_empty(f->plan->box) || !lights_first_direction(f, towards))
+    bool read = is_read(f);
+    if ((!v->shadows && !read) || box3_is_empty(f->plan->box) || !lights_first_direction(f, towards))
         return;
     for (int k = 0; k < 3; k++) /* the view's rotation, backwards */
         back[k] = dot(&f->camera.view.m[4 * k], towards);
@@ -76,7 +99,7 @@ void shadow_draw(frame *f)
     stopwatch w = watch_start(f);
     frame light = *f;
     light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
-    light.width = light.height = side_of(f);
+    light.width = light.height = side_of(f, !read && v->shadow_softness > 0);
     light.maps = NULL;
     gpu_texture *depth = gpu_target_acquire(f->g, light.width, light.height, GPU_DEPTH32F);
     light.page_depth = depth; /* what solids are gathered in must be as large */

@@ -15,6 +15,7 @@ static const char *const target_names[TARGET_COUNT] = {
     [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
     [TARGET_SHADOW] = "t_shadow",             [TARGET_DIRECTION] = "t_direction",
     [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",              [TARGET_OVERSHOOT] = "t_overshoot",
+    [TARGET_OUTLINES] = "t_outlines",
 };
 
 const char *target_name(target t)
@@ -25,6 +26,8 @@ const char *target_name(target t)
 void target_declare(text *prelude, target t)
 {
     text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
+    if (t == TARGET_SHADOW)
+        text_append(prelude, "#define SHADOW_DECLARED\n");
 }
 
 void uniforms_capitals(const char *key, char out[CAPITALS_SIZE])

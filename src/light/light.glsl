@@ -8,6 +8,9 @@ uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 #ifdef HAS_SHADOW
 #include "light/shadow.glsl"
 #endif
+#if defined(HAS_SOFT_SHADOW) || defined(HAS_OCCLUSION)
+#include "light/arrived.glsl"
+#endif
 
 vec3 towards_light(int i, vec3 eye)
 {
@@ -15,11 +18,25 @@ vec3 towards_light(int i, vec3 eye)
     return light.w > 0.5 ? normalize(light.xyz - eye) : light.xyz;
 }
 
-/* Share of a light that is not kept off by what lies between. Only the first one has shadows. */
-float unshadowed(int i, surface_point p)
+/* Share of the first light that is not kept off by what lies between; the others have no shadows. Asked for outside of loops over lights: those with loops
+ * inside are not unrolled. */
+float unshadowed(surface_point p)
 {
-#ifdef HAS_SHADOW
-    return i == 0 ? lit_share(p.eye, p.normal, towards_light(0, p.eye)) : 1.0;
+#if defined(HAS_SOFT_SHADOW)
+    arrived_light arrived = light_at(p);
+    return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
+#elif defined(HAS_SHADOW)
+    return lit_share(p.eye, p.normal, towards_light(0, p.eye));
+#else
+    return 1.0;
+#endif
+}
+
+/* Share of all light that corners and clefts leave. */
+float sky_share(surface_point p)
+{
+#ifdef HAS_OCCLUSION
+    return light_at(p).sky;
 #else
     return 1.0;
 #endif
@@ -29,9 +46,10 @@ float unshadowed(int i, surface_point p)
 vec3 diffuse_light(surface_point p)
 {
     vec3 sum = vec3(0.0);
+    float first = unshadowed(p);
     for (int i = 0; i < LIGHT_COUNT; i++)
-        sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * unshadowed(i, p));
-    return sum;
+        sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * (i == 0 ? first : 1.0));
+    return sum * sky_share(p);
 }
 
 /* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. */
@@ -39,13 +57,14 @@ float wrapped_light(surface_point p)
 {
     float sum = 0.0;
     float total = 0.0;
+    float first = unshadowed(p);
     for (int i = 0; i < LIGHT_COUNT; i++) {
         float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
         float turned = dot(p.normal, towards_light(i, p.eye));
-        sum += strength * (0.5 * (turned > 0.0 ? turned * unshadowed(i, p) : turned) + 0.5);
+        sum += strength * (0.5 * (turned > 0.0 && i == 0 ? turned * first : turned) + 0.5);
         total += strength;
     }
-    return total > 0.0 ? sum / total : 0.0;
+    return total > 0.0 ? sum / total * sky_share(p) : 0.0;
 }
 
 /* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one
@@ -54,5 +73,5 @@ float highlight(surface_point p, float shininess)
 {
     vec3 light = towards_light(0, p.eye);
     float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
-    return unshadowed(0, p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
+    return unshadowed(p) * sky_share(p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
 }

@@ -1,3 +1,5 @@
+#include "light/view.glsl"
+
 /* What a surface technique knows about the place it colours. All vectors in eye space; colours linear. */
 struct surface_point {
     vec3 eye;     /* position */
@@ -22,8 +24,6 @@ vec2 s_uv;
 vec2 s_uv_unique;
 #endif
 
-uniform float u_perspective; /* 1, or 0 for parallel rays */
-uniform vec2  u_unproject;   /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 
 /* Unit vector from the place to the viewer. */
 vec3 towards_viewer(vec3 eye)

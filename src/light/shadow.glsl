@@ -1,7 +1,16 @@
 /* How much of the key light reaches a place: its depth as the light sees it against what is nearest there. */
+#ifndef SHADOW_DECLARED
 uniform sampler2D t_shadow;      /* depth from the light */
+#endif
 uniform mat4 u_shadow_from_eye;  /* to 0 … 1 in all three */
 uniform vec2 u_shadow_texel;     /* side of a texel: of the map, and in eye space */
+
+/* One comparison, for the few places that nothing better is known of. */
+float lit_once(vec3 eye, vec3 normal)
+{
+    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (1.5 * u_shadow_texel.y), 1.0)).xyz;
+    return step(at.z, texelFetch(t_shadow, clamp(ivec2(at.xy / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1), 0).r);
+}
 
 /* Four comparisons, mixed as a filter would mix them: the border of a shadow is one texel wide. */
 float lit_share(vec3 eye, vec3 normal, vec3 light)

@@ -50,6 +50,8 @@ static const param common[] = {
     PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 64, .soft_max = 32, .unit = UNIT_PX, .reach = OVERSHOOT_MOST, .cpu_only = true,
                     .doc = "How far straight lines run on past corners and junctions, as in architects' drafts; it varies from line to line, "
                            "and short lines run on less. 0 ends them where they meet."),
+    PARAM_FLOAT_ROW(lines_common, halo, .def = 0, .min = 0, .max = 32, .soft_max = 12, .unit = UNIT_PX,
+                    .doc = "Gap in lines behind an outline, beside it, so that objects separate; 0 leaves none."),
 };
 
 /* Ink of less than this is shading. */
@@ -74,7 +76,7 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
 
 static const technique *const techniques[] = {
     &lines_discontinuity, &lines_four_tap, &lines_sobel, &lines_saito, &lines_saito_normalised, &lines_denormal,
-    &lines_id,            &lines_colour,
+    &lines_id,            &lines_colour,   &lines_shadow,
 };
 
 static const pass ink = {.name = "ink", .shader = "lines/ink.frag", .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_DASH, TARGET_GROUND, TARGET_DEPTH},

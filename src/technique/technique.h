@@ -28,6 +28,7 @@ typedef enum target {
     TARGET_EDGE_BEFORE, /* edge map of the layer in front of this one */
     TARGET_NEARER_ROW, /* RGBA16F: on the way to the next */
     TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
+    TARGET_OUTLINES,   /* RGBA16F: r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
