@@ -84,7 +84,10 @@ static int put_indices(glb *g, const mesh *m)
 static void put_mesh(glb *g, const model_part *p, double units_per_metre)
 {
     mesh m = {0};
-    p->build(&m);
+    if (p->build)
+        p->build(&m);
+    else
+        p->build_one(&m, p->number);
     drop_unused(&m);
     float *positions = malloc(m.point_count * 3 * sizeof *positions);
     if (!positions)
@@ -102,7 +105,7 @@ static void put_mesh(glb *g, const model_part *p, double units_per_metre)
 
 static bool same_mesh(const model_part *a, const model_part *b)
 {
-    return a->build == b->build && a->material == b->material;
+    return a->build == b->build && a->build_one == b->build_one && a->number == b->number && a->material == b->material;
 }
 
 static int *put_meshes(glb *g, const model *m)
@@ -135,7 +138,19 @@ static void put_rotation(FILE *json, int quarter_turns)
         fprintf(json, ",\"rotation\":[%s]", turned[quarter_turns % 4]);
 }
 
-/* Node 0 is the whole, then come the groups, then the parts. Every group has a part. */
+/* Cameras look along −z; they are turned about y, then tilted. */
+static void put_camera_node(FILE *json, const model *m, int index)
+{
+    const model_camera *c = &m->cameras[index];
+    double d[3] = {c->target[0] - c->at[0], c->target[1] - c->at[1], c->target[2] - c->at[2]};
+    double turn = atan2(-d[0], -d[2]) / 2, tilt = atan2(d[1], hypot(d[0], d[2])) / 2;
+    fprintf(json, ",{\"name\":\"%s\",\"camera\":%d", c->name, index);
+    put_translation(json, c->at, m->units_per_metre);
+    fprintf(json, ",\"rotation\":[%.6f,%.6f,%.6f,%.6f]}", cos(turn) * sin(tilt), sin(turn) * cos(tilt), -sin(turn) * sin(tilt),
+            cos(turn) * cos(tilt));
+}
+
+/* Node 0 is the whole, then come the groups, then the parts, then the cameras. Every group has a part. */
 static void put_nodes(FILE *json, const model *m, const int *mesh_of)
 {
     fprintf(json, "\"nodes\":[{\"name\":\"%s\",\"children\":[1", m->name);
@@ -159,7 +174,18 @@ static void put_nodes(FILE *json, const model *m, const int *mesh_of)
         put_translation(json, m->parts[i].at, m->units_per_metre);
         fprintf(json, "}");
     }
+    for (int i = 0; i < m->camera_count; i++)
+        put_camera_node(json, m, i);
     fprintf(json, "],");
+}
+
+static void put_cameras(FILE *json, const model *m)
+{
+    for (int i = 0; i < m->camera_count; i++)
+        fprintf(json, "%s{\"name\":\"%s\",\"type\":\"perspective\",\"perspective\":{\"yfov\":%.5f,\"znear\":0.1}}", i ? "," : "\"cameras\":[",
+                m->cameras[i].name, m->cameras[i].fov_y * PI / 180);
+    if (m->camera_count)
+        fprintf(json, "],");
 }
 
 static void put_materials(FILE *json, const model *m)
@@ -182,10 +208,14 @@ bool model_write(const model *m, const char *path)
     for (int k = 0; k < 5; k++)
         text_start(lists[k]);
     fprintf(json.stream, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner %s\",\"copyright\":\"CC0-1.0\"},"
-                         "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", m->generator);
+                         "\"scene\":0,\"scenes\":[{\"nodes\":[0", m->generator);
+    for (int i = 0; i < m->camera_count; i++)
+        fprintf(json.stream, ",%d", 1 + m->group_count + m->part_count + i);
+    fprintf(json.stream, "]}],");
     int *mesh_of = put_meshes(&g, m);
     put_nodes(json.stream, m, mesh_of);
     free(mesh_of);
+    put_cameras(json.stream, m);
     if (m->animate)
         m->animate(&g, json.stream);
     put_materials(json.stream, m);

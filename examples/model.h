@@ -23,7 +23,14 @@ typedef struct model_part {
     int         group, material;
     void      (*build)(mesh *); /* parts with the same one share a mesh, and so have the same material */
     double      at[3];
+    void      (*build_one)(mesh *, int number); /* instead of `build`, for parts that are many of a kind */
+    int         number;
 } model_part;
+
+typedef struct model_camera {
+    const char *name;
+    double      at[3], target[3], fov_y; /* degrees; fov_y is the vertical angle */
+} model_camera;
 
 typedef struct glb glb;
 
@@ -37,6 +44,8 @@ typedef struct model {
     const model_part     *parts;
     int                   part_count;
     void                (*animate)(glb *, FILE *json); /* writes "animations":[…], or NULL; group k is node 1 + k */
+    const model_camera   *cameras;
+    int                   camera_count;
 } model;
 
 bool model_write(const model *m, const char *path);

@@ -92,6 +92,11 @@ float own_depth(ivec2 at)
     return is_own(at) ? depth : 1.0;
 }
 
+#if defined(HAS_LINES) && defined(JOINS_INK)
+#define MEAN_OF_INK
+#include "compose/joined.glsl"
+#endif
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -102,6 +107,9 @@ void main()
 #ifdef MERGED
     detect_edges();
 #endif
+#ifdef JOINS_INK
+    ink = ink_of_copies(depth);
+#else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
         vec2 place = line_place(i);
         float line_depth = own_depth(pixel_at(place));
@@ -109,9 +117,13 @@ void main()
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(place));
+#ifdef HAS_FOCUS
+        own_ink *= in_focus_of_window(line_depth);
+#endif
         depth = min(depth, line_depth);
         ink = over(own_ink, ink);
     }
+#endif
 #endif
     vec4 colour = ink + fill * (fill_share() * (1.0 - ink.a));
     if (colour.a <= 0.0 || depth >= 1.0)

@@ -1,5 +1,8 @@
 /* Where a composition looks the figure's maps up: at the pixel itself, unless a technique of the kind "perturb" says otherwise; its file
  * then comes first and has these functions. Integer places are the centres of pixels. */
+#ifdef HAS_FOCUS
+#include "light/focus.glsl"
+#endif
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;

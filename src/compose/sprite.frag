@@ -26,6 +26,10 @@ float own_depth(ivec2 at)
 #include "compose/reach.glsl"
 #endif
 
+#if defined(HAS_LINES) && defined(JOINS_INK)
+#include "compose/joined.glsl"
+#endif
+
 #ifdef PERTURBED
 /* Paper where the fill fell short of the outline, and under the grains that it leaves bare; not where a surface has none. What stands behind is
  * hidden by it. Seed 000, section 6.4. */
@@ -52,6 +56,9 @@ void main()
 #ifdef MERGED
     detect_edges();
 #endif
+#ifdef JOINS_INK
+    ink = ink_of_copies(depth);
+#else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
         vec2 place = line_place(i);
         float line_depth = own_depth(pixel_at(place));
@@ -66,9 +73,13 @@ void main()
 #endif
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(place));
+#ifdef HAS_FOCUS
+        own_ink *= in_focus_of_window(line_depth);
+#endif
         depth = min(depth, line_depth);
         ink = over(own_ink, ink);
     }
+#endif
 #endif
 #ifdef PERTURBED
     fill = mix(fallback_of(fill.a), fill, fill_share());

@@ -72,15 +72,26 @@ static void set_part_frames(frame *f, const figure_state *s)
     gpu_set_int(f->g, "u_only_part", only);
 }
 
+void frame_set_numbers(frame *f, const technique_use *use)
+{
+    if (!use->technique->numbers || !gpu_has_uniform(f->g, "u_numbers"))
+        return;
+    float numbers[NUMBERS_MAX][4];
+    size_t count = use->technique->numbers(use->values, f->seed, f->width, f->height, numbers);
+    gpu_set_vec4_array(f->g, "u_numbers", numbers[0], (int)count);
+}
+
 /* What the coarse pictures of a perturbation are measured in. */
 static void set_field(frame *f, const figure_state *s)
 {
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
     const perturbation *p = use->technique->perturbs;
-    int size[2];
-    coarse_size(f, s, size);
-    gpu_set_float(f->g, "u_cell", p->cell(use->values));
-    gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
+    if (p->cell) {
+        int size[2];
+        coarse_size(f, s, TARGET_UNCERTAINTY, size);
+        gpu_set_float(f->g, "u_cell", p->cell(use->values));
+        gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
+    }
     gpu_set_float(f->g, "u_reach", fmaxf(p->reach(use->values), 1));
     gpu_set_uint(f->g, "u_seed", p->seed(use->values, f->seed, f->time_s));
     /* What the pictures of normals and depth were cleared to. */
@@ -93,6 +104,28 @@ static float forward_of(const frame *f, const figure *fig)
 {
     double far = f->camera.far, range = far - f->camera.near;
     return fig->ghostly && range > 0 ? (float)fmin(2e-6 + 5e-7 * far / range, 1e-3) : 0;
+}
+
+/* The range is that of all that is drawn, so that figures agree. */
+static void set_focus(frame *f)
+{
+    const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
+    double range = fmax(farthest - nearest, 1e-30);
+    gpu_set_vec4(f->g, "u_focus", (float[]){v->focus, (float)(nearest + (double)v->focus_at * range), (float)(1 / ((double)v->focus_depth * range)), 0});
+}
+
+/* Where the middle of all that is drawn lies on the page: strokes on the page move with it. */
+static void set_anchor(frame *f)
+{
+    box3 box = f->plan->box;
+    const double *view = f->camera.view.m, *projection = f->camera.projection.m;
+    double middle[3] = {((double)box.min.x + (double)box.max.x) / 2, ((double)box.min.y + (double)box.max.y) / 2, ((double)box.min.z + (double)box.max.z) / 2}, eye[3];
+    for (int k = 0; k < 3; k++)
+        eye[k] = view[k] * middle[0] + view[4 + k] * middle[1] + view[8 + k] * middle[2] + view[12 + k];
+    double depth = f->camera.orthographic ? 1 : fmax(-eye[2], f->camera.near);
+    gpu_set_vec2(f->g, "u_anchor", (float)((projection[0] * eye[0] / depth + 1) * f->width / 2), (float)((projection[5] * eye[1] / depth + 1) * f->height / 2));
 }
 
 void frame_set_common(frame *f, const figure_state *s)
@@ -126,6 +159,10 @@ void frame_set_common(frame *f, const figure_state *s)
     visibility_set(f);
     if (gpu_has_uniform(g, "u_cut_lines"))
         set_cut(f);
+    if (gpu_has_uniform(g, "u_focus"))
+        set_focus(f);
+    if (gpu_has_uniform(g, "u_anchor"))
+        set_anchor(f);
 }
 
 /* The normal matrix in single precision is scaled so that it neither over- nor underflows. */
@@ -187,8 +224,9 @@ static const gpu_format formats[TARGET_COUNT] = {
     [TARGET_NEARER] = GPU_RGBA16F,       [TARGET_DASH] = GPU_R8,             [TARGET_GROUND] = GPU_RGBA16F,
     [TARGET_ENLARGED] = GPU_RGBA32F,     [TARGET_TRACES] = GPU_RGBA32F,      [TARGET_TRACES_ROW] = GPU_RGBA32F,
     [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
-    [TARGET_DIRECTION] = GPU_RGBA16F,    [TARGET_DIRECTION_BEFORE] = GPU_RGBA16F,
+    [TARGET_DIRECTION] = GPU_RGBA16F,
     [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
+    [TARGET_OUTLINES] = GPU_RGBA16F,
 };
 
 gpu_texture *frame_acquire(frame *f, target t)
@@ -198,11 +236,16 @@ gpu_texture *frame_acquire(frame *f, target t)
 
 bool target_is_coarse(target t)
 {
-    return t == TARGET_TRACES || t == TARGET_TRACES_ROW || t == TARGET_UNCERTAINTY;
+    return t == TARGET_TRACES || t == TARGET_TRACES_ROW || t == TARGET_UNCERTAINTY || t == TARGET_DIRECTION;
 }
 
-void coarse_size(const frame *f, const figure_state *s, int out[2])
+void coarse_size(const frame *f, const figure_state *s, target t, int out[2])
 {
+    if (t == TARGET_DIRECTION) {
+        out[0] = (f->width + 1) / 2;
+        out[1] = (f->height + 1) / 2;
+        return;
+    }
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
     float cell = use->technique->perturbs->cell(use->values);
     /* One more, so that every pixel lies between two texels. */
@@ -215,7 +258,7 @@ gpu_texture *frame_acquire_for(frame *f, const figure_state *s, target t)
     if (!target_is_coarse(t))
         return frame_acquire(f, t);
     int size[2];
-    coarse_size(f, s, size);
+    coarse_size(f, s, t, size);
     return gpu_target_acquire(f->g, size[0], size[1], formats[t]);
 }
 
@@ -305,6 +348,8 @@ static void declare_id_bits(text *prelude)
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     declare_id_bits(prelude);
+    if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
+        text_append(prelude, "#define HAS_FOCUS\n");
     char *finished = text_take(prelude);
     gpu_program *p = finished ? gpu_program_of(f->g, dialect, vertex, fragment, finished) : NULL;
     if (!finished)
@@ -361,7 +406,7 @@ void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
     for (int i = 0; i < count; i++) {
         /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
         bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE || reads[i] == TARGET_FILTERED ||
-                      reads[i] == TARGET_UNCERTAINTY;
+                      reads[i] == TARGET_UNCERTAINTY || reads[i] == TARGET_DIRECTION;
         gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
     }
 }

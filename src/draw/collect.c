@@ -38,6 +38,7 @@ void frame_maps_release(frame_maps *m)
     mem_free(m->edge);
     mem_free(m->shade);
     mem_free(m->uncertainty);
+    mem_free(m->direction);
     for (size_t i = 0; i < m->layer_count; i++)
         mem_free(m->layers[i]);
     mem_free(m->layers);
@@ -145,6 +146,28 @@ void collect_uncertainty(frame *f, figure_state *s)
         }
     }
     mem_free(field);
+}
+
+void collect_direction(frame *f, figure_state *s)
+{
+    frame_maps *m = f->maps;
+    int columns = gpu_texture_width(s->targets[TARGET_DIRECTION]), rows = (f->height + 1) / 2;
+    float *coarse = mem_alloc((size_t)columns * (size_t)rows * 4 * sizeof *coarse);
+    if (m->whole && !m->direction)
+        m->direction = mem_calloc((size_t)f->width * (size_t)f->height, 3 * sizeof *m->direction);
+    if (!coarse || (m->whole && !m->direction)) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        mem_free(coarse);
+        return;
+    }
+    gpu_read(f->g, s->targets[TARGET_DIRECTION], coarse);
+    for (size_t y = 0; m->direction && y < (size_t)f->height; y++)
+        for (size_t x = 0; x < (size_t)f->width; x++) {
+            const float *from = &coarse[4 * (y / 2 * (size_t)columns + x / 2)];
+            if (from[3] > 0)
+                memcpy(&m->direction[3 * (y * (size_t)f->width + x)], from, 2 * sizeof *from);
+        }
+    mem_free(coarse);
 }
 
 static layer_map *layer_at(frame *f, size_t index)

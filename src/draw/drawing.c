@@ -196,11 +196,11 @@ static void note_textures(const figure *fig, const technique_use *surface, const
             warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere", surface->technique->textures[i].name, surface->technique->name);
 }
 
-/* What surface techniques make on the CPU. */
-static lmn_status bring_textures(lmn_renderer *r, plan *p, warnings *notes, lmn_error *error)
+/* What techniques, and unless maps are drawn the sheet, make on the CPU. */
+static lmn_status bring_textures(lmn_renderer *r, plan *p, bool maps, warnings *notes, lmn_error *error)
 {
-    lmn_status status = LMN_OK;
     made_textures_trim(&r->made, r->g);
+    lmn_status status = made_textures_find(&r->made, r->g, maps ? NULL : &p->look->wide[KIND_FINISH], &p->sheet_textures, error);
     for (size_t i = 0; i < p->figure_count && status == LMN_OK; i++) {
         figure *fig = &p->figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
@@ -212,6 +212,8 @@ static lmn_status bring_textures(lmn_renderer *r, plan *p, warnings *notes, lmn_
             status = bring_by_material(r, fig, surface, p->scene, error);
         if (status == LMN_OK)
             note_textures(fig, surface, p, notes);
+        if (status == LMN_OK)
+            status = made_textures_find(&r->made, r->g, rule_use(fig->rule, KIND_PERTURB), &fig->perturb_textures, error);
         mem_free(plain.values);
     }
     return status;
@@ -231,7 +233,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     if (status == LMN_OK)
         status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
     if (status == LMN_OK)
-        status = bring_textures(r, &s->plan, notes, error);
+        status = bring_textures(r, &s->plan, maps, notes, error);
     if (status == LMN_OK)
         status = place_camera(s, scene, desc, error);
     if (status != LMN_OK)

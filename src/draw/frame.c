@@ -72,8 +72,10 @@ static void draw_figure(frame *f, const figure *fig)
     } else {
         raster_figure(f, &s);
         s.geometry = s.targets[TARGET_NORMAL_DEPTH];
-        if (fig->deferred)
+        if (fig->deferred) {
+            passes_prepare(f, &s);
             raster_shade_deferred(f, &s);
+        }
         draw_sprite(f, &s);
         mem_free(s.edges);
     }
@@ -99,12 +101,15 @@ static void draw_figures(frame *f)
 static void encode(frame *f, gpu_texture *out)
 {
     stopwatch w = watch_start(f);
-    gpu_program *p = gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "finish/encode.frag", "");
+    text prelude = {0};
+    paper_declare(&prelude, f);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "finish/encode.frag", &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {out}, .colour_count = 1});
         gpu_use(f->g, p, (gpu_state){0});
         gpu_set_texture(f->g, "t_page", f->page, false);
         gpu_set_int(f->g, "u_samples", f->samples);
+        paper_set(f);
         gpu_draw_screen(f->g);
     }
     watch_stop(f, w, "", "encode");

@@ -1,4 +1,4 @@
-/* What the files that draw a frame share: profile.c, lighting.c, bind.c, raster.c, passes.c, mirror.c, collect.c and frame.c. */
+/* What the files that draw a frame share: profile.c, lighting.c, bind.c, raster.c, passes.c, paper.c, mirror.c, collect.c and frame.c. */
 #ifndef LIMNER_DRAW_FRAME_PRIVATE_H
 #define LIMNER_DRAW_FRAME_PRIVATE_H
 
@@ -122,7 +122,9 @@ gpu_texture         *frame_acquire(frame *f, target t);
 /* The same, coarse pictures in the size that the figure's perturbation asks for. */
 gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
 bool                 target_is_coarse(target t);
-void                 coarse_size(const frame *f, const figure_state *s, int out[2]); /* the rule perturbs */
+void                 coarse_size(const frame *f, const figure_state *s, target t, int out[2]);
+/* What a technique works out once for all pixels. */
+void                 frame_set_numbers(frame *f, const technique_use *use);
 void                 frame_set_common(frame *f, const figure_state *s);
 /* Model-view in double precision, then float; the normal matrix is its inverse transpose, up to a positive scale. */
 void frame_set_transform(frame *f, const mat4 *world);
@@ -203,9 +205,15 @@ void lists_layer(frame *f, layer_stack *stack, int index);
 void lists_release(frame *f, layer_stack *stack);
 
 /* --- passes.c: declared passes --- */
+/* What a surface technique looks at when it shades from the G-buffer. */
+void passes_prepare(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
+
+/* --- paper.c: what the sheet's ink is rubbed onto; nothing where there is no paper --- */
+void paper_declare(text *prelude, const frame *f);
+void paper_set(frame *f);
 
 /* --- mirror.c --- */
 /* Makes a frame of what the mirror's plane shows, without pictures to draw into; false when the part has no plane. */
@@ -216,5 +224,6 @@ void collect_edges(frame *f, figure_state *s);
 void collect_figure(frame *f, figure_state *s);
 void collect_layer(frame *f, figure_state *s); /* of layer s->layer */
 void collect_uncertainty(frame *f, figure_state *s);
+void collect_direction(frame *f, figure_state *s);
 
 #endif

@@ -47,6 +47,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         const technique_use *lines = rule_inked_lines(s->figure->rule);
         if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
             text_append(&prelude, "#define BROAD_LINES\n");
+        used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->perturb_textures);
         snprintf(path, sizeof path, "%s+%s", params->perturbed->places, p->shader);
     }
     return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
@@ -91,13 +92,13 @@ static void set_scissor(const frame *f, const figure_state *s, const pass *p, gp
     memcpy(out->clear_box, s->around, sizeof out->clear_box);
     if (!target_is_coarse(p->writes))
         return;
-    int size[2];
-    coarse_size(f, s, size);
+    int size[2], beyond = p->writes == TARGET_DIRECTION ? 0 : 1; /* a perturbation's have one texel more */
+    coarse_size(f, s, p->writes, size);
     const int limits[2] = {f->width, f->height};
     memset(out->clear_box, 0, sizeof out->clear_box);
     for (int k = 0; k < 2; k++) { /* lookups between texels need those beside */
-        int low = (int)((int64_t)s->pixels[k] * (size[k] - 1) / limits[k]) - 1;
-        int high = (int)((int64_t)(s->pixels[k] + s->pixels[2 + k]) * (size[k] - 1) / limits[k]) + 2;
+        int low = (int)((int64_t)s->pixels[k] * (size[k] - beyond) / limits[k]) - 1;
+        int high = (int)((int64_t)(s->pixels[k] + s->pixels[2 + k]) * (size[k] - beyond) / limits[k]) + 2;
         out->scissor[k] = low > 0 ? low : 0;
         out->scissor[2 + k] = (high < size[k] ? high : size[k]) - out->scissor[k];
     }
@@ -124,6 +125,10 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
+        if (params->perturbed && page) {
+            used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->perturb_textures);
+            frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
+        }
         gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
         if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
@@ -213,7 +218,13 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
     watch_stop(f, w, group, p->name);
 }
 
-static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use)
+/* Does the pass belong to this run: before the figure is shaded, or after? */
+static bool is_due(const frame *f, const pass *p, bool before)
+{
+    return p->prepares == before && !(p->stylised && f->maps);
+}
+
+static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
 {
     const technique *t = use->technique;
     if (id == KIND_LINES) /* each line technique has dashes of its own, or none */
@@ -234,7 +245,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
     }
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
-        if (!pass_applies(id, p, use) || (p->stylised && f->maps))
+        if (!pass_applies(id, p, use) || !is_due(f, p, before))
             continue;
         if (p->geometry)
             run_geometry(f, s, p, use, kinds[id]->name);
@@ -253,6 +264,14 @@ static void fold_lines(frame *f, figure_state *s, kind_id id, const technique_us
     run_pass(f, s, kinds[id]->fold, &params, kinds[id]->name, 0);
 }
 
+void passes_prepare(frame *f, figure_state *s)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    run_use(f, s, KIND_SURFACE, surface, true);
+    if (f->maps && s->targets[TARGET_DIRECTION])
+        collect_direction(f, s);
+}
+
 void passes_run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
@@ -264,7 +283,7 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
     }
     for (size_t i = 0; i < r->use_counts[id]; i++) {
         const technique_use *use = &r->uses[id][i];
-        run_use(f, s, id, use);
+        run_use(f, s, id, use, false);
         if (f->maps && id == KIND_LINES)
             collect_edges(f, s);
         else if (kinds[id]->fold && i + 1 < r->use_counts[id])
@@ -274,7 +293,7 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
             s->targets[TARGET_NORMAL_DEPTH] = s->geometry;
         }
     }
-    if (f->maps && id == KIND_PERTURB && rule_use(r, id)) {
+    if (f->maps && id == KIND_PERTURB && rule_use(r, id) && rule_use(r, id)->technique->perturbs->map) {
         const technique_use *use = rule_use(r, id);
         run_pass(f, s, use->technique->perturbs->map, &(pass_params){.sets = {use_own_set(id, use)}, .count = 1}, kinds[id]->name, 0);
         collect_uncertainty(f, s);

@@ -81,18 +81,20 @@ static void release_rule(rule *r)
     }
 }
 
-/* Lines that run on do so in space. */
-static bool lines_run_on(const rule *r)
+/* Lines that run on do so in space, and those with halos by the planes of surfaces. */
+static bool lines_are_spatial(const rule *r)
 {
-    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
-        if (((const lines_common *)r->uses[KIND_LINES][i].values)->overshoot > 0)
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const lines_common *lines = r->uses[KIND_LINES][i].values;
+        if (lines->overshoot > 0 || lines->halo > 0)
             return true;
+    }
     return false;
 }
 
 static unsigned channels_of(const rule *r, bool several_parts)
 {
-    unsigned channels = lines_run_on(r) ? CHANNEL_NORMAL_DEPTH : 0;
+    unsigned channels = lines_are_spatial(r) ? CHANNEL_NORMAL_DEPTH : 0;
     for (int k = 0; k < KIND_COUNT; k++)
         for (size_t i = 0; i < r->use_counts[k]; i++)
             channels |= r->uses[k][i].technique->channels |

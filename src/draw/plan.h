@@ -23,6 +23,7 @@ typedef struct figure {
     bool        layered;    /* composed layer by layer */
     bool        ghostly;    /* of ghosts alone */
     int         layer_count; /* layers at most */
+    used_textures perturb_textures; /* of what perturbs it */
     used_textures textures;  /* of the surface technique; found by who draws */
     used_textures *material_textures; /* the same, one a material of the scene, where these differ; else NULL */
 } figure;
@@ -40,6 +41,7 @@ typedef struct plan {
     size_t           figure_count;
     box3             box; /* of the selection, which the picture is fitted to, before it is cut */
     bool             has_cut; /* there are cut faces */
+    used_textures    sheet_textures; /* of the sheet; found by who draws */
 } plan;
 
 /* How a drawing wants its plan. */

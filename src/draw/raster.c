@@ -212,6 +212,7 @@ static void set_pass(frame *f, const raster_job *job, const figure_state *s, int
         const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
         used_textures_set(f->g, surface, made_for(s->figure, material));
+        frame_set_numbers(f, surface);
     }
     if (job->inking)
         set_ink(f, s, job->inking);
@@ -568,6 +569,10 @@ void raster_shade_deferred(frame *f, figure_state *s)
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     used_textures_declare(&prelude, surface, &s->figure->textures);
     text_append(&prelude, "#define SHADED_LATER\n");
+    if (s->targets[TARGET_DIRECTION]) {
+        text_append(&prelude, "#define HAS_DIRECTION\n");
+        target_declare(&prelude, TARGET_DIRECTION);
+    }
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
     if (f->plan->has_cut)
@@ -583,9 +588,12 @@ void raster_shade_deferred(frame *f, figure_state *s)
         frame_set_common(f, s);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
         used_textures_set(f->g, surface, &s->figure->textures);
+        frame_set_numbers(f, surface);
         gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
         gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
         gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);
+        if (s->targets[TARGET_DIRECTION])
+            gpu_set_texture(f->g, "t_direction", s->targets[TARGET_DIRECTION], true);
         gpu_draw_screen(f->g);
     }
     watch_stop(f, w, "", "deferred shading");

@@ -13,8 +13,9 @@ static const char *const target_names[TARGET_COUNT] = {
     [TARGET_NEARER] = "t_nearer",             [TARGET_DASH] = "t_dash",               [TARGET_GROUND] = "t_ground",
     [TARGET_ENLARGED] = "t_enlarged",         [TARGET_TRACES] = "t_traces",           [TARGET_TRACES_ROW] = "t_traces_row",
     [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
-    [TARGET_SHADOW] = "t_shadow",             [TARGET_DIRECTION] = "t_direction",     [TARGET_DIRECTION_BEFORE] = "t_direction_before",
+    [TARGET_SHADOW] = "t_shadow",             [TARGET_DIRECTION] = "t_direction",
     [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",              [TARGET_OVERSHOOT] = "t_overshoot",
+    [TARGET_OUTLINES] = "t_outlines",
 };
 
 const char *target_name(target t)

@@ -1,4 +1,5 @@
-/* The page to sRGB with straight alpha, once, at the end; supersamples are averaged here, in linear light. */
+/* The page to sRGB with straight alpha, once, at the end; supersamples are averaged here, in linear light, and what differs from the ground, ink, is rubbed
+ * onto the paper. */
 uniform sampler2D t_page;
 uniform int u_samples; /* a side */
 layout(location = 0) out vec4 out_0;
@@ -10,6 +11,10 @@ vec3 encoded(vec3 linear)
     return mix(high, low, vec3(lessThanEqual(linear, vec3(0.0031308))));
 }
 
+#ifdef HAS_PAPER
+#include "finish/paper.glsl"
+#endif
+
 void main()
 {
     ivec2 corner = ivec2(gl_FragCoord.xy) * u_samples;
@@ -18,6 +23,9 @@ void main()
         for (int x = 0; x < u_samples; x++)
             sum += texelFetch(t_page, corner + ivec2(x, y), 0);
     sum /= float(u_samples * u_samples);
+#ifdef HAS_PAPER
+    sum = on_paper(sum, gl_FragCoord.xy);
+#endif
     vec3 straight = sum.a > 0.0 ? clamp(sum.rgb / sum.a, 0.0, 1.0) : vec3(0.0);
     out_0 = vec4(encoded(straight), sum.a);
 }

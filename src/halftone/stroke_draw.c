@@ -12,11 +12,66 @@ typedef struct capsule {
     double length_square;
     double width, taper, reach; /* reach: no ink farther from the axis */
     double from, to;            /* the stroke's place on the line that it is part of */
+    double   grain, length;
+    uint32_t key;               /* of its streaks */
 } capsule;
 
 typedef struct span {
     int from, to; /* empty where from > to */
 } span;
+
+/* --- grain -------------------------------------------------------------------------------------------------------- */
+
+static const double STREAK_LENGTH = 7, STREAK_WIDTH = 0.8; /* texels */
+static const double BARE = 0.85;     /* of the ink is gone in the barest streak */
+static const double LIFT = 0.4;      /* of the pressure is gone at the end */
+static const double ROOM = 20;       /* texels that a stroke takes to show all its grain; shorter ones are marks rather than strokes */
+
+static double lane_noise(uint32_t key, int lane, int place)
+{
+    uint32_t h = key + (uint32_t)lane * 0xc2b2ae35u + (uint32_t)place * 0x27d4eb2fu;
+    h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+    h = (h ^ (h >> 12)) * 0x297a2d39u;
+    return (double)((h ^ (h >> 15)) >> 8) * 0x1p-24;
+}
+
+/* Along one lane, from one random number to the next. */
+static double lane_at(uint32_t key, int lane, double along)
+{
+    double at = along / STREAK_LENGTH + lane_noise(key, lane, -7), share = at - floor(at);
+    double before = lane_noise(key, lane, (int)floor(at)), after = lane_noise(key, lane, (int)floor(at) + 1);
+    return before + (after - before) * share * share * (3 - 2 * share);
+}
+
+/* The share of ink that graphite leaves at a place of the stroke. */
+static double grain_at(const capsule *c, double along, double aside)
+{
+    double at = aside / STREAK_WIDTH, share = at - floor(at), t = c->from + along * (c->to - c->from);
+    double streak = lane_at(c->key, (int)floor(at), along * c->length) * (1 - share) + lane_at(c->key, (int)floor(at) + 1, along * c->length) * share;
+    return (1 - c->grain * BARE * fmin(fmax(2 * streak - 0.5, 0), 1)) * (1 - c->grain * LIFT * t * t);
+}
+
+static double grain_of(double grain, double texels)
+{
+    return grain * fmin(texels / ROOM, 1);
+}
+
+double stroke_grain_mean(double grain, double texels)
+{
+    grain = grain_of(grain, texels);
+    return (1 - grain * BARE * 0.5) * (1 - grain * LIFT / 3);
+}
+
+/* A number for a stroke, by where it is: it has the same streaks wherever it is drawn. */
+static uint32_t key_of(const stroke *s)
+{
+    const float ends[4] = {s->u0, s->v0, s->u1, s->v1};
+    uint32_t bits[4], key = 0x9e3779b9;
+    memcpy(bits, ends, sizeof bits);
+    for (int i = 0; i < 4; i++)
+        key = (key ^ bits[i]) * 0x85ebca6bu + (key >> 15);
+    return key;
+}
 
 static capsule capsule_of(const stroke *s, int side, const stroke_brush *brush)
 {
@@ -25,11 +80,15 @@ static capsule capsule_of(const stroke *s, int side, const stroke_brush *brush)
     c.dx = ((double)s->u1 - (double)s->u0) * scale;
     c.dy = ((double)s->v1 - (double)s->v0) * scale;
     c.length_square = c.dx * c.dx + c.dy * c.dy;
-    /* A dot has no length to run out over. */
-    c.taper = c.length_square > 0 ? fmin(brush->taper, 0.5) : 0;
     c.reach = 0.5 * c.width + 0.5;
     c.from = brush->from;
     c.to = brush->to > brush->from ? brush->to : 1;
+    c.length = sqrt(c.length_square);
+    /* A dot has no length to run out over. */
+    if (c.length > 0)
+        c.taper = brush->cap > 0 ? fmin(brush->cap * (c.to - c.from) / c.length, 0.25) : fmin(brush->taper, 0.5);
+    c.grain = grain_of(brush->grain, c.length / (c.to - c.from));
+    c.key = c.grain > 0 ? key_of(s) : 0;
     return c;
 }
 
@@ -49,8 +108,10 @@ static double coverage_at(const capsule *c, double x, double y)
         width = width_at(c, t);
     px -= t * c->dx;
     py -= t * c->dy;
-    double distance = sqrt(px * px + py * py);
-    return fmax(0, fmin(fmin(1, width), 0.5 * width + 0.5 - distance));
+    double distance = sqrt(px * px + py * py), covered = fmax(0, fmin(fmin(1, width), 0.5 * width + 0.5 - distance));
+    if (c->grain > 0 && covered > 0)
+        covered *= grain_at(c, t, c->length > 0 ? (py * c->dx - px * c->dy) / c->length : py);
+    return covered;
 }
 
 /* Texels whose centres lie between two places. */
@@ -149,7 +210,7 @@ stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush
     double before = 0, all = 0;
     if (s->width > 0)
         out.width *= (double)s->width;
-    if (brush->taper <= 0)
+    if (brush->taper <= 0 && brush->cap <= 0 && brush->grain <= 0)
         return out;
     while (first > 0 && index - first < CURVE_CHORDS && stroke_goes_on(&s->items[first - 1], &s->items[first]))
         first--;

@@ -117,6 +117,8 @@ lmn_status strokes_set_perspective(strokes *s, perspective_order order, uint32_t
 typedef struct stroke_brush {
     double width;      /* texels */
     double taper;      /* share of the length over which both ends run out to nothing; 0: round ends */
+    double cap;        /* above 0: the same in texels, at any length; at most a quarter of it each, so that short strokes have a middle too. `taper` does not count */
+    double grain;      /* 0 even … 1: streaks along the stroke, as long and as wide on any picture, and less pressure towards its end */
     double from, to;   /* a chord's place on its line of length 1, so that a curve runs out at its ends only; both 0: it is the whole line */
 } stroke_brush;
 

@@ -12,6 +12,9 @@ void stroke_write_number(text *out, float value);
 /* Is `next` the chord that goes on where `one` ends? */
 bool stroke_goes_on(const stroke *one, const stroke *next);
 
+/* What a brush's grain leaves of the ink of a stroke of this length, on the mean. */
+double stroke_grain_mean(double grain, double texels);
+
 lmn_status strokes_too_many(const char *name, int line, lmn_error *error);
 
 /* --- stroke_spread.c: order in which things are spread most evenly over the torus --- */

@@ -1,6 +1,7 @@
 /* Tonal art maps: tone after tone, each from its coarsest level to its finest, so that what is drawn goes on in all that is darker or finer. */
 #include "halftone/tonal_art_map_private.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,8 +12,8 @@ const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1] = {"best-fit", "s
 
 enum { SIDE_LEAST = 8, SIDE_MOST = 1024, TONES_LEAST = 2, TONES_MOST = 16, STREAM = 0x7a61 };
 
-/* Both ends of a stroke run out over this share of its length; what it covers less for that, by stroke_draw's profile. */
-static const double TAPER = 0.22, TAPER_LOSS = 2.0 / 3.0;
+/* Both ends of a stroke run out over so many widths; what it covers less for that, by stroke_draw's profile, as a share of an end. */
+static const double CAP_WIDTHS = 6, CAP_LOSS = 1.0 / 3.0;
 
 double tam_target(const tam_wishes *w, int tone)
 {
@@ -32,7 +33,7 @@ double tam_missing(const tam *t)
 double tam_expected(const tam *t, int level, double length)
 {
     const tam_level *l = &t->levels[level];
-    double           area = length * l->side * t->brush.width * (1 - TAPER_LOSS * t->brush.taper);
+    double           texels = length * l->side, area = (texels - 2 * CAP_LOSS * fmin(t->brush.cap, texels / 4)) * t->brush.width * stroke_grain_mean(t->brush.grain, texels);
     double           full = mean_ink(l) / (double)t->limit, open = (double)t->limit * (1 - full * full); /* in gaps there is more left than in the mean */
     return area * (double)t->opacity * open / ((double)l->side * l->side);
 }
@@ -164,6 +165,8 @@ static lmn_status check(const tam_wishes *w, lmn_error *error)
         return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g long; allowed are 0.05 to 1", w->length);
     if (!(w->opacity >= 0.1 && w->opacity <= 1))
         return error_set(error, LMN_USAGE, "strokes of a tonal art map have the opacity %g; allowed are 0.1 to 1", w->opacity);
+    if (!(w->grain >= 0 && w->grain <= 1))
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the grain %g; allowed are 0 to 1", w->grain);
     if (!(w->uneven >= 0 && w->uneven <= 1) || (int)w->placement < 0 || w->placement >= TAM_PLACEMENT_COUNT)
         return error_set(error, LMN_USAGE, "a tonal art map cannot be uneven by %g, or placed by method %d", (double)w->uneven, (int)w->placement);
     return LMN_OK;
@@ -179,12 +182,17 @@ static void tam_end(tam *t)
     mem_free(t->crowding);
 }
 
+stroke_brush tonal_art_map_brush(const tam_wishes *w)
+{
+    stroke_brush out = {.width = w->width, .cap = w->drawn ? 0 : CAP_WIDTHS * w->width, .grain = w->grain};
+    if (w->drawn && w->drawn->width > 0)
+        out.width *= (double)w->drawn->width;
+    return out;
+}
+
 static bool tam_begin(tam *t, const tam_wishes *w, strokes *kept)
 {
-    *t = (tam){.wishes = w, .brush = {.width = w->width, .taper = w->drawn ? 0 : TAPER}, .opacity = (float)w->opacity, .kept = kept,
-               .random = random_start(w->seed, STREAM)};
-    if (w->drawn && w->drawn->width > 0)
-        t->brush.width *= (double)w->drawn->width;
+    *t = (tam){.wishes = w, .brush = tonal_art_map_brush(w), .opacity = (float)w->opacity, .kept = kept, .random = random_start(w->seed, STREAM)};
     /* Ink covers paper; graphite leaves some of it even where many strokes lie. */
     t->limit = w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1;
     bool enough = true;

@@ -123,17 +123,34 @@ static size_t strokes_most(const tam *t)
     return STROKES_A_TEXEL * side * side + 16;
 }
 
+/* Where strokes cover each other anyway and little paper is left, gaps are found by the ink: the crowd is as dense everywhere by then, and the last gaps of a coarse level
+ * would take so many strokes that finer ones got too dark. */
+static const float *what_fills(const tam *t, const tam_level *level, int direction)
+{
+    bool full = t->opacity < 1 && level->sum > 0.5 * (double)t->limit * level->side * level->side;
+    return full ? level->ink : level->crowd[direction];
+}
+
+/* The part of a stroke that is as wide as strokes are: its ends fill no gaps. */
+static stroke middle_of(const stroke *s)
+{
+    float du = 0.25f * (s->u1 - s->u0), dv = 0.25f * (s->v1 - s->v0);
+    return (stroke){.u0 = s->u0 + du, .v0 = s->v0 + dv, .u1 = s->u1 - du, .v1 = s->v1 - dv};
+}
+
 /* Tries places in a band across strokes' direction and draws where it is least crowded. */
 static bool put_best(tam *t, double length, int direction, double band, double thickness, int candidates)
 {
     const tam_level *level = &t->levels[t->level];
     stroke           best = {0};
+    const float     *filled = what_fills(t, level, direction);
     float            least = INFINITY;
     for (int k = 0; k < candidates; k++) {
         double at = random_unit(&t->random), aside = band + thickness * random_unit(&t->random);
         aside -= floor(aside);
         stroke s = stroke_at(t, direction == TAM_ALONG ? at : aside, direction == TAM_ALONG ? aside : at, length, direction);
-        float  crowd = crowd_along(level, level->crowd[direction], &s, least);
+        stroke middle = middle_of(&s);
+        float  crowd = crowd_along(level, filled, filled == level->ink ? &middle : &s, least);
         if (crowd < least) {
             least = crowd;
             best = s;

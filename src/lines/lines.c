@@ -50,6 +50,8 @@ static const param common[] = {
     PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 64, .soft_max = 32, .unit = UNIT_PX, .reach = OVERSHOOT_MOST, .cpu_only = true,
                     .doc = "How far straight lines run on past corners and junctions, as in architects' drafts; it varies from line to line, "
                            "and short lines run on less. 0 ends them where they meet."),
+    PARAM_FLOAT_ROW(lines_common, halo, .def = 0, .min = 0, .max = 32, .soft_max = 12, .unit = UNIT_PX,
+                    .doc = "Gap in lines behind an outline, beside it, so that objects separate; 0 leaves none."),
 };
 
 /* Ink of less than this is shading. */

@@ -17,7 +17,7 @@ typedef struct lines_common {
     float   gain, threshold, sharpen;
     int32_t contrast;
     float   offset_x, offset_y, suppress, blur;
-    float   dash, gap, overshoot;
+    float   dash, gap, overshoot, halo;
 } lines_common;
 
 /* Side branches shorter than this come from thinning, pixels. */
@@ -30,7 +30,8 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
 /* Lines wider than this, in pixels, are grown from the detected map. */
 enum { LINES_GROW_FROM = 2 };
 
-/* Passes that surround an operator's own. Lines run on and are dashed before they grow: thin ones are traced best. */
+/* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they grow: thin ones are
+ * traced best, and dashes know where lines end. */
 #define LINES_PASSES_BEFORE                                                                                           \
     {.name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                      \
      .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"}
@@ -39,6 +40,13 @@ enum { LINES_GROW_FROM = 2 };
      .writes = TARGET_OVERSHOOT, .when = "overshoot", .stylised = true},                                              \
     {.name = "overshoot ink", .shader = "lines/edge/overshoot.frag", .reads = {TARGET_EDGE, TARGET_OVERSHOOT},        \
      .writes = TARGET_EDGE, .when = "overshoot", .stylised = true},                                                   \
+    {.name = "halo outlines", .shader = "lines/halo_outline.frag", .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH}, \
+     .writes = TARGET_OUTLINES, .when = "halo", .stylised = true, .zero_outside = true},                              \
+    {.name = "halo across", .shader = "lines/halo_row.frag", .reads = {TARGET_OUTLINES}, .writes = TARGET_NEARER_ROW, \
+     .when = "halo", .stylised = true, .zero_outside = true},                                                         \
+    {.name = "halo", .shader = "lines/halo.frag",                                                                     \
+     .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, TARGET_OUTLINES, TARGET_NEARER_ROW, TARGET_OVERSHOOT}, \
+     .writes = TARGET_EDGE, .when = "halo", .stylised = true},                                                        \
     {.name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",        \
      .stylised = true},                                                                                               \
     {.name = "grow", .shader = "lines/edge/grow.frag", .reads = {TARGET_EDGE}, .writes = TARGET_EDGE,                 \

@@ -6,6 +6,6 @@
 
 extern const kind kind_perturb;
 
-extern const technique perturb_uncertainty;
+extern const technique perturb_uncertainty, perturb_pencil;
 
 #endif

@@ -13,6 +13,7 @@ static const char *const tone_names[] = {"number", "size", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
+    HALFTONE_INK_ROWS,
     PARAM_ENUM_ROW(dots, tone_by, .names = tone_names, .variant = true,
                    .doc = "Darker places have more dots (number), as in stippling, or larger ones (size), as in print."),
     PARAM_FLOAT_ROW(dots, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .only_if = "tone_by=number", .doc = "Diameter of the dots."),
@@ -23,9 +24,11 @@ static const param params[] = {
     PARAM_FLOAT_ROW(dots, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
 };
 
+static const pass passes[] = {HALFTONE_PASSES};
+
 const technique surface_dots = {
     .name = "dots", .doc = "Dots that stay as dense and as large at any zoom, by their number or their size.",
     .example = "{\"surface\": {\"technique\": \"dots\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(dots),
-    .surface = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
+    .surface = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .passes = passes, .pass_count = PARAM_COUNT(passes), .wishes = halftone_wishes,
 };

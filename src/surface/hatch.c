@@ -13,6 +13,7 @@ static const char *const tone_names[] = {"number", "width", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_AXES),
+    HALFTONE_INK_ROWS,
     PARAM_ENUM_ROW(hatch, tone_by, .names = tone_names, .variant = true,
                    .doc = "Darker places have more lines (number), as in pen drawings, or wider ones (width), as in engravings."),
     PARAM_FLOAT_ROW(hatch, scale, .def = 6, .min = 1, .max = 200, .soft_min = 2, .soft_max = 30, .unit = UNIT_PX,
@@ -34,9 +35,11 @@ static const param params[] = {
     PARAM_FLOAT_ROW(hatch, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the waver and the unevenness change; 0 never."),
 };
 
+static const pass passes[] = {HALFTONE_PASSES};
+
 const technique surface_hatch = {
     .name = "hatch", .doc = "Hatching that stays as dense and as wide at any zoom, by the number or the width of its lines.",
     .example = "{\"surface\": {\"technique\": \"hatch\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(hatch),
-    .surface = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
+    .surface = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .passes = passes, .pass_count = PARAM_COUNT(passes), .wishes = halftone_wishes,
 };

@@ -7,6 +7,7 @@ static const char *const indication_names[] = {"add", "limit", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
+    HALFTONE_INK_ROWS,
     PARAM_TEXT_ROW(screen_values, screen, .example = "dots", .is_file = true, .check = screen_check_name,
                    .doc = "The screen: a pattern of strokes (parallel, cross, contour, brick, stipple, scribble, random), a procedure (lines, dots, ordered, "
                           "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp; NAME-1.png, NAME-2.png … are its layers); material takes the strokes that lie beside each "
@@ -54,10 +55,12 @@ static const texture_source textures[] = {
     {.name = "indication", .when = "coordinates=uv&indication", .describe = screen_describe_indication, .make = screen_make_indication},
 };
 
+static const pass passes[] = {HALFTONE_PASSES};
+
 const technique surface_screen = {
     .name = "screen", .doc = "A halftone screen on the surface: strokes, dots or a painted texture that come and go with the tone.",
     .example = "{\"surface\": {\"technique\": \"screen\"}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(screen_values),
-    .surface = "surface/screen.glsl", .direct = true, .light_map_when = "whole&coordinates=uv", .forward_when = HALFTONE_FORWARD_WHEN, .wishes = halftone_wishes,
+    .surface = "surface/screen.glsl", .direct = true, .light_map_when = "whole&coordinates=uv", .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .passes = passes, .pass_count = PARAM_COUNT(passes), .wishes = halftone_wishes,
     .by_material = screen_by_material, .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

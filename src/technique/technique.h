@@ -28,6 +28,7 @@ typedef enum target {
     TARGET_EDGE_BEFORE, /* edge map of the layer in front of this one */
     TARGET_NEARER_ROW, /* RGBA16F: on the way to the next */
     TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
+    TARGET_OUTLINES,   /* RGBA16F: r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
@@ -38,14 +39,14 @@ typedef enum target {
     TARGET_FIELD,      /* RGBA32F: uncertainty at each pixel, for maps */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
     TARGET_SHADOW,     /* depth from the first light; there when the look has shadows or a pass reads it */
-    TARGET_DIRECTION,  /* RGBA16F, half as large: the way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis; s = how sure; b: eye depth */
-    TARGET_DIRECTION_BEFORE, /* on the way to it */
+    TARGET_DIRECTION,  /* RGBA16F, half as large, texel t for pixel 2t: the way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure;
+                        * a: 1 where there is a surface */
     TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
     TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 11 };
+enum { PASS_READS_MAX = 11, NUMBERS_MAX = 96 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
@@ -87,8 +88,6 @@ typedef struct mesh_wishes {
 
 struct pass;
 
-enum { PERTURB_NUMBERS_MAX = 96 };
-
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
     /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl. With BROAD_LINES also
@@ -98,8 +97,6 @@ typedef struct perturbation {
     float     (*reach)(const void *values);  /* how far it moves anything, pixels */
     float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
     uint32_t  (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
-    /* Numbers that are the same for every pixel, into vec4 u_numbers[]; returns how many, at most PERTURB_NUMBERS_MAX. NULL: none. */
-    size_t    (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
     const struct pass *map; /* writes TARGET_FIELD; NULL: there is none */
 } perturbation;
 
@@ -140,8 +137,10 @@ typedef struct technique {
     /* surface: changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all
      * materials are alike. NULL: always so. */
     bool       (*by_material)(void *values, const char *strokes);
-    const texture_source *textures; /* surface: what it makes on the CPU */
+    const texture_source *textures; /* surface, finish: what it makes on the CPU */
     size_t       texture_count;
+    /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how many, at most NUMBERS_MAX. NULL: nothing. */
+    size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
     const perturbation *perturbs; /* perturb: how lookups are moved */
 } technique;
 

@@ -128,6 +128,8 @@ static void forget_maps(const char *folder)
     char path[576];
     snprintf(path, sizeof path, "%s/uncertainty.pfm", folder);
     remove(path);
+    snprintf(path, sizeof path, "%s/direction.pfm", folder);
+    remove(path);
     for (int k = 0, found = 5; found > 0; k++) {
         found = 0;
         for (int i = 0; i < 5; i++) {
@@ -160,15 +162,15 @@ static bool read_layer(shot *out, const char *folder, int index)
     return true;
 }
 
-/* Only drawings with something perturbed have it. */
-static bool read_uncertainty(shot *out, const char *folder)
+/* Not every drawing has it: only with something perturbed, or strokes that follow the form. */
+static bool read_further(shot *out, const char *folder, const char *name, float (**map)[3])
 {
     char path[576];
     int  width = 0, height = 0;
-    snprintf(path, sizeof path, "%s/uncertainty.pfm", folder);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
     if (!file_exists(path))
         return true;
-    out->uncertainty = (float(*)[3])picture_read_pfm(path, 3, &width, &height);
+    *map = (float(*)[3])picture_read_pfm(path, 3, &width, &height);
     return (width == out->width && height == out->height) ||
            check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path, width, height);
 }
@@ -207,7 +209,7 @@ static bool read_maps(shot *out, const lmn_drawing *drawing)
     for (int i = 0; i < 5; i++)
         if (w[i] != out->width || h[i] != out->height)
             return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", names[i], w[i], h[i]);
-    return read_uncertainty(out, folder) && read_layers(out, folder);
+    return read_further(out, folder, "uncertainty.pfm", &out->uncertainty) && read_further(out, folder, "direction.pfm", &out->direction) && read_layers(out, folder);
 }
 
 static bool draw(shot *out, lmn_scene *scene, const lmn_look *look, const shot_view *view)
@@ -294,6 +296,7 @@ void shot_release(shot *s)
     free(s->depth);
     free(s->normal);
     free(s->uncertainty);
+    free(s->direction);
     free(s->id);
     free(s->report);
     for (int k = 0; k < s->layer_count; k++) {

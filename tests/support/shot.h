@@ -39,6 +39,7 @@ typedef struct shot {
     float    *depth;  /* eye depth, infinite where empty */
     float   (*normal)[3];
     float   (*uncertainty)[3]; /* right, up, pressure; NULL when nothing is perturbed */
+    float   (*direction)[3];   /* s · (cos 2θ, sin 2θ) of strokes on the page, θ from the right to the top; NULL where no surface asks for it */
     uint16_t *id;
     double    view[16], projection[16], near_depth, far_depth;
     bool      orthographic;

@@ -1,4 +1,4 @@
-/* examples/cloister.glb and examples/store.glb are what they say: closed shells the right way round, nothing in the air, and no
+/* examples/cloister.glb, examples/store.glb and examples/blocks.glb are what they say: closed shells the right way round, nothing in the air, and no
  * two parts with a face in one plane, which would flicker. */
 #include <math.h>
 
@@ -28,7 +28,7 @@ typedef struct building {
     size_t     face_count, shell_count;
 } building;
 
-enum { CLOISTER, STORE, BUILDINGS };
+enum { CLOISTER, STORE, BLOCKS, BUILDINGS };
 
 static building buildings[BUILDINGS];
 
@@ -104,7 +104,7 @@ static void add_part(building *b, size_t index, const mat4 *world)
 static int load_buildings(void **state)
 {
     static const char *const paths[BUILDINGS] = {LIMNER_SOURCE_DIR "/examples/cloister.glb",
-                                                 LIMNER_SOURCE_DIR "/examples/store.glb"};
+                                                 LIMNER_SOURCE_DIR "/examples/store.glb", LIMNER_SOURCE_DIR "/examples/blocks.glb"};
     (void)state;
     for (int i = 0; i < BUILDINGS; i++) {
         building *b = &buildings[i];
@@ -148,9 +148,13 @@ static void have_their_parts(void **state)
     static const char *const store[] = {"slabs",  "columns",        "glass ground", "mullions", "fins",
                                         "canopy", "canopy columns", "escalators",   "railing",  "plant room",
                                         "sign",   "pavement",       "tree 1",       "tree 2",   "people"};
+    static const char *const blocks[] = {"house 1", "tower 8", "house 97", "roofs 1", "roofs 10", "windows 1", "windows 10", "ground", "pavements", "lamp 1",
+                                         "tree 1", "church", "church roofs", "church openings"};
     (void)state;
     assert_has_parts(buildings[CLOISTER].scene, cloister, sizeof cloister / sizeof *cloister);
     assert_has_parts(buildings[STORE].scene, store, sizeof store / sizeof *store);
+    assert_has_parts(buildings[BLOCKS].scene, blocks, sizeof blocks / sizeof *blocks);
+    assert_int_equal(buildings[BLOCKS].scene->camera_count, 2);
 }
 
 static void parts_are_closed(void **state)

@@ -1,11 +1,11 @@
 #include "surface/halftone/halftone.h"
 
-const char *const halftone_coordinate_names[] = {"axes", "triplanar", "screen", "uv", "curvature", "lapped", NULL};
+const char *const halftone_coordinate_names[] = {"axes", "triplanar", "screen", "uv", "curvature", "lapped", "form-mesh", "form", NULL};
 const char *const halftone_ink_names[] = {"one", "two", "cmyk", NULL};
 
 mesh_wishes halftone_wishes(const void *values)
 {
     const halftone_values *v = values;
     bool lapped = v->coordinates == COORDINATES_LAPPED;
-    return (mesh_wishes){.field = lapped || v->coordinates == COORDINATES_CURVATURE, .patch = lapped ? v->patch : 0};
+    return (mesh_wishes){.field = lapped || v->coordinates == COORDINATES_CURVATURE || v->coordinates == COORDINATES_FORM_MESH, .patch = lapped ? v->patch : 0};
 }

@@ -28,11 +28,11 @@ vec4 inked(surface_point p, float tone)
     const vec3 inks[3] = vec3[3](vec3(0.0, 0.42, 0.83), vec3(0.80, 0.0, 0.30), vec3(1.0, 0.85, 0.0));
     vec4 colour = paper;
     for (int i = 0; i < 3; i++)
-        colour.rgb *= mix(vec3(1.0), inks[i], cover_of(rest[i], i));
-    return laid_over(colour, vec4(u_ink.rgb, 1.0) * u_ink.a, cover_of(black, 3));
+        colour.rgb *= mix(vec3(1.0), inks[i], cover_of(focused(p, rest[i]), i));
+    return laid_over(colour, vec4(u_ink.rgb, 1.0) * u_ink.a, cover_of(focused(p, black), 3));
 #else
     vec4 ink = vec4(mix(u_ink.rgb, p.albedo.rgb, u_ink_tint), 1.0) * u_ink.a;
-    float darkness = clamp(darkness_of(tone), 0.0, 1.0);
+    float darkness = focused(p, clamp(darkness_of(tone), 0.0, 1.0));
 #if INKS == 1
     vec4 second = vec4(u_second_ink.rgb, 1.0) * u_second_ink.a;
     paper = laid_over(paper, second, cover_of(min(2.0 * darkness, 1.0), 1));

@@ -4,8 +4,7 @@
 
 /* A place is measured where the part is when nothing has moved, so that strokes go with it. */
 #ifdef SHADED_LATER
-uniform sampler2D t_part_frames; /* src/draw/upload.h */
-uniform mat4 u_world_from_eye;
+#include "surface/halftone/part_frame.glsl"
 #else
 uniform vec4 u_rest[3]; /* rows: from eye space to the part's frame */
 uniform vec3 u_upward;
@@ -30,6 +29,7 @@ struct rest_place {
     vec3 at, right, up;
     vec3 normal;
     vec3 upward; /* which way is up */
+    float way;   /* of strokes on the page, half turns 0 … 1; where coordinates ask for it */
 };
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
@@ -51,21 +51,62 @@ vec3 rate_of(vec3 eye, vec3 normal, vec3 pixel)
     return moved - ray * (dot(normal, moved) / facing);
 }
 
+#if (COORDINATES == 6 && defined(HAS_FIELD)) || (COORDINATES == 7 && defined(HAS_DIRECTION))
+#define HAS_FORM
+#include "surface/halftone/form.glsl"
+vec2 way_on_page(surface_point p, vec3 rest_normal, vec3 upward)
+{
+#if COORDINATES == 7
+    return texture(t_direction, (0.5 * gl_FragCoord.xy + 0.25) / vec2(textureSize(t_direction, 0))).xy;
+#else
+    mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
+                      v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
+    mat3 frame = frame_around(p.normal);
+    vec3 turned = field * frame[0];
+    vec2 doubled = vec2(dot(frame[0], turned), dot(frame[1], turned));
+    float sure = length(doubled);
+    vec2 plain = on_page(p.eye, plain_tangent(rest_normal, upward) * turn_to_rest());
+    return sure > 0.0 ? on_page(p.eye, tangent_of(doubled / sure, frame)) * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure))) : plain;
+#endif
+}
+
+/* θ in units of π, 0 … 1, of a double angle; within 0.00001 (Abramowitz and Stegun 4.4.49). */
+float half_turns(vec2 doubled)
+{
+    vec2 size = abs(doubled);
+    float low = min(size.x, size.y) / max(max(size.x, size.y), 1e-20), square = low * low;
+    float angle = low * (0.15913362 + square * (-0.05256880 + square * (0.02867033 + square * (-0.01354934 + square * 0.00331601))));
+    angle = size.y > size.x ? 0.25 - angle : angle;
+    angle = doubled.x < 0.0 ? 0.5 - angle : angle;
+    return doubled.y < 0.0 ? 1.0 - angle : angle;
+}
+
+#endif
+
+/* The way of strokes on the page, where it matters. */
+float way_of(surface_point p, vec3 rest_normal, vec3 upward)
+{
+#ifdef HAS_FORM
+    return half_turns(way_on_page(p, rest_normal, upward));
+#else
+    return 0.0;
+#endif
+}
+
 rest_place place_at_rest(surface_point p)
 {
     vec2 pixel = 2.0 * u_unproject / u_size;
     vec3 right = rate_of(p.eye, p.normal, vec3(pixel.x, 0.0, 0.0)), up = rate_of(p.eye, p.normal, vec3(0.0, pixel.y, 0.0));
 #ifdef SHADED_LATER
-    int part = max(int(p.part) - 1, 0);
-    ivec2 texel = ivec2(4 * (part & 1023), part >> 10);
-    vec4 first = texelFetch(t_part_frames, texel, 0), second = texelFetch(t_part_frames, texel + ivec2(1, 0), 0), third = texelFetch(t_part_frames, texel + ivec2(2, 0), 0);
-    vec3 upward = texelFetch(t_part_frames, texel + ivec2(3, 0), 0).yzw;
-    mat3 turn = transpose(mat3(first.xyz, second.xyz, third.xyz)), world = mat3(u_world_from_eye);
-    return rest_place(turn * (world * p.eye + u_world_from_eye[3].xyz) + vec3(first.w, second.w, third.w), turn * (world * right), turn * (world * up),
-                      turn * (world * p.normal), upward);
+    part_frame part = frame_of_part(p.part);
+    mat3 world = mat3(u_world_from_eye);
+    vec3 normal = part.turn * (world * p.normal);
+    return rest_place(part.turn * (world * p.eye + u_world_from_eye[3].xyz) + part.shift, part.turn * (world * right), part.turn * (world * up), normal, part.upward,
+                      way_of(p, normal, part.upward));
 #else
     mat3 turn = turn_to_rest();
-    return rest_place(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward);
+    return rest_place(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward,
+                      way_of(p, turn * p.normal, u_upward));
 #endif
 }
 
@@ -131,7 +172,7 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
     return i == 0 ? plane_along(r, abs(dot(aside, r.normal)) < abs(dot(ASKEW[2], r.normal)) ? aside : ASKEW[2], first, own, 0u)
                   : plane_along(r, first, ASKEW[2], 1.0 - own, 1u);
 }
-#elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES))
+#elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES)) || (COORDINATES > 5 && !defined(HAS_FORM))
 /* Walls have their second coordinate upwards. Of the three planes the one with the least share is always left out, and what it had is taken off the others, so that two
  * are enough everywhere. */
 #define PLANES 2
@@ -228,6 +269,27 @@ int planes_at(rest_place r, vec2 turn)
 stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 {
     return turned_plane(stroke_plane(v_patch.xy, dFdx(v_patch.xy), dFdy(v_patch.xy), 1.0, uint(v_patch.w + 0.5)), turn);
+}
+#elif defined(HAS_FORM)
+/* Straight strokes on the page, in patches: a few ways on the page, each place has the two that come nearest to the way its surface bends. They move with the middle of
+ * the model. Seed 004, section 4.4 (after Kim 2008), whose weights are interchanged; rows P23, P24. */
+#define PLANES 2
+uniform vec2 u_anchor; /* where the middle of the model is on the page, pixels */
+float s_between = 0.0; /* ways are turned by this share of the angle between two; repetitions differ in it */
+
+int planes_at(rest_place r, vec2 turn)
+{
+    return 2;
+}
+
+stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+{
+    float place = r.way * float(WAYS_ON_PAGE) - s_between, low = floor(place), share = smoothstep(0.3, 0.7, place - low);
+    float way = low + float(i);
+    way = way < 0.0 ? way + float(WAYS_ON_PAGE) : way >= float(WAYS_ON_PAGE) ? way - float(WAYS_ON_PAGE) : way;
+    float angle = (way + s_between) * (3.14159265 / float(WAYS_ON_PAGE));
+    stroke_plane s = stroke_plane(gl_FragCoord.xy - u_anchor, vec2(1.0, 0.0), vec2(0.0, 1.0), i == 0 ? 1.0 - share : share, uint(int(way)));
+    return turned_plane(s, turns_added(vec2(cos(angle), sin(angle)), turn));
 }
 #else
 #define PLANES 1

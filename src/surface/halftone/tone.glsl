@@ -1,5 +1,8 @@
 /* Which tone a place shall have, 0 … 1: from light, the model's own brightness, and what the look makes of both. Seed 001, sections 5.4.4 and 6.2. */
 #include "light/light.glsl"
+#ifdef HAS_FOCUS
+#include "light/focus.glsl"
+#endif
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
@@ -22,6 +25,16 @@ float tone_of_light(surface_point p, float light)
     return mix(u_shadow, u_light, bent) * mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
 #else
     return mix(u_shadow, u_light, bent);
+#endif
+}
+
+/* What depth focus leaves of a darkness: fewer strokes, not paler ones. */
+float focused(surface_point p, float darkness)
+{
+#ifdef HAS_FOCUS
+    return darkness * in_focus(-p.eye.z);
+#else
+    return darkness;
 #endif
 }
 

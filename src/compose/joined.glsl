@@ -1,0 +1,66 @@
+/* What perturbations need that join the copies of a line: what is to be averaged at a copy's place, and the ink that an average stands for. */
+#if defined(MEAN_OF_INK) || CONTRAST > 0 || defined(HAS_DASHES)
+vec4 averaged_at(vec2 place, int i)
+{
+#ifdef MEAN_OF_INK
+    return stacked_ink(place, i);
+#else
+    return ink_at(place);
+#endif
+}
+
+vec4 ink_of_mean(vec4 mean)
+{
+    return mean;
+}
+#else
+/* What of the pixel profile, id and inner lines have, those before on top: means of it are means of ink, and cost less. */
+vec4 averaged_at(vec2 place, int i)
+{
+    vec4 edge = edge_at(place);
+    vec3 ink = clamp((1.0 - edge.rag) * vec3(u_line_profile_weight, u_line_id_weight, u_line_inner_weight), 0.0, 1.0) *
+               vec3(u_line_colour.a, u_line_id_colour.a, u_line_inner_colour.a);
+    float id = ink.y * (1.0 - ink.x);
+    return vec4(ink.x, id, ink.z * (1.0 - ink.x - id), 0.0);
+}
+
+vec4 ink_of_mean(vec4 mean)
+{
+    return vec4(u_line_colour.rgb, 1.0) * mean.x + vec4(u_line_id_colour.rgb, 1.0) * mean.y + vec4(u_line_inner_colour.rgb, 1.0) * mean.z;
+}
+#endif
+
+/* The depth of a copy's ink: that of the surface it is found on, or surrounds; 1 where it has none. */
+float depth_of_ink(vec2 place)
+{
+    float depth = own_depth(pixel_at(place));
+    bool inked = ink_at(place).a > 0.0;
+    int search = depth >= 1.0 && inked ? 1 : 0;
+    for (int once = 0; once < search; once++)
+        depth = neighbour_depth(pixel_at(place));
+    return inked ? depth : 1.0;
+}
+
+/* All copies. `depth` of the fill becomes that of the nearest copy where there is no fill; on surfaces ink is as deep as they are. */
+vec4 ink_of_copies(inout float depth)
+{
+    float fill_depth = depth;
+    for (int i = 0; i < LINE_COPIES; i++)
+        join_copy(averaged_at(line_place(i), i), i);
+    vec4 ink = joined_ink();
+#ifdef HAS_FOCUS
+    int drawn = ink.a > 0.0 ? 1 : 0;
+#else
+    int drawn = ink.a > 0.0 && fill_depth >= 1.0 ? 1 : 0;
+#endif
+    for (int once = 0; once < drawn; once++) {
+        float nearest = 1.0;
+        for (int i = 0; i < LINE_COPIES; i++)
+            nearest = min(nearest, depth_of_ink(line_place(i)));
+#ifdef HAS_FOCUS
+        ink *= in_focus_of_window(nearest);
+#endif
+        depth = min(depth, nearest);
+    }
+    return ink;
+}

@@ -1,0 +1,19 @@
+/* Depth focus: the share of its ink that a place keeps. Seed 004, section 5 (figures 16 and 21), which has no formula; row P22. */
+uniform vec4 u_focus; /* share that is lost at most, depth that is looked at, 1 / range, 0; eye depths */
+#ifndef WINDOW_DEPTH_DECLARED
+#define WINDOW_DEPTH_DECLARED
+uniform vec4 u_window_depth; /* of the projection: what makes window depth of eye depth */
+#endif
+
+float in_focus(float eye_depth)
+{
+    float off = clamp(abs(eye_depth - u_focus.y) * u_focus.z, 0.0, 1.0);
+    return 1.0 - u_focus.x * off * off * (3.0 - 2.0 * off);
+}
+
+/* The same for a value of a depth buffer. */
+float in_focus_of_window(float depth)
+{
+    float ndc = 2.0 * depth - 1.0;
+    return in_focus((u_window_depth.y - u_window_depth.w * ndc) / (u_window_depth.x - u_window_depth.z * ndc));
+}

@@ -1,0 +1,160 @@
+/* Where copies of a line are looked up, and what their inks add up to. Seed 004, equations 4 and 5 and section 2.3. */
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
+
+#define LINE_COPIES (DARK + LIGHT)
+#define JOINS_INK
+#undef BROAD_LINES
+
+uniform vec4 u_numbers[2 * LINE_COPIES + 1]; /* numbers_of in pencil.c */
+
+vec2  s_place;
+vec2  s_share; /* σ: the place as shares of the page */
+vec2  s_fill;
+float s_bare;
+float s_fading; /* noise, 0 … 1 */
+float s_streak;
+vec4  s_dark, s_light;
+
+/* Sine of an angle up to some hundred radians, within 0.00002. */
+vec2 near_sine(vec2 angle)
+{
+    vec2 turn = angle * 0.15915494 + 0.5;
+    turn = (turn - floor(turn)) * 2.0 - 1.0; /* in half turns, −1 … 1 */
+    turn -= sign(turn) * max(2.0 * abs(turn) - 1.0, vec2(0.0)); /* the same sine in −1/2 … 1/2 */
+    vec2 square = turn * turn;
+    return turn * (3.1415904 + square * (-5.1676023 + square * (2.5442290 + square * -0.5557037)));
+}
+
+#ifdef WITH_OVERRUN
+float band_noise(float band)
+{
+    uint hash = uint(int(band)) * 0x9e3779b1u;
+    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
+    hash ^= hash >> 13u;
+    return float(int(hash & 0xFFFFu)) * (2.0 / 65535.0) - 1.0;
+}
+
+/* The fill, moved along its strokes by another way in each band. */
+vec2 overrun_place(vec2 at)
+{
+    vec2 along = u_perturb_overrun_angle;
+    float across = dot(at, vec2(-along.y, along.x)) / u_perturb_overrun_width;
+    float band = floor(across), share = across - band;
+    float way = mix(band_noise(band), band_noise(band + 1.0), smoothstep(0.35, 0.65, share));
+    return at + along * (u_perturb_overrun * way);
+}
+#endif
+
+void find_places(ivec2 pixel)
+{
+    s_place = vec2(pixel);
+    s_share = (s_place + 0.5) / u_size;
+    s_dark = s_light = vec4(0.0);
+    s_fading = s_streak = 1.0;
+    s_bare = 1.0;
+    s_fill = s_place;
+#ifdef WITH_OVERRUN
+    s_fill = overrun_place(s_place);
+    ivec2 last = ivec2(u_size) - 1, at = ivec2(floor(s_fill + 0.5));
+    bool inside = texelFetch(t_depth, pixel, 0).r < 1.0;
+    bool found = texelFetch(t_depth, clamp(at, ivec2(0), last), 0).r < 1.0;
+    s_bare = inside && !found ? 0.0 : 1.0;
+    s_fill = inside && !found ? s_place : s_fill;
+#endif
+}
+
+float fill_share()
+{
+    return s_bare;
+}
+
+vec2 fill_place()
+{
+    return s_fill;
+}
+
+/* Equations 4 and 5. */
+vec2 line_place(int i)
+{
+    vec4 wave = u_numbers[2 * i], rest = u_numbers[2 * i + 1];
+    /* A cosine is a sine a quarter turn on. */
+    vec2 sway = near_sine(vec2(wave.x * s_share.y + wave.y, wave.z * s_share.x + wave.w + 1.5707963));
+    return s_place + rest.z * sway - rest.xy;
+}
+
+/* Shown grey to light, the sRGB curve within 0.8/255 of what is shown; exact for white. */
+float light_of_grey(float grey)
+{
+    return grey * (0.05929177 + grey * (0.31961537 + grey * (1.23331372 + grey * (-0.96944738 + grey * 0.35722652))));
+}
+
+void read_graphite()
+{
+    vec2 at = s_place / (u_perturb_grain * u_graphite_facts.x);
+    s_fading = textureLod(t_graphite, vec3(at, 0.0), 0.0).r;
+#ifdef WITH_TEXTURE
+    s_streak = 1.0 - u_perturb_texture * (1.0 - textureLod(t_graphite, vec3(at, 1.0), 0.0).r);
+#endif
+}
+
+/* The composition's: compose/joined.glsl. */
+vec4 averaged_at(vec2 place, int i);
+vec4 ink_of_mean(vec4 mean);
+
+/* Darkness of displayed grey to a share of light. */
+float share_of_darkness(float darkness)
+{
+    return 1.0 - light_of_grey(1.0 - darkness);
+}
+
+/* Row P34: coloured copies lie over each other, each takes its colour away from what comes through. As ink over white paper. */
+vec4 coloured_ink(float darkest)
+{
+    vec3 through = vec3(1.0);
+    for (int i = 0; i < DARK; i++) {
+        vec4 pencil = u_perturb_colours[i % max(u_perturb_colours_count, 1)];
+        through *= 1.0 - (1.0 - pencil.rgb) * (share_of_darkness(ink_of_mean(averaged_at(line_place(i), i)).a * darkest) * pencil.a);
+    }
+    float bare = min(through.r, min(through.g, through.b));
+    return vec4(through - bare, 1.0 - bare);
+}
+
+/* Both groups as ink: light lines fade as if noise were bleached into them (Screen), and of both groups the darker one is seen (Darken). */
+vec4 groups_joined()
+{
+    read_graphite();
+    vec4 light = ink_of_mean(s_light / float(max(LIGHT, 1))) * (u_perturb_sketch * (1.0 - s_fading));
+    vec4 dark = ink_of_mean(s_dark / float(max(DARK, 1)));
+    float force = s_streak;
+#ifdef WITH_PRESSURE
+    force *= dark.a >= light.a ? 1.0 - u_perturb_pressure * (1.0 - s_fading) : 1.0;
+#endif
+    float darkest = u_numbers[2 * LINE_COPIES].x * force;
+    vec4 ink = dark.a >= light.a ? dark : light;
+    ink *= share_of_darkness(ink.a * darkest) / max(ink.a, 1e-4);
+    int coloured = u_perturb_colours_count > 1 && dark.a >= light.a ? 1 : 0;
+    for (int once = 0; once < coloured; once++)
+        ink = coloured_ink(darkest);
+    return ink;
+}
+
+vec4 joined_ink()
+{
+    vec4 ink = vec4(0.0);
+    vec4 sum = s_dark + s_light;
+    int drawn = sum.r + sum.g + sum.b + sum.a > 0.0 ? 1 : 0;
+    for (int once = 0; once < drawn; once++)
+        ink = groups_joined();
+    return ink;
+}
+
+void join_copy(vec4 own, int i)
+{
+    if (i < DARK)
+        s_dark += own;
+    else
+        s_light += own;
+}

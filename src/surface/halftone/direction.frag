@@ -1,0 +1,87 @@
+/* The way surfaces bend most, from the picture of normals and depth alone: seed 004, section 4.2 (after Yu 2007 and Kim 2008), derived anew in the notes.
+ *
+ * The normals of neighbours are rays. In the frame of the middle one they pass the plane z = 0 at (u, v), and from there to z = 1 they move by (σ, τ). To first order
+ * (σ, τ) = S (u, v) with the shape operator S, which eight neighbours give by least squares; its eigenvectors are the directions of greatest and least curvature. The printed
+ * way, slits through which rays pass, is the same for two neighbours, but has no answer on planes; and its shader is wrong (the notes say where).
+ *
+ * Row P25; P27 where nothing bends. */
+#include "light/point.glsl"
+#include "surface/halftone/part_frame.glsl"
+#include "surface/halftone/form.glsl"
+#ifndef SIZE_DECLARED
+#define SIZE_DECLARED
+uniform vec2 u_size;
+#endif
+layout(location = 0) out vec4 out_0;
+
+const int STEP = 2; /* pixels to the neighbours that are asked */
+
+vec3 eye_at(ivec2 pixel, float depth)
+{
+    vec2 ndc = 2.0 * (vec2(pixel) + 0.5) / u_size - 1.0;
+    return vec3(ndc * u_unproject * (u_perspective > 0.5 ? depth : 1.0), -depth);
+}
+
+/* What neighbours say: sums of u², uv, v², uσ, vσ + uτ, vτ. */
+struct ray_sums {
+    vec3 places, turns;
+};
+
+void add_ray(inout ray_sums sums, ivec2 pixel, vec3 origin, mat3 frame)
+{
+    vec4 other = texelFetch(t_normal_depth, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0);
+    vec3 place = (eye_at(pixel, other.w) - origin) * frame, normal = other.xyz * frame;
+    /* Not across creases and borders. */
+    float counts = normal.z > 0.7 && abs(place.z) < 0.6 * length(place.xy) ? 1.0 : 0.0;
+    vec2 turn = normal.xy / max(normal.z, 0.7), at = place.xy - place.z * turn;
+    sums.places += counts * vec3(at.x * at.x, at.x * at.y, at.y * at.y);
+    sums.turns += counts * vec3(at.x * turn.x, at.y * turn.x + at.x * turn.y, at.y * turn.y);
+}
+
+/* The symmetric S = (a b; b c) that fits best. */
+vec3 shape_operator(ray_sums sums)
+{
+    vec3 p = sums.places, t = sums.turns;
+    /* Normal equations: (p.x p.y 0; p.y p.x + p.z p.y; 0 p.y p.z) (a b c) = t */
+    float whole = p.x * ((p.x + p.z) * p.z - p.y * p.y) - p.y * p.y * p.z;
+    float scale = p.x + p.z;
+    if (whole <= 1e-6 * scale * scale * scale)
+        return vec3(0.0);
+    float b = (p.x * p.z * t.y - p.y * (p.z * t.x + p.x * t.z)) / whole;
+    return vec3((t.x - p.y * b) / p.x, b, (t.z - p.y * b) / p.z);
+}
+
+void main()
+{
+    ivec2 pixel = min(ivec2(gl_FragCoord.xy) * 2, ivec2(u_size) - 1);
+    uvec2 id = texelFetch(t_id, pixel, 0).rg;
+    vec4 own = texelFetch(t_normal_depth, pixel, 0);
+    vec3 origin = eye_at(pixel, own.w);
+    mat3 frame = frame_around(own.xyz);
+    ray_sums sums = ray_sums(vec3(0.0), vec3(0.0));
+    add_ray(sums, pixel + ivec2(STEP, 0), origin, frame);
+    add_ray(sums, pixel - ivec2(STEP, 0), origin, frame);
+    add_ray(sums, pixel + ivec2(0, STEP), origin, frame);
+    add_ray(sums, pixel - ivec2(0, STEP), origin, frame);
+    add_ray(sums, pixel + ivec2(STEP, STEP), origin, frame);
+    add_ray(sums, pixel - ivec2(STEP, STEP), origin, frame);
+    add_ray(sums, pixel + ivec2(STEP, -STEP), origin, frame);
+    add_ray(sums, pixel - ivec2(STEP, -STEP), origin, frame);
+    vec3 shape = shape_operator(sums);
+    /* Half the difference of the curvatures, and their mean. The greater one by size has the direction. */
+    vec2 doubled = 0.5 * vec2(shape.x - shape.z, 2.0 * shape.y);
+    float apart = length(doubled), mean = 0.5 * (shape.x + shape.z);
+    float unlike = apart / (apart + abs(mean) + 1e-20);
+    float pixel_length = 2.0 * u_unproject.y / u_size.y * (u_perspective > 0.5 ? own.w : 1.0);
+    /* A normal that hardly turns from pixel to pixel does not turn; one that turns very much is an edge's, which has no room for strokes of its own. */
+    float turn = (apart + abs(mean)) * pixel_length;
+    float sure = unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.05, 0.12, turn));
+    vec2 way = apart > 0.0 ? doubled * ((mean < 0.0 ? -1.0 : 1.0) / apart) : vec2(1.0, 0.0);
+    vec2 bent = on_page(origin, tangent_of(way, frame));
+    part_frame part = frame_of_part(id.r);
+    mat3 to_part = part.turn * mat3(u_world_from_eye);
+    vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward) * to_part);
+    float there = id.r == 0u ? 0.0 : 1.0;
+    /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a way of their own. */
+    out_0 = vec4((bent * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure)))) * there, 0.0, there);
+}

@@ -1,0 +1,100 @@
+/* Pencil strokes on paper. Seed 004, section 4.4: the map is looked up along quantised ways, gone over several times with a little variation. */
+#include "surface/halftone/place.glsl"
+#include "surface/halftone/tone.glsl"
+#include "surface/halftone/screen.glsl"
+
+uniform vec4 u_numbers[1]; /* x: share of the paper's light that the lead takes at most */
+
+surface_point s_point;
+rest_place    s_rest;
+
+/* Ink of a tone: 0 is paper, then the pictures of the map. */
+float tone_ink(vec2 at, float level, float tone)
+{
+    return tone < 0.5 ? 0.0 : 1.0 - textureLod(t_tones, vec3(at, tone - 1.0), level).r;
+}
+
+/* The ink of a darkness at a place. Row P20: hatching has one of the tones everywhere, since new strokes find no room between two; gradation mixes two. */
+float map_ink(vec2 at, float level, float darkness)
+{
+    float count = u_tones_facts.y, wanted = clamp(darkness / u_tones_facts.w, 0.0, 1.0) * count;
+#if SHADING == 0
+    return tone_ink(at, level, floor(wanted + 0.5));
+#else
+    float low = min(floor(wanted), count - 1.0);
+    return mix(tone_ink(at, level, low), tone_ink(at, level, low + 1.0), wanted - low);
+#endif
+}
+
+/* Cosine and sine of some degrees, for angles up to a right one; the rest is far below what a hand does. */
+vec2 turn_of_degrees(float degrees)
+{
+    float angle = degrees * 0.017453293, square = angle * angle;
+    float cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square / 720.0)), sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square / 5040.0)));
+    return vec2(cosine, sine);
+}
+
+/* Ink of the strokes on a plane. On the page they are as large as they were made; on surfaces two sizes hand over to each other as one comes nearer. */
+float strokes_at(stroke_plane s, float darkness, vec2 start)
+{
+#if defined(HAS_FORM) || COORDINATES == 2
+    return map_ink(s.at / (u_tones_facts.x * u_scale) + start, 0.0, darkness);
+#else
+    float level = screen_level(s, u_tones_facts.x, u_scale), bare = 1.0;
+    for (int k = 0; k < 2; k++) {
+        screen_octave o = octave_of(s, level, k, -1e9, false);
+        int used = o.weight > 0.01 ? 1 : 0;
+        for (int once = 0; once < used; once++)
+            bare *= 1.0 - map_ink(s.at * o.scale + start, o.level, darkness_of_share(darkness, o.weight));
+    }
+    return 1.0 - bare;
+#endif
+}
+
+/* Share of the paper that one time over covers. Row P36: each turns and starts elsewhere, so that what is seen of one's seams others cover. */
+float cover_of(float darkness, int overlay)
+{
+    float share = OVERLAYS > 1 ? float(overlay) / float(OVERLAYS) : 0.0;
+#ifdef HAS_FORM
+    s_between = share;
+#endif
+    vec2 turn = turns_added(u_angle, turn_of_degrees(u_vary * (OVERLAYS > 1 ? 2.0 * float(overlay) / float(OVERLAYS - 1) - 1.0 : 0.0)));
+    float bare = 1.0;
+    for (int i = 0; i < PLANES; i++) {
+        stroke_plane s = plane_of(s_point, s_rest, i, turn);
+        int there = s.weight > 0.01 ? 1 : 0;
+        for (int once = 0; once < there; once++)
+            bare *= 1.0 - strokes_at(s, darkness_of_share(min(darkness, u_tones_facts.w), s.weight), vec2(0.37, 0.61) * float(overlay + OVERLAYS * int(s.key & 15u)));
+    }
+    return 1.0 - bare;
+}
+
+#define INKS 0
+#include "surface/halftone/inks.glsl"
+
+vec4 surface_colour(surface_point p)
+{
+    s_point = p;
+    s_rest = place_at_rest(p);
+    float tone = tone_of_light(p, light_of(p));
+#ifdef WITH_GLOSS
+    tone += u_gloss * highlight(p, 24.0);
+#endif
+    float darkness = focused(p, clamp(darkness_of(tone), 0.0, 1.0));
+    /* Every time over has its part, so that together they are as dark as wanted. */
+    float part = darkness_of_share(darkness, 1.0 / float(OVERLAYS));
+    vec4 paper = paper_of(p);
+    vec3 own = mix(u_ink.rgb, p.albedo.rgb, u_ink_tint);
+    vec3 left = vec3(1.0);
+    float bare = 1.0;
+    for (int i = 0; i < OVERLAYS; i++) {
+        float cover = cover_of(part, i);
+        vec4 pencil = u_pencils[i % max(u_pencils_count, 1)];
+        left *= 1.0 - cover * pencil.a * (1.0 - pencil.rgb);
+        bare *= 1.0 - cover;
+    }
+    /* Row P32: graphite covers what is not covered yet, up to what the lead can do. Row P34: coloured pencils each take their colours away. */
+    vec3 graphite = 1.0 - (1.0 - bare) * u_numbers[0].x * u_ink.a * (1.0 - own);
+    vec3 rest = u_pencils_count > 1 ? 1.0 - (1.0 - left) * u_numbers[0].x : graphite;
+    return vec4(paper.rgb * rest, paper.a);
+}
