@@ -13,6 +13,11 @@ vec4 ink_of_mean(vec4 mean)
 {
     return mean;
 }
+
+bool is_outline(vec4 averaged)
+{
+    return averaged.a > 0.0;
+}
 #else
 /* What of the pixel profile, id and inner lines have, those before on top: means of it are means of ink, and cost less. */
 vec4 averaged_at(vec2 place, int i)
@@ -28,25 +33,42 @@ vec4 ink_of_mean(vec4 mean)
 {
     return vec4(u_line_colour.rgb, 1.0) * mean.x + vec4(u_line_id_colour.rgb, 1.0) * mean.y + vec4(u_line_inner_colour.rgb, 1.0) * mean.z;
 }
+
+/* Inner lines lie on surfaces. */
+bool is_outline(vec4 averaged)
+{
+    return averaged.x + averaged.y > 0.0;
+}
 #endif
 
-/* The depth of a copy's ink: that of the surface it is found on, or surrounds; 1 where it has none. */
+/* The depth of ink at a place: that of the surface it is found on, or surrounds. */
 float depth_of_ink(vec2 place)
 {
-    float depth = own_depth(pixel_at(place));
-    bool inked = ink_at(place).a > 0.0;
-    int search = depth >= 1.0 && inked ? 1 : 0;
+    ivec2 at = pixel_at(place);
+    float depth = own_depth(at);
+#ifdef BROAD_COPIES
+    int search = depth >= 1.0 ? 1 : 0;
     for (int once = 0; once < search; once++)
-        depth = neighbour_depth(pixel_at(place));
-    return inked ? depth : 1.0;
+        depth = neighbour_depth(at);
+    return depth;
+#else
+    /* Thin lines lie at most two pixels off, between pixels; without a loop. */
+    float beside = min(min(own_depth(at + ivec2(1, 1)), own_depth(at + ivec2(-1, 1))), min(own_depth(at + ivec2(1, -1)), own_depth(at - ivec2(1, 1))));
+    float farther = min(min(own_depth(at + ivec2(2, 0)), own_depth(at - ivec2(2, 0))), min(own_depth(at + ivec2(0, 2)), own_depth(at - ivec2(0, 2))));
+    return depth < 1.0 ? depth : min(beside, farther);
+#endif
 }
 
-/* All copies. `depth` of the fill becomes that of the nearest copy where there is no fill; on surfaces ink is as deep as they are. */
+/* All copies. `depth` of the fill becomes that of one with ink where there is no fill; on surfaces ink is as deep as they are. */
 vec4 ink_of_copies(inout float depth)
 {
     float fill_depth = depth;
-    for (int i = 0; i < LINE_COPIES; i++)
-        join_copy(averaged_at(line_place(i), i), i);
+    int inked = 0;
+    for (int i = 0; i < LINE_COPIES; i++) {
+        vec4 own = averaged_at(line_place(i), i);
+        inked = is_outline(own) ? i : inked;
+        join_copy(own, i);
+    }
     vec4 ink = joined_ink();
 #ifdef HAS_FOCUS
     int drawn = ink.a > 0.0 ? 1 : 0;
@@ -54,9 +76,7 @@ vec4 ink_of_copies(inout float depth)
     int drawn = ink.a > 0.0 && fill_depth >= 1.0 ? 1 : 0;
 #endif
     for (int once = 0; once < drawn; once++) {
-        float nearest = 1.0;
-        for (int i = 0; i < LINE_COPIES; i++)
-            nearest = min(nearest, depth_of_ink(line_place(i)));
+        float nearest = depth_of_ink(line_place(inked));
 #ifdef HAS_FOCUS
         ink *= in_focus_of_window(nearest);
 #endif

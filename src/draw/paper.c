@@ -83,6 +83,12 @@ static void set_place(gpu *g, const char *name, sheet_place place)
     gpu_set_vec4(g, name, (float[]){place.a, place.b, place.u, place.v});
 }
 
+/* The texture's level at which a texel is as large as a pixel: the same all over the page, so that nobody has to find it there. */
+static float level_of(sheet_place place, float side)
+{
+    return (float)fmax(log2(fmax(hypot((double)place.a, (double)place.b) * (double)side, 1e-30)), 0);
+}
+
 void paper_set(frame *f)
 {
     if (!has_paper(f))
@@ -103,5 +109,11 @@ void paper_set(frame *f)
     set_place(f->g, "u_paper_place", lie.octaves[0]);
     set_place(f->g, "u_paper_finer", lie.octaves[1]);
     set_place(f->g, "u_paper_pieces", lie.pieces);
+    const float side = f->plan->sheet_textures.facts[0][0];
+    const sheet_place places[3] = {lie.octaves[0], lie.octaves[1], lie.pieces};
+    float levels[3];
+    for (int k = 0; k < 3; k++)
+        levels[k] = level_of(places[k], side);
+    gpu_set_vec3(f->g, "u_paper_levels", levels);
     gpu_set_vec4(f->g, "u_paper_shares", (float[]){lie.finer, lie.begun, lie.begin[0], lie.begin[1]});
 }

@@ -10,9 +10,11 @@ uniform vec4 u_paper_shares;  /* of the finer octave; of the pieces that begin a
 
 const float FAINTEST = 3.0; /* n of the faintest ink on the deepest paper */
 
-vec2 paper_at(vec4 place, vec2 pixel, float shift)
+uniform vec3 u_paper_levels;  /* of the texture, for the three places */
+
+vec2 paper_at(vec4 place, vec2 pixel, float shift, float level)
 {
-    return texture(t_paper, vec3(place.x * pixel + place.y * vec2(-pixel.y, pixel.x) + place.zw + vec2(shift, 0.0), 0.0)).rg;
+    return textureLod(t_paper, vec3(place.x * pixel + place.y * vec2(-pixel.y, pixel.x) + place.zw + vec2(shift, 0.0), 0.0), level).rg;
 }
 
 /* Two octaves as one: the share of the sheet where their weighted sum is less. */
@@ -29,39 +31,28 @@ vec2 paper_here(vec2 pixel)
     float begins = 0.0;
 #if MOTION > 0
     if (u_paper_shares.y > 0.0)
-        begins = float(paper_at(u_paper_pieces, pixel, 0.0).x < u_paper_shares.y);
+        begins = float(paper_at(u_paper_pieces, pixel, 0.0, u_paper_levels.z).x < u_paper_shares.y);
 #endif
-    vec2 here = paper_at(u_paper_place, pixel, begins * u_paper_shares.z);
+    vec2 here = paper_at(u_paper_place, pixel, begins * u_paper_shares.z, u_paper_levels.x);
 #if MOTION == 2
-    vec2 finer = paper_at(u_paper_finer, pixel, begins * u_paper_shares.w);
+    vec2 finer = paper_at(u_paper_finer, pixel, begins * u_paper_shares.w, u_paper_levels.y);
     here = vec2(together(vec2(here.x, finer.x), u_paper_shares.x), mix(here.y, finer.y, u_paper_shares.x));
 #endif
     return vec2(here.x * (255.0 / 256.0) + 0.5 / 256.0, here.y);
 }
 
-/* Page that differs from the sheet by this, rubbed onto the grain. */
-vec4 rubbed(vec4 page, vec4 more, vec2 here)
+vec4 on_paper(vec4 page, vec2 pixel)
 {
+    vec2 here = paper_here(pixel);
+    page.rgb = clamp(page.rgb, 0.0, page.a);
+    vec4 more = page - u_sheet;
     vec4 room = mix(u_room_above, u_room_below, vec4(lessThan(more, vec4(0.0))));
     vec4 shares = abs(more) / max(room, 1e-4);
     float ink = clamp(max(max(shares.r, shares.g), max(shares.b, shares.a)), 1e-4, 1.0);
     float n = u_paper_facts.w * min(1.0 / (ink * u_pressure) - 1.0, FAINTEST);
-    return page + more * min(u_grain * ((n + 1.0) * pow(here.x, n) - 1.0), 1.0 / ink - 1.0);
-}
-
-vec4 on_paper(vec4 page, vec2 pixel)
-{
-    page.rgb = clamp(page.rgb, 0.0, page.a);
-    vec4 more = page - u_sheet;
+    page += more * min(u_grain * ((n + 1.0) * pow(here.x, n) - 1.0), 1.0 / ink - 1.0);
 #ifdef WITH_RELIEF
-    vec2 here = paper_here(pixel);
-    page = rubbed(page, more, here);
     page.rgb *= 1.0 - u_relief * u_sheet.a * (1.0 - here.y);
-#else
-    /* Most of a page is bare: a loop, since software drivers skip loops and not branches. */
-    int inked = any(notEqual(more, vec4(0.0))) ? 1 : 0;
-    for (int once = 0; once < inked; once++)
-        page = rubbed(page, more, paper_here(pixel));
 #endif
     return page;
 }

@@ -6,7 +6,10 @@ uniform vec2 u_size;
 
 #define LINE_COPIES (DARK + LIGHT)
 #define JOINS_INK
+#ifdef BROAD_LINES
 #undef BROAD_LINES
+#define BROAD_COPIES
+#endif
 #ifndef WITH_OVERRUN
 #define FILL_STAYS
 #endif
@@ -127,7 +130,7 @@ vec4 coloured_ink(float darkest)
 }
 
 /* Both groups as ink: light lines fade as if noise were bleached into them (Screen), and of both groups the darker one is seen (Darken). */
-vec4 groups_joined()
+vec4 joined_ink()
 {
     read_graphite();
     vec4 light = ink_of_mean(s_light / float(max(LIGHT, 1))) * (u_perturb_sketch * (1.0 - s_fading));
@@ -142,16 +145,6 @@ vec4 groups_joined()
     int coloured = u_perturb_colours_count > 1 && dark.a >= light.a ? 1 : 0;
     for (int once = 0; once < coloured; once++)
         ink = coloured_ink(darkest);
-    return ink;
-}
-
-vec4 joined_ink()
-{
-    vec4 ink = vec4(0.0);
-    vec4 sum = s_dark + s_light;
-    int drawn = sum.r + sum.g + sum.b + sum.a > 0.0 ? 1 : 0;
-    for (int once = 0; once < drawn; once++)
-        ink = groups_joined();
     return ink;
 }
 

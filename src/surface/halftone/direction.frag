@@ -1,7 +1,7 @@
 /* The way surfaces bend most, from the picture of normals and depth alone: seed 004, section 4.2 (after Yu 2007 and Kim 2008), derived anew in the notes.
  *
  * The normals of neighbours are rays. In the frame of the middle one they pass the plane z = 0 at (u, v), and from there to z = 1 they move by (σ, τ). To first order
- * (σ, τ) = S (u, v) with the shape operator S, which eight neighbours give by least squares; its eigenvectors are the directions of greatest and least curvature. The printed
+ * (σ, τ) = S (u, v) with the shape operator S, which four neighbours give by least squares; its eigenvectors are the directions of greatest and least curvature. The printed
  * way, slits through which rays pass, is the same for two neighbours, but has no answer on planes; and its shader is wrong (the notes say where).
  *
  * Row P25; P27 where nothing bends. */
@@ -61,10 +61,6 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     add_ray(sums, pixel - ivec2(STEP, 0), origin, frame);
     add_ray(sums, pixel + ivec2(0, STEP), origin, frame);
     add_ray(sums, pixel - ivec2(0, STEP), origin, frame);
-    add_ray(sums, pixel + ivec2(STEP, STEP), origin, frame);
-    add_ray(sums, pixel - ivec2(STEP, STEP), origin, frame);
-    add_ray(sums, pixel + ivec2(STEP, -STEP), origin, frame);
-    add_ray(sums, pixel - ivec2(STEP, -STEP), origin, frame);
     vec3 shape = shape_operator(sums);
     /* Half the difference of the curvatures, and their mean. The greater one by size has the direction. */
     vec2 doubled = 0.5 * vec2(shape.x - shape.z, 2.0 * shape.y);

@@ -66,7 +66,7 @@ mesh_wishes halftone_wishes(const void *values);
                      .doc = "Colour of strokes. Lighter than the paper, strokes stand for light instead of shade. cmyk: of the black one."),          \
     PARAM_COLOUR_ROW(halftone_values, paper, .can_auto = true, .def_auto = true, .auto_ground = true,                                                \
                      .doc = "Colour between strokes; auto takes the page's ground."),                                                                \
-    PARAM_FLOAT_ROW(halftone_values, paper_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                   \
+    PARAM_FLOAT_ROW(halftone_values, paper_tint, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                   \
                     .doc = "Share of the model's own lit colour in the paper.")
 
 /* And of those that print: with one ink, two or four. */
