@@ -52,7 +52,7 @@ ivec2 pixel_at(vec2 place)
 #ifdef HAS_SHADE
 vec4 shade_at(vec2 place)
 {
-#ifdef PERTURBED
+#if defined(PERTURBED) && !defined(FILL_STAYS)
     return textureLod(t_shade, (place + 0.5) / u_size, 0.0);
 #else
     return texelFetch(t_shade, ivec2(place), 0);

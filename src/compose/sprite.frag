@@ -82,7 +82,9 @@ void main()
 #endif
 #endif
 #ifdef PERTURBED
+#ifndef FILL_STAYS
     fill = mix(fallback_of(fill.a), fill, fill_share());
+#endif
 #endif
     vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
     if (colour.a <= 0.0 || depth >= 1.0)

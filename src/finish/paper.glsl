@@ -39,18 +39,29 @@ vec2 paper_here(vec2 pixel)
     return vec2(here.x * (255.0 / 256.0) + 0.5 / 256.0, here.y);
 }
 
-vec4 on_paper(vec4 page, vec2 pixel)
+/* Page that differs from the sheet by this, rubbed onto the grain. */
+vec4 rubbed(vec4 page, vec4 more, vec2 here)
 {
-    vec2 here = paper_here(pixel);
-    page.rgb = clamp(page.rgb, 0.0, page.a);
-    vec4 more = page - u_sheet;
     vec4 room = mix(u_room_above, u_room_below, vec4(lessThan(more, vec4(0.0))));
     vec4 shares = abs(more) / max(room, 1e-4);
     float ink = clamp(max(max(shares.r, shares.g), max(shares.b, shares.a)), 1e-4, 1.0);
     float n = u_paper_facts.w * min(1.0 / (ink * u_pressure) - 1.0, FAINTEST);
-    page += more * min(u_grain * ((n + 1.0) * pow(here.x, n) - 1.0), 1.0 / ink - 1.0);
+    return page + more * min(u_grain * ((n + 1.0) * pow(here.x, n) - 1.0), 1.0 / ink - 1.0);
+}
+
+vec4 on_paper(vec4 page, vec2 pixel)
+{
+    page.rgb = clamp(page.rgb, 0.0, page.a);
+    vec4 more = page - u_sheet;
 #ifdef WITH_RELIEF
+    vec2 here = paper_here(pixel);
+    page = rubbed(page, more, here);
     page.rgb *= 1.0 - u_relief * u_sheet.a * (1.0 - here.y);
+#else
+    /* Most of a page is bare: a loop, since software drivers skip loops and not branches. */
+    int inked = any(notEqual(more, vec4(0.0))) ? 1 : 0;
+    for (int once = 0; once < inked; once++)
+        page = rubbed(page, more, paper_here(pixel));
 #endif
     return page;
 }

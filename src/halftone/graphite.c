@@ -90,29 +90,29 @@ static void fill_streaks(double *out, uint32_t seed)
 }
 
 /* The whole range from the least to the greatest value. */
-static void store_layer(mip_chain *out, int layer, const double *values)
+static void store_channel(mip_chain *out, int channel, const double *values)
 {
-    uint8_t *bytes = mip_layer(out, 0, layer);
+    uint8_t *bytes = mip_layer(out, 0, 0);
     double least = INFINITY, most = -INFINITY;
     for (size_t i = 0; i < (size_t)GRAPHITE_SIDE * GRAPHITE_SIDE; i++) {
         least = fmin(least, values[i]);
         most = fmax(most, values[i]);
     }
     for (size_t i = 0; i < (size_t)GRAPHITE_SIDE * GRAPHITE_SIDE; i++)
-        bytes[i] = (uint8_t)lround(255 * (values[i] - least) / fmax(most - least, 1e-9));
+        bytes[2 * i + (size_t)channel] = (uint8_t)lround(255 * (values[i] - least) / fmax(most - least, 1e-9));
 }
 
 lmn_status graphite_grain(mip_chain *out, uint32_t seed, lmn_error *error)
 {
-    lmn_status status = mip_chain_create(out, GRAPHITE_SIDE, GRAPHITE_SIDE, 2, 1, MIP_R8, error);
+    lmn_status status = mip_chain_create(out, GRAPHITE_SIDE, GRAPHITE_SIDE, 1, 1, MIP_RG8, error);
     double *values = mem_alloc((size_t)GRAPHITE_SIDE * GRAPHITE_SIDE * sizeof *values);
     if (status == LMN_OK && !values)
         status = error_memory(error);
     if (status == LMN_OK) {
         fill_clouds(values, seed);
-        store_layer(out, 0, values);
+        store_channel(out, 0, values);
         fill_streaks(values, seed);
-        store_layer(out, 1, values);
+        store_channel(out, 1, values);
     } else {
         mip_chain_release(out);
     }

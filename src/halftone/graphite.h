@@ -20,8 +20,8 @@ float lead_ink(lead_grade grade);
 /* Side of the pictures that graphite_grain makes, texels. */
 enum { GRAPHITE_SIDE = 256 };
 
-/* Two seamless pictures, R8, one level: clouds of gradient noise from 0 to 255, by which old lines fade; and short strokes over each other, 255 where graphite lies
- * thickest. Errors: LMN_MEMORY. */
+/* Two seamless pictures as channels of one, RG8, one level: clouds of gradient noise from 0 to 255, by which old lines fade; and short strokes over each other, 255
+ * where graphite lies thickest. Errors: LMN_MEMORY. */
 lmn_status graphite_grain(mip_chain *out, uint32_t seed, lmn_error *error);
 
 #endif

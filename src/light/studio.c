@@ -53,7 +53,7 @@ static const param params[] = {
 };
 
 static const technique studio = {
-    .name = "studio", .doc = "Light and geometry preparation.", .example = "{\"surface\": \"lit\"}",
+    .name = "studio", .doc = "Light and geometry preparation.", .example = "{\"surface\": \"lit\", \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(scene_values),
 };
 

@@ -107,7 +107,7 @@ static size_t numbers_of(const void *values, uint32_t seed, int width, int heigh
 static void describe(text *out, const void *values)
 {
     (void)values;
-    text_append(out, "1");
+    text_append(out, "2");
 }
 
 static lmn_status make(mip_chain *out, const void *values, lmn_error *error)

@@ -7,6 +7,9 @@ uniform vec2 u_size;
 #define LINE_COPIES (DARK + LIGHT)
 #define JOINS_INK
 #undef BROAD_LINES
+#ifndef WITH_OVERRUN
+#define FILL_STAYS
+#endif
 
 uniform vec4 u_numbers[2 * LINE_COPIES + 1]; /* numbers_of in pencil.c */
 
@@ -94,9 +97,10 @@ float light_of_grey(float grey)
 void read_graphite()
 {
     vec2 at = s_place / (u_perturb_grain * u_graphite_facts.x);
-    s_fading = textureLod(t_graphite, vec3(at, 0.0), 0.0).r;
+    vec2 grain = textureLod(t_graphite, vec3(at, 0.0), 0.0).rg;
+    s_fading = grain.r;
 #ifdef WITH_TEXTURE
-    s_streak = 1.0 - u_perturb_texture * (1.0 - textureLod(t_graphite, vec3(at, 1.0), 0.0).r);
+    s_streak = 1.0 - u_perturb_texture * (1.0 - grain.g);
 #endif
 }
 

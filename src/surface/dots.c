@@ -13,6 +13,7 @@ static const char *const tone_names[] = {"number", "size", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
+    HALFTONE_INK_ROWS,
     PARAM_ENUM_ROW(dots, tone_by, .names = tone_names, .variant = true,
                    .doc = "Darker places have more dots (number), as in stippling, or larger ones (size), as in print."),
     PARAM_FLOAT_ROW(dots, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .only_if = "tone_by=number", .doc = "Diameter of the dots."),

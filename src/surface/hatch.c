@@ -13,6 +13,7 @@ static const char *const tone_names[] = {"number", "width", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_AXES),
+    HALFTONE_INK_ROWS,
     PARAM_ENUM_ROW(hatch, tone_by, .names = tone_names, .variant = true,
                    .doc = "Darker places have more lines (number), as in pen drawings, or wider ones (width), as in engravings."),
     PARAM_FLOAT_ROW(hatch, scale, .def = 6, .min = 1, .max = 200, .soft_min = 2, .soft_max = 30, .unit = UNIT_PX,

@@ -20,6 +20,7 @@ static const char *const shading_names[] = {"hatching", "gradation", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_FORM),
+    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the model's own colour in the pencil's: with 1 each part has its own."),
     PARAM_ENUM_ROW(pencil_values, shading, .names = shading_names, .variant = true,
                    .doc = "hatching: strokes with gaps, in so many tones; gradation: strokes cover each other, and tones pass into one another."),
     PARAM_INT_ROW(pencil_values, overlays, .def = 2, .min = 1, .max = 6, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
@@ -48,7 +49,7 @@ static bool is_gradation(const pencil_values *v)
 static void describe(text *out, const void *values)
 {
     const pencil_values *v = values;
-    text_append(out, "1 shading=%d width=%.6g length=%.6g opacity=%.6g cross=%d seed=%d", v->shading, (double)v->width, (double)v->length, (double)v->opacity, v->cross, v->map_seed);
+    text_append(out, "2 shading=%d width=%.6g length=%.6g opacity=%.6g cross=%d seed=%d", v->shading, (double)v->width, (double)v->length, (double)v->opacity, v->cross, v->map_seed);
 }
 
 /* What a stroke leaves of the paper. Its darkness is the shader's. */

@@ -69,6 +69,7 @@ float cover_of(float darkness, int overlay)
     return 1.0 - bare;
 }
 
+#define INKS 0
 #include "surface/halftone/inks.glsl"
 
 vec4 surface_colour(surface_point p)

@@ -7,6 +7,7 @@ static const char *const indication_names[] = {"add", "limit", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
+    HALFTONE_INK_ROWS,
     PARAM_TEXT_ROW(screen_values, screen, .example = "dots", .is_file = true, .check = screen_check_name,
                    .doc = "The screen: a pattern of strokes (parallel, cross, contour, brick, stipple, scribble, random), a procedure (lines, dots, ordered, "
                           "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp; NAME-1.png, NAME-2.png … are its layers); material takes the strokes that lie beside each "

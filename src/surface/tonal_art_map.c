@@ -26,6 +26,7 @@ static lmn_status check_strokes(const char *name, lmn_error *error);
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
+    HALFTONE_INK_ROWS,
     PARAM_INT_ROW(tonal_art_map_values, tones, .def = 6, .min = 2, .max = 16, .soft_max = 8, .unit = UNIT_COUNT, .cpu_only = true, .doc = "Number of tones that are drawn."),
     PARAM_ENUM_ROW(tonal_art_map_values, blend, .names = blend_names, .def = 1, .variant = true,
                    .doc = "nearest: each place has one of the tones, as in hatching; between: two of them mix."),

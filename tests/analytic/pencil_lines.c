@@ -108,7 +108,7 @@ static double expected(const setting *s, const shot *exact, const mip_chain *gra
     const uint8_t *bytes = mip_layer(grain, 0, 0);
     double p = 0;
     for (int k = 0; k < 4; k++)
-        p += 0.25 * bytes[((y - 1 + (k >> 1)) & (GRAPHITE_SIDE - 1)) * GRAPHITE_SIDE + ((x - 1 + (k & 1)) & (GRAPHITE_SIDE - 1))] / 255.0;
+        p += 0.25 * bytes[2 * (((y - 1 + (k >> 1)) & (GRAPHITE_SIDE - 1)) * GRAPHITE_SIDE + ((x - 1 + (k & 1)) & (GRAPHITE_SIDE - 1)))] / 255.0;
     double intensity_light = 1 - (light) * s->sketch * (1 - p), intensity_dark = 1 - dark;
     return 1 - (1 - fmin(intensity_light, intensity_dark)) * s->darkest;
 }

@@ -51,10 +51,8 @@ vec3 shape_operator(ray_sums sums)
     return vec3((t.x - p.y * b) / p.x, b, (t.z - p.y * b) / p.z);
 }
 
-void main()
+vec2 direction_at(ivec2 pixel, uvec2 id)
 {
-    ivec2 pixel = min(ivec2(gl_FragCoord.xy) * 2, ivec2(u_size) - 1);
-    uvec2 id = texelFetch(t_id, pixel, 0).rg;
     vec4 own = texelFetch(t_normal_depth, pixel, 0);
     vec3 origin = eye_at(pixel, own.w);
     mat3 frame = frame_around(own.xyz);
@@ -81,7 +79,16 @@ void main()
     part_frame part = frame_of_part(id.r);
     mat3 to_part = part.turn * mat3(u_world_from_eye);
     vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward) * to_part);
-    float there = id.r == 0u ? 0.0 : 1.0;
     /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a way of their own. */
-    out_0 = vec4((bent * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure)))) * there, 0.0, there);
+    return bent * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure)));
+}
+
+void main()
+{
+    ivec2 pixel = min(ivec2(gl_FragCoord.xy) * 2, ivec2(u_size) - 1);
+    uvec2 id = texelFetch(t_id, pixel, 0).rg;
+    out_0 = vec4(0.0);
+    int there = id.r == 0u ? 0 : 1;
+    for (int once = 0; once < there; once++)
+        out_0 = vec4(direction_at(pixel, id), 0.0, 1.0);
 }

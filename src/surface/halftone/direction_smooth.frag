@@ -1,9 +1,8 @@
-/* Directions averaged with those around on the same surface, farther in each round; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
+/* Directions averaged with those around on the same surface; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;
 #endif
-uniform int u_iteration;
 layout(location = 0) out vec4 out_0;
 
 vec4 weighed(ivec2 texel, vec3 normal, float weight)
@@ -13,16 +12,23 @@ vec4 weighed(ivec2 texel, vec3 normal, float weight)
     return texelFetch(t_direction, at, 0) * (weight * step(0.8, dot(normal, other)));
 }
 
+vec4 smoothed(ivec2 texel, vec4 own)
+{
+    vec3 normal = texelFetch(t_normal_depth, min(texel * 2, ivec2(u_size) - 1), 0).xyz;
+    vec4 sum = own * 2.0;
+    sum += weighed(texel + ivec2(2, 1), normal, 1.0) + weighed(texel - ivec2(2, 1), normal, 1.0);
+    sum += weighed(texel + ivec2(-1, 2), normal, 1.0) + weighed(texel - ivec2(-1, 2), normal, 1.0);
+    sum += weighed(texel + ivec2(4, -2), normal, 0.7) + weighed(texel - ivec2(4, -2), normal, 0.7);
+    sum += weighed(texel + ivec2(2, 4), normal, 0.7) + weighed(texel - ivec2(2, 4), normal, 0.7);
+    return vec4(sum.xy / sum.a, 0.0, 1.0);
+}
+
 void main()
 {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    int far = u_iteration == 0 ? 1 : 3;
     vec4 own = texelFetch(t_direction, texel, 0);
-    vec3 normal = texelFetch(t_normal_depth, min(texel * 2, ivec2(u_size) - 1), 0).xyz;
-    vec4 sum = own * 4.0;
-    sum += weighed(texel + ivec2(far, 0), normal, 2.0) + weighed(texel - ivec2(far, 0), normal, 2.0);
-    sum += weighed(texel + ivec2(0, far), normal, 2.0) + weighed(texel - ivec2(0, far), normal, 2.0);
-    sum += weighed(texel + ivec2(far, far), normal, 1.0) + weighed(texel - ivec2(far, far), normal, 1.0);
-    sum += weighed(texel + ivec2(far, -far), normal, 1.0) + weighed(texel - ivec2(far, -far), normal, 1.0);
-    out_0 = own.a > 0.0 ? vec4(sum.xy / sum.a, 0.0, 1.0) : vec4(0.0);
+    out_0 = vec4(0.0);
+    int there = own.a > 0.0 ? 1 : 0;
+    for (int once = 0; once < there; once++)
+        out_0 = smoothed(texel, own);
 }

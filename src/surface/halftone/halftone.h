@@ -38,7 +38,7 @@ typedef struct halftone_values {
     {.name = "directions", .shader = "surface/halftone/direction.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID}, .writes = TARGET_DIRECTION,       \
      .when = HALFTONE_DEFERRED_WHEN, .prepares = true},                                                                                              \
     {.name = "smooth directions", .shader = "surface/halftone/direction_smooth.frag", .reads = {TARGET_DIRECTION, TARGET_NORMAL_DEPTH},              \
-     .writes = TARGET_DIRECTION, .repeat = 2, .when = HALFTONE_DEFERRED_WHEN, .prepares = true}
+     .writes = TARGET_DIRECTION, .when = HALFTONE_DEFERRED_WHEN, .prepares = true}
 
 /* Of a technique whose values begin with these. */
 mesh_wishes halftone_wishes(const void *values);
@@ -62,17 +62,20 @@ mesh_wishes halftone_wishes(const void *values);
                     .doc = "Bends the way from shadow to light: above 1 more is dark."),                                                             \
     PARAM_FLOAT_ROW(halftone_values, texture, .toggles = true, .def = 0.4, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                    \
                     .doc = "Share of the model's own brightness, textures too, in the tone."),                                                      \
+    PARAM_COLOUR_ROW(halftone_values, ink, .def_colour = {0.09f, 0.09f, 0.11f, 1},                                                                   \
+                     .doc = "Colour of strokes. Lighter than the paper, strokes stand for light instead of shade. cmyk: of the black one."),          \
+    PARAM_COLOUR_ROW(halftone_values, paper, .can_auto = true, .def_auto = true, .auto_ground = true,                                                \
+                     .doc = "Colour between strokes; auto takes the page's ground."),                                                                \
+    PARAM_FLOAT_ROW(halftone_values, paper_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                   \
+                    .doc = "Share of the model's own lit colour in the paper.")
+
+/* And of those that print: with one ink, two or four. */
+#define HALFTONE_INK_ROWS \
     PARAM_ENUM_ROW(halftone_values, inks, .names = halftone_ink_names, .variant = true,                                                              \
                    .doc = "one ink; two: the second one for the lighter half of all tones; cmyk: four inks that mix to the model's colours, each "    \
                           "at an angle of its own."),                                                                                                \
-    PARAM_COLOUR_ROW(halftone_values, ink, .def_colour = {0.09f, 0.09f, 0.11f, 1},                                                                   \
-                     .doc = "Colour of strokes. Lighter than the paper, strokes stand for light instead of shade. cmyk: of the black one."),          \
     PARAM_COLOUR_ROW(halftone_values, second_ink, .def_colour = {0.72f, 0.36f, 0.22f, 1}, .only_if = "inks=two", .doc = "Colour of the second ink."), \
-    PARAM_COLOUR_ROW(halftone_values, paper, .can_auto = true, .def_auto = true, .auto_ground = true,                                                \
-                     .doc = "Colour between strokes; auto takes the page's ground."),                                                                \
     PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "inks<2",                                \
-                    .doc = "Share of the model's own colour in the ink."),                                                                           \
-    PARAM_FLOAT_ROW(halftone_values, paper_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                                   \
-                    .doc = "Share of the model's own lit colour in the paper.")
+                    .doc = "Share of the model's own colour in the ink.")
 
 #endif
