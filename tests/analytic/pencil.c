@@ -195,7 +195,7 @@ static void ways_of_strokes(void)
     static const int    ways[] = {6, 12, 24};
     static const double angles[] = {0, 30, 90, -45};
     for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 4; a++) {
+        for (int a = 0; a < (ways[k] == 12 ? 4 : 1); a++) {
             char       keys[160];
             stroke_way way[PLACES];
             double     radial[PLACES], worst = 0, mean = 0, least = 1, most = 0;
