@@ -242,8 +242,8 @@ bool target_is_coarse(target t)
 void coarse_size(const frame *f, const figure_state *s, target t, int out[2])
 {
     if (t == TARGET_DIRECTION) {
-        out[0] = (f->width + 1) / 2;
-        out[1] = (f->height + 1) / 2;
+        out[0] = (f->width + DIRECTION_APART - 1) / DIRECTION_APART;
+        out[1] = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
         return;
     }
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
@@ -348,6 +348,7 @@ static void declare_id_bits(text *prelude)
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     declare_id_bits(prelude);
+    text_append(prelude, "#define DIRECTION_APART %d\n", DIRECTION_APART);
     if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
         text_append(prelude, "#define HAS_FOCUS\n");
     char *finished = text_take(prelude);

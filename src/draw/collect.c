@@ -151,7 +151,7 @@ void collect_uncertainty(frame *f, figure_state *s)
 void collect_direction(frame *f, figure_state *s)
 {
     frame_maps *m = f->maps;
-    int columns = gpu_texture_width(s->targets[TARGET_DIRECTION]), rows = (f->height + 1) / 2;
+    int columns = gpu_texture_width(s->targets[TARGET_DIRECTION]), rows = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
     float *coarse = mem_alloc((size_t)columns * (size_t)rows * 4 * sizeof *coarse);
     if (m->whole && !m->direction)
         m->direction = mem_calloc((size_t)f->width * (size_t)f->height, 3 * sizeof *m->direction);
@@ -163,7 +163,7 @@ void collect_direction(frame *f, figure_state *s)
     gpu_read(f->g, s->targets[TARGET_DIRECTION], coarse);
     for (size_t y = 0; m->direction && y < (size_t)f->height; y++)
         for (size_t x = 0; x < (size_t)f->width; x++) {
-            const float *from = &coarse[4 * (y / 2 * (size_t)columns + x / 2)];
+            const float *from = &coarse[4 * (y / DIRECTION_APART * (size_t)columns + x / DIRECTION_APART)];
             if (from[3] > 0)
                 memcpy(&m->direction[3 * (y * (size_t)f->width + x)], from, 2 * sizeof *from);
         }

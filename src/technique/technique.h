@@ -39,14 +39,14 @@ typedef enum target {
     TARGET_FIELD,      /* RGBA32F: uncertainty at each pixel, for maps */
     TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
     TARGET_SHADOW,     /* depth from the first light; there when the look has shadows or a pass reads it */
-    TARGET_DIRECTION,  /* RGBA16F, half as large, texel t for pixel 2t: the way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure;
+    TARGET_DIRECTION,  /* RGBA16F, one texel for DIRECTION_APART² pixels, of the one in its middle: the way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure;
                         * a: 1 where there is a surface */
     TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
     TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 11, NUMBERS_MAX = 96 };
+enum { PASS_READS_MAX = 11, NUMBERS_MAX = 96, DIRECTION_APART = 4 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 

@@ -81,7 +81,7 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
 
 void main()
 {
-    ivec2 pixel = min(ivec2(gl_FragCoord.xy) * 2, ivec2(u_size) - 1);
+    ivec2 pixel = min(ivec2(gl_FragCoord.xy) * DIRECTION_APART + DIRECTION_APART / 2, ivec2(u_size) - 1);
     uvec2 id = texelFetch(t_id, pixel, 0).rg;
     out_0 = vec4(0.0);
     int there = id.r == 0u ? 0 : 1;

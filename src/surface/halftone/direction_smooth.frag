@@ -5,21 +5,26 @@ uniform vec2 u_size;
 #endif
 layout(location = 0) out vec4 out_0;
 
+ivec2 pixel_of(ivec2 texel)
+{
+    return min(texel * DIRECTION_APART + DIRECTION_APART / 2, ivec2(u_size) - 1);
+}
+
 vec4 weighed(ivec2 texel, vec3 normal, float weight)
 {
     ivec2 at = clamp(texel, ivec2(0), textureSize(t_direction, 0) - 1);
-    vec3 other = texelFetch(t_normal_depth, min(at * 2, ivec2(u_size) - 1), 0).xyz;
+    vec3 other = texelFetch(t_normal_depth, pixel_of(at), 0).xyz;
     return texelFetch(t_direction, at, 0) * (weight * step(0.8, dot(normal, other)));
 }
 
 vec4 smoothed(ivec2 texel, vec4 own)
 {
-    vec3 normal = texelFetch(t_normal_depth, min(texel * 2, ivec2(u_size) - 1), 0).xyz;
+    vec3 normal = texelFetch(t_normal_depth, pixel_of(texel), 0).xyz;
     vec4 sum = own * 2.0;
-    sum += weighed(texel + ivec2(2, 1), normal, 1.0) + weighed(texel - ivec2(2, 1), normal, 1.0);
-    sum += weighed(texel + ivec2(-1, 2), normal, 1.0) + weighed(texel - ivec2(-1, 2), normal, 1.0);
-    sum += weighed(texel + ivec2(4, -2), normal, 0.7) + weighed(texel - ivec2(4, -2), normal, 0.7);
-    sum += weighed(texel + ivec2(2, 4), normal, 0.7) + weighed(texel - ivec2(2, 4), normal, 0.7);
+    sum += weighed(texel + ivec2(1, 0), normal, 1.0) + weighed(texel - ivec2(1, 0), normal, 1.0);
+    sum += weighed(texel + ivec2(0, 1), normal, 1.0) + weighed(texel - ivec2(0, 1), normal, 1.0);
+    sum += weighed(texel + ivec2(2, -2), normal, 0.5) + weighed(texel - ivec2(2, -2), normal, 0.5);
+    sum += weighed(texel + ivec2(2, 2), normal, 0.5) + weighed(texel - ivec2(2, 2), normal, 0.5);
     return vec4(sum.xy / sum.a, 0.0, 1.0);
 }
 

@@ -57,7 +57,7 @@ vec3 rate_of(vec3 eye, vec3 normal, vec3 pixel)
 vec2 way_on_page(surface_point p, vec3 rest_normal, vec3 upward)
 {
 #if COORDINATES == 7
-    return texture(t_direction, (0.5 * gl_FragCoord.xy + 0.25) / vec2(textureSize(t_direction, 0))).xy;
+    return textureLod(t_direction, ((gl_FragCoord.xy - float(DIRECTION_APART / 2) - 0.5) / float(DIRECTION_APART) + 0.5) / vec2(textureSize(t_direction, 0)), 0.0).xy;
 #else
     mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
                       v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
