@@ -9,7 +9,7 @@
 typedef struct pencil_values {
     halftone_values common;
     int32_t shading, overlays, lead, map_seed;
-    float   vary, scale, width, length, opacity, gloss;
+    float   vary, scale, width, length, opacity, ragged, gloss;
     palette pencils;
     bool    cross;
 } pencil_values;
@@ -37,6 +37,8 @@ static const param params[] = {
     PARAM_FLOAT_ROW(pencil_values, length, .def = 0.6, .min = 0.06, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .doc = "Length of the longest strokes, share of 256 texels."),
     PARAM_FLOAT_ROW(pencil_values, opacity, .def = 0.7, .min = 0.2, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
                     .doc = "How much of what is left of the paper a stroke covers; with gradation half as much."),
+    PARAM_FLOAT_ROW(pencil_values, ragged, .toggles = true, .def = 0, .min = 0, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .only_if = "shading=hatching",
+                    .doc = "How far strokes begin and end before and behind the border between two tones, in tones; 0 ends all of them there."),
     PARAM_BOOL_ROW(pencil_values, cross, .def = 0, .cpu_only = true, .doc = "Darker tones are crossed by a second set of strokes."),
     PARAM_INT_ROW(pencil_values, map_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .doc = "Other strokes of the same kind."),
 };

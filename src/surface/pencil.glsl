@@ -19,6 +19,12 @@ float map_ink(vec2 at, float level, float darkness)
 {
     float count = u_tones_facts.y, wanted = clamp(darkness / u_tones_facts.w, 0.0, 1.0) * count;
 #if SHADING == 0
+#ifdef WITH_RAGGED
+    /* Each band as wide as a stroke or two has a border of its own. */
+    uint hash = uint(int(floor(at.y * u_tones_facts.x * 0.4))) * 0x9e3779b1u;
+    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
+    wanted = clamp(wanted + u_ragged * (float(int(hash >> 16u)) * (1.0 / 65535.0) - 0.5) * min(wanted, 1.0), 0.0, count);
+#endif
     return tone_ink(at, level, floor(wanted + 0.5));
 #else
     float low = min(floor(wanted), count - 1.0);

@@ -59,6 +59,20 @@ static void hatching_and_gradation(void)
     }
 }
 
+/* Strokes that do not all end at the border between two tones: the ramp is steadier, and as dark. */
+static void ragged_tones(void)
+{
+    double last = 0, step = 0, worst = 0;
+    for (int i = 0; i <= 36; i++) {
+        double ink = wall_ink("\"overlays\":1,\"ragged\":1", i / 48.0, LEAD_8B);
+        step = fmax(step, ink - last);
+        worst = fmax(worst, fabs(ink - i / 48.0));
+        last = ink;
+    }
+    check_at_most("P21", worst, 1.0 / 12, "ragged: ink off the wanted darkness, at most");
+    check_at_most("P20", step, 0.06, "largest step of a ramp of 49 tones, which without is a sixth");
+}
+
 /* Rows P32, P33: no pixel is darker than the lead can be, soft leads get darker. */
 static void leads(void)
 {
@@ -399,6 +413,7 @@ static void depth_focus(void)
 
 static const check_case cases[] = {
     {"hatching_and_gradation", hatching_and_gradation},
+    {"ragged_tones", ragged_tones},
     {"leads", leads},
     {"ways_of_strokes", ways_of_strokes},
     {"seams_vanish", seams_vanish},
