@@ -71,6 +71,10 @@ bool outside_patch()
 }
 #endif
 
+#if defined(INKED) && defined(HAS_FOCUS)
+#include "light/focus.glsl"
+#endif
+
 void main()
 {
 #ifdef HAS_PATCHES
@@ -179,7 +183,11 @@ void main()
     detect_edges();
 #endif
 #ifdef INKED
-    out_shade = over(ink_at(floor(gl_FragCoord.xy)), out_shade);
+    vec4 ink = ink_at(floor(gl_FragCoord.xy));
+#ifdef HAS_FOCUS
+    ink *= in_focus(-v_eye.z);
+#endif
+    out_shade = over(ink, out_shade);
 #endif
 #ifdef LAYERED
     out_shade *= alpha;
