@@ -96,11 +96,15 @@ typedef struct stopwatch {
 stopwatch watch_start(frame *f);
 void      watch_stop(frame *f, stopwatch w, const char *group, const char *name);
 
-/* --- lighting.c: the scene's lights --- */
-void lights_declare(text *prelude, const frame *f);
+/* --- lighting.c: what programs that ask for light get --- */
+void lights_declare(text *prelude, const frame *f); /* soft shadows and occlusion too, where they were drawn */
 void lights_set(frame *f);
-
-void shadow_set(frame *f); /* uniforms of light/shadow.glsl */
+void shadow_set(frame *f);     /* uniforms of light/shadow.glsl */
+void visibility_set(frame *f); /* of light/light.glsl's soft shadows and occlusion */
+/* Are the first light's shadows drawn, and soft? */
+bool shadow_is_soft(const frame *f);
+/* The first light's direction in eye space, towards it; false when it has a place instead. */
+bool lights_first_direction(const frame *f, double out[3]);
 
 /* --- shadow.c --- */
 /* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a direction. The caller gives f->shadow back. */
@@ -109,13 +113,6 @@ void shadow_draw(frame *f);
 /* --- visibility.c: soft shadows and ambient occlusion --- */
 /* Draws f->visibility, where the look wants it. The caller gives it back. */
 void visibility_draw(frame *f);
-/* For programs that ask for light. */
-void visibility_declare(text *prelude, const frame *f);
-void visibility_set(frame *f);
-
-/* --- lighting.c --- */
-/* The first light's direction in eye space, towards it; false when it has a place instead. */
-bool lights_first_direction(const frame *f, double out[3]);
 
 /* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);

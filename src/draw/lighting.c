@@ -70,6 +70,18 @@ static light_list list_lights(const frame *f)
     return l;
 }
 
+bool shadow_is_soft(const frame *f)
+{
+    return f->shadow && scene_of(f)->shadows && scene_of(f)->shadow_softness > 0;
+}
+
+static void visibility_declare(text *prelude, const frame *f)
+{
+    if (!f->visibility || f->mirror) /* a mirror sees what the page does not */
+        return;
+    text_append(prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", scene_of(f)->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
+}
+
 void lights_declare(text *prelude, const frame *f)
 {
     light_list l = list_lights(f);
@@ -126,4 +138,14 @@ bool lights_first_direction(const frame *f, double out[3])
     for (int k = 0; k < 3; k++)
         out[k] = (double)l.positions[0][k];
     return l.positions[0][3] < 0.5f;
+}
+
+void visibility_set(frame *f)
+{
+    if (!gpu_has_uniform(f->g, "t_visibility") || !f->visibility)
+        return;
+    gpu_set_texture(f->g, "t_visibility", f->visibility, false);
+    gpu_set_float(f->g, "u_occlusion", scene_of(f)->occlusion);
+    gpu_set_vec2(f->g, "u_pixel", (float)(2 / (f->camera.projection.m[0] * gpu_texture_width(f->visibility))),
+                 (float)(2 / (f->camera.projection.m[5] * gpu_texture_height(f->visibility))));
 }

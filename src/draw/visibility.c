@@ -19,11 +19,6 @@ static const scene_values *values_of(const frame *f)
     return f->plan->look->wide[KIND_SCENE].values;
 }
 
-static bool is_soft(const frame *f)
-{
-    return f->shadow && values_of(f)->shadows && values_of(f)->shadow_softness > 0;
-}
-
 static double diagonal(box3 b)
 {
     double x = (double)b.max.x - (double)b.min.x, y = (double)b.max.y - (double)b.min.y, z = (double)b.max.z - (double)b.min.z;
@@ -58,7 +53,7 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
     const scene_values *v = values_of(f);
     int width = gpu_texture_width(depth), height = gpu_texture_height(depth);
     text prelude = {0};
-    text_append(&prelude, "%s%s", is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", v->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
+    text_append(&prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", v->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
@@ -67,7 +62,7 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
     set_places(f, width, height);
     set_depth(f, width, height);
     gpu_set_texture(f->g, "t_depth", depth, false);
-    if (is_soft(f))
+    if (shadow_is_soft(f))
         shadow_set(f);
     gpu_set_float(f->g, "u_radius", (float)((double)v->occlusion_radius * diagonal(f->plan->box)));
     gpu_draw_screen(f->g);
@@ -103,7 +98,7 @@ static gpu_texture *small_depth(frame *f, int width, int height)
 
 void visibility_draw(frame *f)
 {
-    if ((!is_soft(f) && values_of(f)->occlusion <= 0) || box3_is_empty(f->plan->box))
+    if ((!shadow_is_soft(f) && values_of(f)->occlusion <= 0) || box3_is_empty(f->plan->box))
         return;
     int size[2];
     size_of(f, size);
@@ -126,21 +121,4 @@ void visibility_draw(frame *f)
     gpu_target_release(f->g, normals);
     f->visibility = share;
     watch_stop(f, w, "scene", "visibility blur");
-}
-
-void visibility_declare(text *prelude, const frame *f)
-{
-    if (!f->visibility || f->mirror) /* a mirror sees what the page does not */
-        return;
-    text_append(prelude, "%s%s", is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", values_of(f)->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
-}
-
-void visibility_set(frame *f)
-{
-    if (!gpu_has_uniform(f->g, "t_visibility") || !f->visibility)
-        return;
-    gpu_set_texture(f->g, "t_visibility", f->visibility, false);
-    gpu_set_float(f->g, "u_occlusion", values_of(f)->occlusion);
-    gpu_set_vec2(f->g, "u_pixel", (float)(2 / (f->camera.projection.m[0] * gpu_texture_width(f->visibility))),
-                 (float)(2 / (f->camera.projection.m[5] * gpu_texture_height(f->visibility))));
 }
