@@ -8,29 +8,8 @@ uniform vec4 u_numbers[1]; /* x: share of the paper's light that the lead takes 
 surface_point s_point;
 rest_place    s_rest;
 
-/* Ink of a tone: 0 is paper, then the pictures of the map. */
-float tone_ink(vec2 at, float level, float tone)
-{
-    return tone < 0.5 ? 0.0 : 1.0 - textureLod(t_tones, vec3(at, tone - 1.0), level).r;
-}
-
-/* The ink of a darkness at a place. Row P20: hatching has one of the tones everywhere, since new strokes find no room between two; gradation mixes two. */
-float map_ink(vec2 at, float level, float darkness)
-{
-    float count = u_tones_facts.y, wanted = clamp(darkness / u_tones_facts.w, 0.0, 1.0) * count;
-#if SHADING == 0
-#ifdef WITH_RAGGED
-    /* Each band as wide as a stroke or two has a border of its own. */
-    uint hash = uint(int(floor(at.y * u_tones_facts.x * 0.4))) * 0x9e3779b1u;
-    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
-    wanted = clamp(wanted + u_ragged * (float(int(hash >> 16u)) * (1.0 / 65535.0) - 0.5) * min(wanted, 1.0), 0.0, count);
-#endif
-    return tone_ink(at, level, floor(wanted + 0.5));
-#else
-    float low = min(floor(wanted), count - 1.0);
-    return mix(tone_ink(at, level, low), tone_ink(at, level, low + 1.0), wanted - low);
-#endif
-}
+#define MIXES_TONES SHADING
+#include "surface/halftone/tones.glsl"
 
 /* Cosine and sine of some degrees, for angles up to a right one; the rest is far below what a hand does. */
 vec2 turn_of_degrees(float degrees)

@@ -5,24 +5,8 @@
 surface_point s_point;
 rest_place    s_rest;
 
-/* Ink of a tone: 0 is paper, then the pictures of the map. */
-float tone_ink(vec2 at, float level, float tone)
-{
-    return tone < 0.5 ? 0.0 : 1.0 - textureLod(t_tones, vec3(at, tone - 1.0), level).r;
-}
-
-/* The ink of a darkness at a place: that of the two tones that lie around it. */
-float map_ink(vec2 at, float level, float darkness)
-{
-    float count = u_tones_facts.y;
-    float wanted = clamp(darkness / u_tones_facts.w, 0.0, 1.0) * count;
-#if BLEND == 0
-    return tone_ink(at, level, floor(wanted + 0.5));
-#else
-    float low = min(floor(wanted), count - 1.0);
-    return mix(tone_ink(at, level, low), tone_ink(at, level, low + 1.0), wanted - low);
-#endif
-}
+#define MIXES_TONES BLEND
+#include "surface/halftone/tones.glsl"
 
 float cover_of(float darkness, int ink)
 {
