@@ -53,6 +53,7 @@ void frame_set_rest(frame *f, size_t part_index)
         }
     gpu_set_vec4_array(f->g, "u_rest", out, 3);
     gpu_set_vec3(f->g, "u_upward", &rows[13]);
+    gpu_set_vec3(f->g, "u_level", &rows[16]);
 }
 
 static void set_part_frames(frame *f, const figure_state *s)

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "scene/solid.h"
 
-enum { PARTS_A_ROW = 1024, TEXELS_A_PART = 4, POLAR_STEPS = 12 };
+enum { PARTS_A_ROW = 1024, TEXELS_A_PART = 5, POLAR_STEPS = 12 };
 
 /* The inverse transpose of a 3×3 matrix (columns); false when it has none. */
 static bool inverse_transpose(const double m[9], double out[9])
@@ -107,6 +107,26 @@ static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, i
     return (vec3){(float)out[0], (float)out[1], (float)out[2]};
 }
 
+/* The part's own first axis that is not upright, level, in the world's axes: how a house is turned. */
+static void level_axis(const mat4 *world, int up, double out[3])
+{
+    double most = -1;
+    for (int axis = 0; axis < 3; axis++) {
+        double level[3], length = 0, whole = 0;
+        for (int k = 0; k < 3; k++) {
+            level[k] = k == up ? 0 : world->m[4 * axis + k];
+            length += level[k] * level[k];
+            whole += world->m[4 * axis + k] * world->m[4 * axis + k];
+        }
+        double share = whole > 0 ? sqrt(length / whole) : 0;
+        if (share <= most + 0.01) /* of axes that are alike the first one */
+            continue;
+        most = share;
+        for (int k = 0; k < 3; k++)
+            out[k] = length > 0 ? level[k] / sqrt(length) : k == (up == 0 ? 1 : 0);
+    }
+}
+
 /* Three rows that take a place in the world, measured from `origin`, into the mover's frame, the mover's number, and which way is up in it. */
 static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3], float *rows)
 {
@@ -139,7 +159,14 @@ static void write_frames(const upload *u, const lmn_scene *scene, mover *movers,
     }
     for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
-        write_frame(u, &movers[index], index, scene->up == 'y', u->frame_origin, &values[4 * TEXELS_A_PART * i]);
+        float *rows = &values[4 * TEXELS_A_PART * i];
+        write_frame(u, &movers[index], index, scene->up == 'y', u->frame_origin, rows);
+        double level[3] = {0, 0, 0};
+        level_axis(&u->worlds[scene->parts[i].node], scene->up == 'y' ? 1 : 2, level);
+        for (int row = 0; row < 3; row++) {
+            const double *turn = &movers[index].turn[3 * row];
+            rows[16 + row] = (float)(turn[0] * level[0] + turn[1] * level[1] + turn[2] * level[2]);
+        }
     }
 }
 

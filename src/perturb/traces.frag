@@ -94,7 +94,7 @@ vec3 noise_at(vec3 place, uint seed)
 vec3 trace_of(vec2 pixel, vec4 surface)
 {
     int part = part_at(pixel);
-    ivec2 at = ivec2(4 * (part % 1024), part / 1024);
+    ivec2 at = ivec2(5 * (part % 1024), part / 1024);
     mat3x4 rows = mat3x4(texelFetch(t_part_frames, at, 0), texelFetch(t_part_frames, at + ivec2(1, 0), 0),
                          texelFetch(t_part_frames, at + ivec2(2, 0), 0));
     uint seed = u_seed + uint(texelFetch(t_part_frames, at + ivec2(3, 0), 0).r) * 0x632be59bu;

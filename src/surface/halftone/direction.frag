@@ -74,7 +74,7 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     vec2 bent = on_page(origin, tangent_of(way, frame));
     part_frame part = frame_of_part(id.r);
     mat3 to_part = part.turn * mat3(u_world_from_eye);
-    vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward) * to_part);
+    vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward, part.level) * to_part);
     /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a way of their own. */
     return bent * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure)));
 }

@@ -6,12 +6,14 @@ struct part_frame {
     mat3 turn;   /* from world axes */
     vec3 shift;
     vec3 upward; /* which way is up */
+    vec3 level;  /* an axis of the part that is not */
 };
 
 part_frame frame_of_part(uint part)
 {
     int index = max(int(part) - 1, 0);
-    ivec2 texel = ivec2(4 * (index & 1023), index >> 10);
+    ivec2 texel = ivec2(5 * (index & 1023), index >> 10);
     vec4 first = texelFetch(t_part_frames, texel, 0), second = texelFetch(t_part_frames, texel + ivec2(1, 0), 0), third = texelFetch(t_part_frames, texel + ivec2(2, 0), 0);
-    return part_frame(transpose(mat3(first.xyz, second.xyz, third.xyz)), vec3(first.w, second.w, third.w), texelFetch(t_part_frames, texel + ivec2(3, 0), 0).yzw);
+    return part_frame(transpose(mat3(first.xyz, second.xyz, third.xyz)), vec3(first.w, second.w, third.w), texelFetch(t_part_frames, texel + ivec2(3, 0), 0).yzw,
+                      texelFetch(t_part_frames, texel + ivec2(4, 0), 0).xyz);
 }

@@ -8,6 +8,7 @@
 #else
 uniform vec4 u_rest[3]; /* rows: from eye space to the part's frame */
 uniform vec3 u_upward;
+uniform vec3 u_level; /* an axis of the part */
 
 mat3 turn_to_rest()
 {
@@ -54,7 +55,7 @@ vec3 rate_of(vec3 eye, vec3 normal, vec3 pixel)
 #if (COORDINATES == 6 && defined(HAS_FIELD)) || (COORDINATES == 7 && defined(HAS_DIRECTION))
 #define HAS_FORM
 #include "surface/halftone/form.glsl"
-vec2 way_on_page(surface_point p, vec3 rest_normal, vec3 upward)
+vec2 way_on_page(surface_point p, vec3 rest_normal)
 {
 #if COORDINATES == 7
     return textureLod(t_direction, ((gl_FragCoord.xy - float(DIRECTION_APART / 2) - 0.5) / float(DIRECTION_APART) + 0.5) / vec2(textureSize(t_direction, 0)), 0.0).xy;
@@ -65,7 +66,7 @@ vec2 way_on_page(surface_point p, vec3 rest_normal, vec3 upward)
     vec3 turned = field * frame[0];
     vec2 doubled = vec2(dot(frame[0], turned), dot(frame[1], turned));
     float sure = length(doubled);
-    vec2 plain = on_page(p.eye, plain_tangent(rest_normal, upward) * turn_to_rest());
+    vec2 plain = on_page(p.eye, plain_tangent(rest_normal, u_upward, u_level) * turn_to_rest());
     return sure > 0.0 ? on_page(p.eye, tangent_of(doubled / sure, frame)) * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure))) : plain;
 #endif
 }
@@ -84,10 +85,10 @@ float half_turns(vec2 doubled)
 #endif
 
 /* The way of strokes on the page, where it matters. */
-float way_of(surface_point p, vec3 rest_normal, vec3 upward)
+float way_of(surface_point p, vec3 rest_normal)
 {
 #ifdef HAS_FORM
-    return half_turns(way_on_page(p, rest_normal, upward));
+    return half_turns(way_on_page(p, rest_normal));
 #else
     return 0.0;
 #endif
@@ -102,11 +103,11 @@ rest_place place_at_rest(surface_point p)
     mat3 world = mat3(u_world_from_eye);
     vec3 normal = part.turn * (world * p.normal);
     return rest_place(part.turn * (world * p.eye + u_world_from_eye[3].xyz) + part.shift, part.turn * (world * right), part.turn * (world * up), normal, part.upward,
-                      way_of(p, normal, part.upward));
+                      way_of(p, normal));
 #else
     mat3 turn = turn_to_rest();
     return rest_place(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward,
-                      way_of(p, turn * p.normal, u_upward));
+                      way_of(p, turn * p.normal));
 #endif
 }
 
