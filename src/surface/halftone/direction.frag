@@ -69,7 +69,7 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     float pixel_length = 2.0 * u_unproject.y / u_size.y * (u_perspective > 0.5 ? own.w : 1.0);
     /* A normal that hardly turns from pixel to pixel does not turn; one that turns very much is an edge's, which has no room for strokes of its own. */
     float turn = (apart + abs(mean)) * pixel_length;
-    float sure = unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.05, 0.12, turn));
+    float sure = unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.05, 0.12, turn)) * (0.15 + 0.85 * smoothstep(0.0, 0.006, turn));
     vec2 way = apart > 0.0 ? doubled * ((mean < 0.0 ? -1.0 : 1.0) / apart) : vec2(1.0, 0.0);
     vec2 bent = on_page(origin, tangent_of(way, frame));
     part_frame part = frame_of_part(id.r);

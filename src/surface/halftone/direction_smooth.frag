@@ -1,8 +1,9 @@
-/* Directions averaged with those around on the same surface; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
+/* Directions averaged with those around on the same surface, farther in the second round; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;
 #endif
+uniform int u_iteration;
 layout(location = 0) out vec4 out_0;
 
 ivec2 pixel_of(ivec2 texel)
@@ -21,10 +22,11 @@ vec4 smoothed(ivec2 texel, vec4 own)
 {
     vec3 normal = texelFetch(t_normal_depth, pixel_of(texel), 0).xyz;
     vec4 sum = own * 2.0;
-    sum += weighed(texel + ivec2(1, 0), normal, 1.0) + weighed(texel - ivec2(1, 0), normal, 1.0);
-    sum += weighed(texel + ivec2(0, 1), normal, 1.0) + weighed(texel - ivec2(0, 1), normal, 1.0);
-    sum += weighed(texel + ivec2(2, -2), normal, 0.5) + weighed(texel - ivec2(2, -2), normal, 0.5);
-    sum += weighed(texel + ivec2(2, 2), normal, 0.5) + weighed(texel - ivec2(2, 2), normal, 0.5);
+    int far = 1 + 2 * u_iteration;
+    sum += weighed(texel + far * ivec2(1, 0), normal, 1.0) + weighed(texel - far * ivec2(1, 0), normal, 1.0);
+    sum += weighed(texel + far * ivec2(0, 1), normal, 1.0) + weighed(texel - far * ivec2(0, 1), normal, 1.0);
+    sum += weighed(texel + far * ivec2(2, -2), normal, 0.5) + weighed(texel - far * ivec2(2, -2), normal, 0.5);
+    sum += weighed(texel + far * ivec2(2, 2), normal, 0.5) + weighed(texel - far * ivec2(2, 2), normal, 0.5);
     return vec4(sum.xy / sum.a, 0.0, 1.0);
 }
 

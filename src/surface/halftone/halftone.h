@@ -38,7 +38,7 @@ typedef struct halftone_values {
     {.name = "directions", .shader = "surface/halftone/direction.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID}, .writes = TARGET_DIRECTION,       \
      .when = HALFTONE_DEFERRED_WHEN, .prepares = true},                                                                                              \
     {.name = "smooth directions", .shader = "surface/halftone/direction_smooth.frag", .reads = {TARGET_DIRECTION, TARGET_NORMAL_DEPTH},              \
-     .writes = TARGET_DIRECTION, .when = HALFTONE_DEFERRED_WHEN, .prepares = true}
+     .writes = TARGET_DIRECTION, .repeat = 2, .when = HALFTONE_DEFERRED_WHEN, .prepares = true}
 
 /* Of a technique whose values begin with these. */
 mesh_wishes halftone_wishes(const void *values);
