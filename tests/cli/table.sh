@@ -467,6 +467,9 @@ group_halftones() {
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true --set layers.evaluation=products "${small[@]}"
     cmp -s x.png in-light.png && complain "a solid of products throws no shadow"
     cmp -s x.png in-shadow.png || complain "shadows of a solid depend on how its surface is found"
+    # Pencils whose lines are left out.
+    row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none "${small[@]}"
+    row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none --set perturb.overrun=12 "${small[@]}"
     # What was drawn before, and is kept, changes nothing.
     row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
     row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
