@@ -9,7 +9,7 @@ static bool mirror_plane(const frame *f, const figure *fig, double plane[4])
     double normal[3] = {0, 0, 0}, centre[3] = {0, 0, 0}, area = 0;
     for (size_t i = 0; i < f->up->item_count; i++) {
         const draw_item *item = &f->up->items[i];
-        if (!fig->designated[item->part_index])
+        if (item->is_cut || item->is_solid || !fig->designated[item->part_index]) /* the one is its part's inside, the other has no plane */
             continue;
         const node *n = &f->plan->scene->nodes[f->plan->scene->parts[item->part_index].node];
         const primitive *p = &f->plan->scene->meshes[n->mesh].primitives[item->surface_id - 1];

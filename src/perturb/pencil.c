@@ -28,7 +28,8 @@ typedef struct pencil {
 
 static const param params[] = {
     PARAM_INT_ROW(pencil, dark, .def = 4, .min = 0, .max = COPIES_MAX, .soft_max = 8, .unit = UNIT_COUNT, .variant = true,
-                  .doc = "How often the final lines are drawn; a single one has its share of their darkness, so that it is full where all fall together."),
+                  .doc = "How often the final lines are drawn; a single one has its share of their darkness, so that it is full where all fall together. "
+                         "Without copies of either kind lines stay as exact and black as without a perturbation."),
     PARAM_FLOAT_ROW(pencil, dark_sway, .def = 2, .min = 0, .max = 64, .soft_max = 8, .unit = UNIT_PX, .cpu_only = true, .doc = "How far final lines sway from the exact ones."),
     WAVES_ROW(dark_waves_least, 1.27, "Waves of final lines across the page, at least."),
     WAVES_ROW(dark_waves_most, 10.2, "Waves of final lines across the page, at most."),

@@ -107,6 +107,7 @@ void read_graphite()
 #endif
 }
 
+#ifdef HAS_LINES
 /* The composition's: compose/joined.glsl. */
 vec4 averaged_at(vec2 place, int i);
 vec4 ink_of_mean(vec4 mean);
@@ -155,3 +156,4 @@ void join_copy(vec4 own, int i)
     else
         s_light += own;
 }
+#endif

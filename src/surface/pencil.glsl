@@ -81,5 +81,9 @@ vec4 surface_colour(surface_point p)
     /* Row P32: graphite covers what is not covered yet, up to what the lead can do. Row P34: coloured pencils each take their colours away. */
     vec3 graphite = 1.0 - (1.0 - bare) * u_numbers[0].x * u_ink.a * (1.0 - own);
     vec3 rest = u_pencils_count > 1 ? 1.0 - (1.0 - left) * u_numbers[0].x : graphite;
-    return vec4(paper.rgb * rest, paper.a);
+    /* Light pencils lie on dark paper as chalk does. Where there is no paper, ink gets as thin as it can be and be the same on white. */
+    if (u_pencils_count < 2 && strokes_are_light())
+        return laid_over(paper, vec4(own, 1.0), (1.0 - bare) * u_numbers[0].x * u_ink.a);
+    float clear = min(rest.r, min(rest.g, rest.b));
+    return vec4(paper.rgb * rest, paper.a) + (1.0 - paper.a) * vec4(rest - clear, 1.0 - clear);
 }

@@ -303,6 +303,37 @@ static void coloured_pencils(void)
     shape_release(&s);
 }
 
+/* A wall in black on white, the same on no ground, and in white on black. */
+static void grounds(void)
+{
+    static const char *const looks[][3] = {{"#ffffff", "#000000", "0.4"}, {"none", "#000000", "0.4"}, {"#000000", "#ffffff", "0.6"}};
+    shape s = {0};
+    shape_quad(&s, "wall", 2, 0);
+    shape_place(&s, dvec_of(0, 1, 0), 0, dvec_of(0, 0, 0));
+    const shot_view view = {.width = WALL, .height = WALL, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+    double ink[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        shot got;
+        char look[500];
+        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"g\",\"doc\":\"x.\",\"finish\":{\"ground\":\"%s\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"pencil\","
+                 "\"lead\":\"8B\",\"texture\":0,\"ink\":\"%s\",\"shadow\":%s,\"light\":%s}}]}", looks[k][0], looks[k][1], looks[k][2], looks[k][2]);
+        if (!shot_of_shape(&got, &s, "ground.glb", look, NULL, &view))
+            continue;
+        int count = 0;
+        for (int i = 0; i < WALL * WALL; i++)
+            if (got.id[i]) {
+                ink[k] += k == 0 ? 1 - picture_linear(got.picture[4 * i]) : k == 1 ? got.picture[4 * i + 3] / 255.0 : picture_linear(got.picture[4 * i]);
+                count++;
+            }
+        ink[k] /= fmax(count, 1);
+        shot_release(&got);
+    }
+    check_at_least("P21", ink[0], 0.4, "ink on white");
+    check_near("P21", ink[1], ink[0], 0.01, "on a transparent ground: as much ink as on white");
+    check_near("P21", ink[2], ink[0], 0.03, "white on black: as much light as there is ink on white where the tone is its opposite");
+    shape_release(&s);
+}
+
 /* Blocks of a lit ball against Lambert's law, worked out here; row P21. And the highlight, row P37. */
 static void light_on_a_ball(void)
 {
@@ -418,6 +449,7 @@ static const check_case cases[] = {
     {"ways_of_strokes", ways_of_strokes},
     {"seams_vanish", seams_vanish},
     {"coloured_pencils", coloured_pencils},
+    {"grounds", grounds},
     {"light_on_a_ball", light_on_a_ball},
     {"depth_focus", depth_focus},
 };

@@ -370,6 +370,10 @@ group_solids() {
     # The lines where operands meet are the solid's, and can be left out.
     row 0 '' 'x.png' draw "$widget" $small --look edges --set lines.meet=180 -o x.png
     cmp -s x.png in-edges.png && complain "lines.meet changes nothing"
+    # Mirrors: a solid has no plane of its own and gets the tint; cut faces take no part in finding that of meshes.
+    printf '{"version": 1, "rules": [{"surface": "mirror"}]}' > in-mirror.json
+    row 0 '' 'x.png' draw "$widget" $small --look in-mirror.json -o x.png
+    row 0 '' 'x.png' draw "$examples/pump.glb" $small --look in-mirror.json --cut x -o x.png
     # Several files are one scene, solids among meshes.
     row 0 '' 'x.png' draw "$widget" "$gear" $small -o x.png
     row 0 '' '' info "$examples/csg/spanner.csg"; out 'solid: [0-9]+ operands'; out '^ +difference +\(line [0-9]+\)$'
@@ -463,6 +467,9 @@ group_halftones() {
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true --set layers.evaluation=products "${small[@]}"
     cmp -s x.png in-light.png && complain "a solid of products throws no shadow"
     cmp -s x.png in-shadow.png || complain "shadows of a solid depend on how its surface is found"
+    # Pencils whose lines are left out.
+    row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none "${small[@]}"
+    row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none --set perturb.overrun=12 "${small[@]}"
     # What was drawn before, and is kept, changes nothing.
     row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
     row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"

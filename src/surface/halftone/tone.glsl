@@ -12,10 +12,16 @@ float seen_brightness(vec3 linear)
     return pow(clamp(dot(linear, LUMINANCE), 0.0, 1.0), 1.0 / 2.2);
 }
 
+/* Whether strokes are lighter than the paper. What is transparent will lie on something, and that is taken for white. */
+bool strokes_are_light()
+{
+    return dot(u_ink.rgb, LUMINANCE) > dot(mix(vec3(1.0), u_paper.rgb, u_paper.a), LUMINANCE);
+}
+
 /* Light strokes on dark paper stand for light. */
 float darkness_of(float tone)
 {
-    return dot(u_ink.rgb, LUMINANCE) > dot(u_paper.rgb, LUMINANCE) ? tone : 1.0 - tone;
+    return strokes_are_light() ? tone : 1.0 - tone;
 }
 
 float tone_of_light(surface_point p, float light)
