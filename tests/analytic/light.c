@@ -108,7 +108,7 @@ static void court(shape *s)
     shape_box(s, "beam", dvec_of(1.9, 1.1, -1.5), dvec_of(2.6, 1.25, 1.8));
 }
 
-/* The score of one drawing. */
+/* The score of one drawing, at a fifth of its places: of some 10000 places the mean difference is then known to 0.0005 and the share of those far off to 0.001. */
 static bool score_of(const light_scene *l, bool sky, int rays, int step, const char *picture, light_score *out)
 {
     shot      with, without;
@@ -139,7 +139,7 @@ static void shadows_are_a_discs(void)
         court(&l.s);
         char name[32];
         snprintf(name, sizeof name, "shadows-%d.png", k);
-        if (score_of(&l, false, 96, 1, name, &score)) {
+        if (score_of(&l, false, 96, 5, name, &score)) {
             check_at_least("P30", score.places, 8000, "places compared, %s, %g degrees", l.view.orthographic ? "parallel rays" : "perspective", l.softness);
             check_at_most("P30", score.mean, 0.03, "mean difference of the light that arrives");
             check_at_most("P30", score.far, 0.015, "share of places that are off by more than 0.25 (worst %.2f)", score.worst);
@@ -442,7 +442,7 @@ static void corners_are_darker(void)
             rows[r].make(&l.s);
             char name[32];
             snprintf(name, sizeof name, "sky-%zu-%d.png", r, k);
-            if (score_of(&l, true, 256, 2, name, &score)) {
+            if (score_of(&l, true, 128, 5, name, &score)) {
                 check_at_least("P31", score.places, 5000, "%s, %s: places compared", rows[r].name, k ? "parallel rays" : "perspective");
                 check_at_most("P31", score.mean, rows[r].mean, "mean difference of the share of the sky (worst %.2f)", score.worst);
                 check_at_most("P31", score.far, 0.02, "share of places that are off by more than 0.25");
