@@ -424,7 +424,7 @@ static const check_case cases[] = {
 
 int main(int argc, char **argv)
 {
-    halftone_begin();
+    halftone_begin_kept("pencil");
     int status = check_main(argc, argv, "pencil", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
