@@ -283,6 +283,36 @@ static void ways_of_strokes(void)
         }
 }
 
+/* Row P24: strokes on the page move with the middle of the model. */
+static void strokes_move_along(void)
+{
+    enum { MOVED = 37 };
+    shape s = {0};
+    shot  here, there;
+    int   off = 0, all = 0;
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
+    const char *look = "{\"version\":1,\"name\":\"m\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"pencil\",\"coordinates\":\"form\",\"shadow\":0.55,\"light\":0.55,"
+                       "\"ink\":\"#000000\",\"texture\":0}}]}";
+    shot_view   view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 30};
+    if (shot_of_shape(&here, &s, "moved.glb", look, NULL, &view)) {
+        double pixel = 1 / (shot_project(&here, dvec_of(1, 0, 0)).x - shot_project(&here, dvec_of(0, 0, 0)).x);
+        view.eye.x = view.target.x = -MOVED * pixel;
+        if (shot_of_shape(&there, &s, "moved.glb", look, NULL, &view)) {
+            for (int y = 0; y < 400; y++)
+                for (int x = 0; x + MOVED < 400; x++)
+                    if (here.id[400 * y + x] && there.id[400 * y + x + MOVED]) {
+                        off += abs(here.picture[4 * (400 * y + x)] - there.picture[4 * (400 * y + x + MOVED)]) > 60;
+                        all++;
+                    }
+            check_at_least("P24", all, 10000, "pixels of a ball that moves by %d", MOVED);
+            check_at_most("P24", off, 0.1 * all, "of them with other strokes");
+            shot_release(&there);
+        }
+        shot_release(&here);
+    }
+    shape_release(&s);
+}
+
 /* The part of a sequence around the ring that repeats so many times. */
 static double repeating(const stroke_way way[PLACES], int times)
 {
@@ -425,6 +455,7 @@ static void depth_focus(void)
         shape_box(&s, name, dvec_of(x, 0, z - 0.8), dvec_of(x + 1.6, 1.6, z));
     }
     const shot_view view = {.width = 1100, .height = 200, .eye = {8.5, 0.8, 40}, .target = {8.5, 0.8, 0}, .up = {0, 1, 0}, .orthographic = true};
+    double sharp = 0;
     for (int k = 0; k < 3; k++) {
         shot got;
         char look[1000];
@@ -445,6 +476,16 @@ static void depth_focus(void)
             /* The paper between strokes is the page's, not a paler one. */
             painted += got.picture[4 * i + 1] > 233 || got.picture[4 * i] > 241;
         }
+        double beside = 0; /* lines of the first box beyond its outline are as near as it is, though there is nothing under them */
+        int    border = (int)shot_project(&got, dvec_of(1.9, 0.8, 0)).x;
+        for (int y = 0; y < got.height; y++)
+            for (int x = 0; x < border; x++)
+                beside += got.id[y * got.width + x] ? 0 : fmax(1 - got.picture[4 * (y * got.width + x) + 1] / 232.0, 0);
+        sharp = k ? sharp : beside;
+        if (k == 0)
+            check_at_least("P22", beside, 20, "ink beyond the first box's outline");
+        if (k == 1)
+            check_near("P22", beside, sharp, 0.03 * sharp, "the same where that box is in focus");
         check_at_most("P22", painted, 0, "focus at %g: pixels paler than the paper", k ? at[k - 1] : 0.0);
         int rises = 0;
         double first = ink[0] / count[0], last = ink[ROW - 1] / count[ROW - 1], middle = ink[ROW / 2] / count[ROW / 2];
@@ -498,6 +539,7 @@ static const check_case cases[] = {
     {"repetitions_differ", repetitions_differ},
     {"coloured_leads", coloured_leads},
     {"ways_of_strokes", ways_of_strokes},
+    {"strokes_move_along", strokes_move_along},
     {"seams_vanish", seams_vanish},
     {"coloured_pencils", coloured_pencils},
     {"light_on_a_ball", light_on_a_ball},
