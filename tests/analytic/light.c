@@ -108,7 +108,7 @@ static void court(shape *s)
     shape_box(s, "beam", dvec_of(1.9, 1.1, -1.5), dvec_of(2.6, 1.25, 1.8));
 }
 
-/* The score of one drawing. */
+/* The score of one drawing, at a fifth of its places: of some 10000 places the mean difference is then known to 0.0005 and the share of those far off to 0.001. */
 static bool score_of(const light_scene *l, bool sky, int rays, int step, const char *picture, light_score *out)
 {
     shot      with, without;
@@ -132,17 +132,17 @@ static bool score_of(const light_scene *l, bool sky, int rays, int step, const c
 
 static void shadows_are_a_discs(void)
 {
-    static const double angles[] = {3, 8, 20};
+    static const double angles[] = {3, 8, 20}, means[] = {0.0075, 0.009, 0.018}; /* half a sample of the small picture aside is more than that */
     for (int k = 0; k < 6; k++) {
         light_scene l = {.file = "court.glb", .towards = lights[k % 3], .view = view_of(k < 3 ? 25 : -35, k >= 3), .softness = angles[k % 3]};
         light_score score;
         court(&l.s);
         char name[32];
         snprintf(name, sizeof name, "shadows-%d.png", k);
-        if (score_of(&l, false, 96, 1, name, &score)) {
+        if (score_of(&l, false, 96, 5, name, &score)) {
             check_at_least("P30", score.places, 8000, "places compared, %s, %g degrees", l.view.orthographic ? "parallel rays" : "perspective", l.softness);
-            check_at_most("P30", score.mean, 0.03, "mean difference of the light that arrives");
-            check_at_most("P30", score.far, 0.015, "share of places that are off by more than 0.25 (worst %.2f)", score.worst);
+            check_at_most("P30", score.mean, means[k % 3], "mean difference of the light that arrives");
+            check_at_most("P30", score.far, 0.01, "share of places that are off by more than 0.25 (worst %.2f)", score.worst);
         }
         shape_release(&l.s);
     }
@@ -206,6 +206,36 @@ static void contact_has_no_gap(void)
             check_at_most("P30", worst, 0.05, "%g degrees: most light at the foot of the wall's dark side", angles[k]);
             check_at_most("P30", low, 0.2, "%g degrees: light behind a kerb of seven pixels", angles[k]);
             check_at_least("P30", lit, 0.98, "%g degrees: least light on open floor", angles[k]);
+            light_map_release(&m);
+            shot_release(&without);
+        }
+        shot_release(&with);
+    }
+    shape_release(&l.s);
+}
+
+/* What floats closely over a floor throws a shadow: the least distance that counts is a few texels of the map. */
+static void thin_gaps_are_dark(void)
+{
+    static const double angles[] = {0.5, 2, 8};
+    const double low = 0.012, wide = 0.4;
+    light_scene l = {.file = "sheet.glb", .towards = {-1, 0.6, 0}, .view = {.width = 640, .height = 480, .eye = {2.5, 1.6, 0}, .target = {wide, 0, 0}, .up = {0, 1, 0}, .fov_deg = 3}};
+    shape_box(&l.s, "floor", dvec_of(-1.5, -0.05, -1.5), dvec_of(1.5, 0, 1.5));
+    shape_box(&l.s, "sheet", dvec_of(0, low, -0.5), dvec_of(wide, low + 0.001, 0.5));
+    for (int k = 0; k < 3; k++) {
+        shot      with, without;
+        light_map m;
+        l.softness = angles[k];
+        if (!light_shot(&with, &l, true))
+            break;
+        if (light_shot(&without, &l, false)) {
+            double dark = 0;
+            light_map_drawn(&m, &with, &without);
+            for (int i = 0; i <= 40; i++) { /* the middle of the strip that it darkens beside itself */
+                dvec at = shot_project(&with, dvec_of(wide + 0.5 * low / 0.6, 0, -0.03 + 0.06 * i / 40));
+                dark += (double)m.drawn[(int)at.y * m.width + (int)at.x] / 41;
+            }
+            check_at_most("P30", dark, 0.1, "%g degrees: light beside a sheet that floats over a floor by a 350th of the scene", angles[k]);
             light_map_release(&m);
             shot_release(&without);
         }
@@ -442,7 +472,7 @@ static void corners_are_darker(void)
             rows[r].make(&l.s);
             char name[32];
             snprintf(name, sizeof name, "sky-%zu-%d.png", r, k);
-            if (score_of(&l, true, 256, 2, name, &score)) {
+            if (score_of(&l, true, 128, 5, name, &score)) {
                 check_at_least("P31", score.places, 5000, "%s, %s: places compared", rows[r].name, k ? "parallel rays" : "perspective");
                 check_at_most("P31", score.mean, rows[r].mean, "mean difference of the share of the sky (worst %.2f)", score.worst);
                 check_at_most("P31", score.far, 0.02, "share of places that are off by more than 0.25");
@@ -474,6 +504,41 @@ static void darkness_falls_off(void)
             shot_release(&without);
         }
         shot_release(&with);
+    }
+    shape_release(&l.s);
+}
+
+/* Of what the sky does not give, as much is missed as its strength says. */
+static void strength_is_a_share(void)
+{
+    static const double strengths[] = {0.25, 0.6};
+    light_scene l = {.file = "occluded.glb", .towards = from_viewer, .view = view_of(30, false), .softness = -1, .occlusion = 1, .radius = 0.3};
+    shot        whole, without, part;
+    corner(&l.s);
+    if (light_shot(&without, &l, false) && light_shot(&whole, &l, true)) {
+        light_map full, some;
+        light_map_drawn(&full, &whole, &without);
+        for (int k = 0; k < 2; k++) {
+            double off = 0, missed = 0;
+            int    all = 0;
+            l.occlusion = strengths[k];
+            if (!light_shot(&part, &l, true))
+                break;
+            light_map_drawn(&some, &part, &without);
+            for (int i = 0; i < some.width * some.height; i++)
+                if (full.drawn[i] >= 0) {
+                    off = fmax(off, fabs(1 - (double)some.drawn[i] - strengths[k] * (1 - (double)full.drawn[i])));
+                    missed += 1 - (double)some.drawn[i];
+                    all++;
+                }
+            check_at_least("P31", missed / all, 0.01, "mean share that a corner misses at a strength of %g", strengths[k]);
+            check_at_most("P31", off, 0.04, "how far from that share of what it misses at 1");
+            light_map_release(&some);
+            shot_release(&part);
+        }
+        light_map_release(&full);
+        shot_release(&whole);
+        shot_release(&without);
     }
     shape_release(&l.s);
 }
@@ -643,6 +708,48 @@ static void outlines_lie_on_borders(void)
     }
 }
 
+/* A floor of one sheet, whose corners run the other way around when it is seen from behind, and a block over it. */
+static void sheet_and_block(shape *s, bool from_behind)
+{
+    static const float corners[4][3] = {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}};
+    shape_part *p = shape_add(s, "sheet", 4, 6, true, false);
+    for (uint32_t i = 0; i < 6; i++)
+        p->indices[i] = (uint32_t[]){0, 1, 2, 0, 2, 3}[from_behind ? 5 - i : i];
+    for (int k = 0; k < 4; k++)
+        for (int c = 0; c < 3; c++) {
+            p->positions[k][c] = corners[k][c];
+            p->normals[k][c] = c != 1 ? 0.0f : from_behind ? -1.0f : 1.0f;
+        }
+    shape_box(s, "block", dvec_of(-0.5, 0.1, -0.5), dvec_of(0.5, 0.9, 0.5));
+}
+
+/* Ink of the lines around the block's shadow. */
+static double outline_ink(double elevation, bool from_behind)
+{
+    double      ink = 0, angle = elevation * pi / 180;
+    light_scene l = {.file = "sheet.glb", .towards = {-cos(angle), sin(angle), 0.1 * cos(angle)}, .view = view_of(25, false)};
+    shot        s;
+    sheet_and_block(&l.s, from_behind);
+    if (shot_of_shape(&s, &l.s, l.file, outline_look(&l, "", ""), NULL, &l.view)) {
+        for (int i = 0; i < s.width * s.height; i++)
+            ink += s.id[i] == 1 ? 1 - s.picture[4 * i] / 255.0 : 0;
+        shot_release(&s);
+    }
+    shape_release(&l.s);
+    return ink;
+}
+
+/* On both sides of a sheet; fainter where it hardly faces the light, until nothing is left. */
+static void outlines_on_sheets(void)
+{
+    double high = outline_ink(40, false), low = outline_ink(6, false);
+    check_at_least("P15", high, 300, "ink of lines around a shadow on a sheet");
+    check_near("P15", outline_ink(40, true), high, 0.05 * high, "the same on its other side");
+    check_at_least("P15", low, 10, "ink of lines where light comes from 6 degrees above");
+    check_at_most("P15", low, 0.5 * high, "and the lines are faint there");
+    check_at_most("P15", outline_ink(2.5, false), 0, "from 2.5 degrees");
+}
+
 /* Balls have silhouettes and terminators, and no shadow ends on them. */
 static void outlines_nowhere_else(void)
 {
@@ -729,9 +836,9 @@ static void dots_follow(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"penumbra", penumbras_grow}, {"shadows", shadows_are_a_discs}, {"hard", hard_is_hard}, {"contact", contact_has_no_gap}, {"acne", no_acne}, {"lights", other_lights_stay},
-        {"paths", one_picture}, {"solid", solids_too}, {"motion", light_moves}, {"corners", corners_are_darker}, {"falloff", darkness_falls_off}, {"plane", planes_stay}, {"halo", no_halo},
-        {"outlines", outlines_lie_on_borders}, {"elsewhere", outlines_nowhere_else}, {"dots", dots_follow},
+        {"penumbra", penumbras_grow}, {"shadows", shadows_are_a_discs}, {"hard", hard_is_hard}, {"contact", contact_has_no_gap}, {"gap", thin_gaps_are_dark}, {"acne", no_acne}, {"lights", other_lights_stay},
+        {"paths", one_picture}, {"solid", solids_too}, {"motion", light_moves}, {"corners", corners_are_darker}, {"falloff", darkness_falls_off}, {"strength", strength_is_a_share}, {"plane", planes_stay}, {"halo", no_halo},
+        {"outlines", outlines_lie_on_borders}, {"elsewhere", outlines_nowhere_else}, {"sheets", outlines_on_sheets}, {"dots", dots_follow},
     };
     int status = check_main(argc, argv, "light", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -19,6 +19,15 @@ typedef struct wanted {
     const char *ink, *ground, *keys;  /* of the sheet, beginning with a comma, or "" */
 } wanted;
 
+/* The papers themselves, made once. */
+static const paper *paper_of(int kind)
+{
+    static paper papers[KINDS];
+    if (!papers[kind].heights && !check_that("P28", paper_create(&papers[kind], (paper_kind)kind, 0, NULL) == LMN_OK, "%s can be made", paper_names[kind]))
+        exit(2);
+    return &papers[kind];
+}
+
 /* A wall of one colour in the upper three quarters of the page. */
 static bool take(shot *out, wanted w)
 {
@@ -30,6 +39,7 @@ static bool take(shot *out, wanted w)
     shot_view      view = halftone_view(size, size, size / 4.0);
     view.samples = w.samples;
     view.es = w.es;
+    view.without_maps = true; /* nearly all of the time would go into writing and reading them */
     halftone_add_wall(&s, "wall", (halftone_wall){-1, 1, 0, 6, 6, 1});
     bool ok = halftone_shot(out, &s, "paper.gltf", look, NULL, &view);
     halftone_release(&s);
@@ -121,19 +131,15 @@ static void compare(const shot *s, const paper *p, double size, bool light)
 static void ink_stays_on_hills(void)
 {
     for (int kind = 1; kind < KINDS; kind++) {
-        paper p;
-        shot  s;
-        if (paper_create(&p, (paper_kind)kind, 0, NULL) != LMN_OK)
-            return;
+        shot s;
         if (take(&s, (wanted){.paper = kind, .ink = grey(0.5, NULL), .ground = "#ffffff", .keys = ",\"grain_size\":3"})) {
-            compare(&s, &p, 3, false);
+            compare(&s, paper_of(kind), 3, false);
             shot_release(&s);
         }
         if (take(&s, (wanted){.paper = kind, .ink = "#bbbbbb", .ground = "#102018", .keys = ",\"grain_size\":3"})) {
-            compare(&s, &p, 3, true);
+            compare(&s, paper_of(kind), 3, true);
             shot_release(&s);
         }
-        paper_release(&p);
     }
 }
 
@@ -347,21 +353,17 @@ static void relief_shows_on_bare_paper(void)
 {
     for (int kind = 1; kind < KINDS; kind++) {
         shot     s;
-        paper    p;
         relation lit = {{0}};
-        if (paper_create(&p, (paper_kind)kind, 0, NULL) != LMN_OK)
-            return;
         if (take(&s, (wanted){.paper = kind, .ink = "#888888", .ground = "#e0d8c8", .keys = ",\"relief\":0.4,\"grain_size\":3"})) {
             for (int y = SIDE * 3 / 4; y < SIDE; y++)
                 for (int x = 0; x < SIDE; x++) {
                     double height, facing;
-                    under(&p, 3, x, y, &height, &facing);
+                    under(paper_of(kind), 3, x, y, &height, &facing);
                     relate(&lit, -halftone_ink(&s, x, y), facing);
                 }
             check_at_least("P28", correlation(&lit), 0.95, "%s: correlation of bare paper's light with the lean to the upper left", paper_names[kind]);
             shot_release(&s);
         }
-        paper_release(&p);
     }
 }
 
@@ -392,10 +394,11 @@ static bool on_model(const shot *s, int x, int y, int around)
     return true;
 }
 
-static double unlike(const shot *a, const shot *b, int x, int y, int dx, int dy)
+/* Stops where it is not below `enough` any more: most of a search's candidates are given up after a few rows. */
+static double unlike(const shot *a, const shot *b, int x, int y, int dx, int dy, double enough)
 {
     double sum = 0;
-    for (int j = -PATCH; j <= PATCH; j++)
+    for (int j = -PATCH; j <= PATCH && sum < enough; j++)
         for (int i = -PATCH; i <= PATCH; i++) {
             double off = a->picture[4 * ((y + j) * a->width + x + i)] - b->picture[4 * ((y + j + dy) * b->width + x + i + dx)];
             sum += off * off;
@@ -416,7 +419,7 @@ static dvec grain_motion(const shot *a, const shot *b, int x, int y)
     double least = INFINITY;
     for (int dy = -AROUND; dy <= AROUND; dy++)
         for (int dx = -AROUND; dx <= AROUND; dx++) {
-            double now = unlike(a, b, x, y, dx, dy);
+            double now = unlike(a, b, x, y, dx, dy, least);
             if (now < least) {
                 least = now;
                 best_x = dx;
@@ -425,8 +428,8 @@ static dvec grain_motion(const shot *a, const shot *b, int x, int y)
         }
     dvec out = {best_x, best_y, 0};
     if (least > 0) {
-        out.x += vertex(unlike(a, b, x, y, best_x - 1, best_y), least, unlike(a, b, x, y, best_x + 1, best_y));
-        out.y += vertex(unlike(a, b, x, y, best_x, best_y - 1), least, unlike(a, b, x, y, best_x, best_y + 1));
+        out.x += vertex(unlike(a, b, x, y, best_x - 1, best_y, INFINITY), least, unlike(a, b, x, y, best_x + 1, best_y, INFINITY));
+        out.y += vertex(unlike(a, b, x, y, best_x, best_y - 1, INFINITY), least, unlike(a, b, x, y, best_x, best_y + 1, INFINITY));
     }
     return out;
 }
@@ -494,6 +497,7 @@ static slip run(const shape *model, const sequence *q, const char *motion)
         shot      a, b;
         stand     here = moved_by(q->first, q->next, i);
         shot_view from = view_at(here), to = view_at(moved_by(here, q->move, 1));
+        to.without_maps = true; /* only depth of the first one is needed */
         if (!shot_of_shape(&a, model, "moving.glb", look, NULL, &from))
             return out;
         if (shot_of_shape(&b, model, "moving.glb", look, NULL, &to)) {
@@ -652,7 +656,7 @@ int main(int argc, char **argv)
                                        {"round", paper_depends_on_the_view_alone},
                                        {"jumps", paper_never_jumps},
                                        {"zoom", grain_stays_as_fine_when_nearer}};
-    halftone_begin();
+    halftone_begin_kept("paper");
     int status = check_main(argc, argv, "paper", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;

@@ -106,6 +106,60 @@ static void leads(void)
         check_at_most("P32", ink[n] - ink[n - 1], 0.75 * (ink[n - 1] - ink[n - 2]), "ink that time %d adds, of what the one before added (ink %.3f)", n, ink[n]);
 }
 
+/* How much ink changes along rows, as a share of how much it does along columns: strokes from left to right hardly do. */
+static double steps_along(const shot *s)
+{
+    double along = 0, across = 1e-12;
+    for (int y = 0; y + 2 < WALL; y++)
+        for (int x = 0; x + 2 < WALL; x++) {
+            along += pow(halftone_ink(s, x + 2, y + 1) - halftone_ink(s, x, y + 1), 2);
+            across += pow(halftone_ink(s, x + 1, y + 2) - halftone_ink(s, x + 1, y), 2);
+        }
+    return along / across;
+}
+
+/* Row P36: repetitions lie elsewhere, so that together they are as dark as wanted, and they turn to both sides. */
+static void repetitions_differ(void)
+{
+    static const int degrees[] = {0, 20, 40};
+    double before = 0;
+    for (int n = 2; n <= 4; n++) {
+        char keys[64];
+        snprintf(keys, sizeof keys, "\"overlays\":%d,\"vary\":0,\"shading\":\"gradation\"", n);
+        check_near("P36", wall_ink(keys, 0.6, LEAD_8B), 0.6, 0.012, "ink of %d times over that lie alike, wanted 0.6", n);
+    }
+    for (int k = 0; k < 3; k++) {
+        char surface[200];
+        shot s;
+        snprintf(surface, sizeof surface, "pencil\",\"coordinates\":\"screen\",\"angle\":0,\"overlays\":2,\"vary\":%d,\"shadow\":0.7,\"light\":0.7,\"ink\":\"#000000\"", degrees[k]);
+        if (!halftone_far(&s, surface, 0, WALL, 1))
+            return;
+        double now = steps_along(&s), slope = tan(degrees[k] * PI / 180);
+        check_at_least("P36", now - before, 0.7 * slope * slope, "turned by %d degrees to both sides: by how much more ink changes from left to right", degrees[k]);
+        check_at_most("P36", now, slope * slope + 0.2, "and not more than strokes that lie like this");
+        before = k ? before : now;
+        shot_release(&s);
+    }
+}
+
+/* Rows P33, P34: coloured leads have their strength, too. */
+static void coloured_leads(void)
+{
+    for (int k = 0; k < LEAD_COUNT; k += 3) {
+        char   surface[300];
+        shot   s;
+        double darkest = 0;
+        snprintf(surface, sizeof surface, "pencil\",\"coordinates\":\"screen\",\"overlays\":4,\"vary\":40,\"lead\":\"%s\",\"shadow\":0,\"light\":0,\"pencils\":[\"#000000\",\"#000001\"],\"opacity\":1,"
+                 "\"paper_tint\":0", lead_grade_names[k]);
+        if (!halftone_far(&s, surface, 0, WALL, 1))
+            return;
+        for (int i = 0; i < WALL * WALL; i++)
+            darkest = fmax(darkest, 1 - s.picture[4 * i] / 255.0);
+        check_near("P33", darkest, (double)lead_darkest((lead_grade)k), 0.008, "%s, two colours: darkest pixel of four times over", lead_grade_names[k]);
+        shot_release(&s);
+    }
+}
+
 /* --- ways --------------------------------------------------------------------------------------------------------- */
 
 enum { RING = 640, WINDOW = 17, PLACES = 144, MAPS = 6 };
@@ -227,6 +281,36 @@ static void ways_of_strokes(void)
             check_near("P24", mean, 0, 1, "degrees off on the mean, the angle taken into account");
             check_at_most("P23", (most - least) / (most + least), 0.2, "ink in windows of %d px: half the range over the mean (%.3f to %.3f)", 2 * WINDOW, least, most);
         }
+}
+
+/* Row P24: strokes on the page move with the middle of the model. */
+static void strokes_move_along(void)
+{
+    enum { MOVED = 37 };
+    shape s = {0};
+    shot  here, there;
+    int   off = 0, all = 0;
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
+    const char *look = "{\"version\":1,\"name\":\"m\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"pencil\",\"coordinates\":\"form\",\"shadow\":0.55,\"light\":0.55,"
+                       "\"ink\":\"#000000\",\"texture\":0}}]}";
+    shot_view   view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 30};
+    if (shot_of_shape(&here, &s, "moved.glb", look, NULL, &view)) {
+        double pixel = 1 / (shot_project(&here, dvec_of(1, 0, 0)).x - shot_project(&here, dvec_of(0, 0, 0)).x);
+        view.eye.x = view.target.x = -MOVED * pixel;
+        if (shot_of_shape(&there, &s, "moved.glb", look, NULL, &view)) {
+            for (int y = 0; y < 400; y++)
+                for (int x = 0; x + MOVED < 400; x++)
+                    if (here.id[400 * y + x] && there.id[400 * y + x + MOVED]) {
+                        off += abs(here.picture[4 * (400 * y + x)] - there.picture[4 * (400 * y + x + MOVED)]) > 60;
+                        all++;
+                    }
+            check_at_least("P24", all, 10000, "pixels of a ball that moves by %d", MOVED);
+            check_at_most("P24", off, 0.1 * all, "of them with other strokes");
+            shot_release(&there);
+        }
+        shot_release(&here);
+    }
+    shape_release(&s);
 }
 
 /* The part of a sequence around the ring that repeats so many times. */
@@ -402,6 +486,7 @@ static void depth_focus(void)
         shape_box(&s, name, dvec_of(x, 0, z - 0.8), dvec_of(x + 1.6, 1.6, z));
     }
     const shot_view view = {.width = 1100, .height = 200, .eye = {8.5, 0.8, 40}, .target = {8.5, 0.8, 0}, .up = {0, 1, 0}, .orthographic = true};
+    double sharp = 0;
     for (int k = 0; k < 3; k++) {
         shot got;
         char look[1000];
@@ -422,6 +507,16 @@ static void depth_focus(void)
             /* The paper between strokes is the page's, not a paler one. */
             painted += got.picture[4 * i + 1] > 233 || got.picture[4 * i] > 241;
         }
+        double beside = 0; /* lines of the first box beyond its outline are as near as it is, though there is nothing under them */
+        int    border = (int)shot_project(&got, dvec_of(1.9, 0.8, 0)).x;
+        for (int y = 0; y < got.height; y++)
+            for (int x = 0; x < border; x++)
+                beside += got.id[y * got.width + x] ? 0 : fmax(1 - got.picture[4 * (y * got.width + x) + 1] / 232.0, 0);
+        sharp = k ? sharp : beside;
+        if (k == 0)
+            check_at_least("P22", beside, 20, "ink beyond the first box's outline");
+        if (k == 1)
+            check_near("P22", beside, sharp, 0.03 * sharp, "the same where that box is in focus");
         check_at_most("P22", painted, 0, "focus at %g: pixels paler than the paper", k ? at[k - 1] : 0.0);
         int rises = 0;
         double first = ink[0] / count[0], last = ink[ROW - 1] / count[ROW - 1], middle = ink[ROW / 2] / count[ROW / 2];
@@ -442,21 +537,51 @@ static void depth_focus(void)
     shape_release(&s);
 }
 
+/* Row P22: how much is left grows as the curve says, from box to box. */
+static void focus_curve(void)
+{
+    shape s = {0};
+    for (int i = 0; i < ROW; i++)
+        shape_box(&s, "box", dvec_of(2.2 * i, 0, -3.0 * i - 0.8), dvec_of(2.2 * i + 1.6, 1.6, -3.0 * i));
+    const shot_view view = {.width = 1100, .height = 200, .eye = {8.5, 0.8, 40}, .target = {8.5, 0.8, 0}, .up = {0, 1, 0}, .orthographic = true};
+    shot got;
+    if (shot_of_shape(&got, &s, "row.glb",
+                      "{\"version\":1,\"name\":\"f\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"focus\":1,\"focus_at\":0,\"focus_depth\":1},\"rules\":[{\"surface\":{\"technique\":\"pencil\","
+                      "\"shading\":\"gradation\",\"lead\":\"8B\",\"ink\":\"#000000\",\"coordinates\":\"screen\",\"shadow\":0.4,\"light\":0.4,\"texture\":0}}]}", NULL, &view)) {
+        double ink[ROW] = {0}, count[ROW] = {0};
+        for (int i = 0; i < got.width * got.height; i++)
+            if (got.id[i]) {
+                ink[got.id[i] - 1] += halftone_ink(&got, i % got.width, i / got.width);
+                count[got.id[i] - 1]++;
+            }
+        for (int i = 1; i < ROW; i++) {
+            double off = 3.0 * i / (3.0 * (ROW - 1) + 0.8);
+            check_near("P22", ink[i] / count[i] / (ink[0] / count[0]), 1 - off * off * (3 - 2 * off), 0.07, "share of its ink that box %d keeps", i);
+        }
+        shot_release(&got);
+    }
+    shape_release(&s);
+}
+
 static const check_case cases[] = {
     {"hatching_and_gradation", hatching_and_gradation},
     {"ragged_tones", ragged_tones},
     {"leads", leads},
+    {"repetitions_differ", repetitions_differ},
+    {"coloured_leads", coloured_leads},
     {"ways_of_strokes", ways_of_strokes},
+    {"strokes_move_along", strokes_move_along},
     {"seams_vanish", seams_vanish},
     {"coloured_pencils", coloured_pencils},
     {"grounds", grounds},
     {"light_on_a_ball", light_on_a_ball},
     {"depth_focus", depth_focus},
+    {"focus_curve", focus_curve},
 };
 
 int main(int argc, char **argv)
 {
-    halftone_begin();
+    halftone_begin_kept("pencil");
     int status = check_main(argc, argv, "pencil", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;

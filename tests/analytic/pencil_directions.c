@@ -294,9 +294,74 @@ static void ways_where_nothing_bends(void)
     }
 }
 
+/* A ball bends all ways alike: strokes run up it, though rounding always leaves some way of greatest curvature. */
+static void ways_on_a_ball(void)
+{
+    const turn none = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int k = 0; k < 2; k++) {
+        shape s = {0};
+        shot  got;
+        shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1.2, 192, 384, true);
+        const shot_view view = {.width = 480, .height = 360, .eye = {1, 1.4, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = k};
+        if (shot_of_shape(&got, &s, "ball.glb", form_look, NULL, &view) && check_that("P27", got.direction != NULL, "there is a map of directions")) {
+            int all = 0, off = 0;
+            for (int y = got.height - 3; y >= 2; y -= 4)
+                for (int x = 2; x < got.width; x += 4) {
+                    size_t at = (size_t)y * (size_t)got.width + (size_t)x;
+                    dvec   origin, ray;
+                    if (!is_inside(&got, x, y, 12))
+                        continue;
+                    shot_ray(&got, x + 0.5, y + 0.5, &origin, &ray);
+                    double start = -shot_to_eye(&got, origin, 1).z, rate = -shot_to_eye(&got, ray, 0).z;
+                    dvec   p = dvec_add(origin, dvec_scale(ray, ((double)got.depth[at] - start) / rate)), n = dvec_unit(p);
+                    if (fabs(n.y) > 0.8) /* above it turns to an axis */
+                        continue;
+                    const float *v = got.direction[at];
+                    all++;
+                    off += off_by(0.5 * atan2((double)v[1], (double)v[0]), seen_angle(&got, &none, p, dvec_sub(dvec_of(0, 1, 0), dvec_scale(n, n.y)))) > 3;
+                }
+            check_at_least("P27", all, 300, "places on a ball, %s", k ? "parallel" : "perspective");
+            check_at_most("P27", off, 0.02 * all, "of them whose strokes do not run up");
+        }
+        shot_release(&got);
+        shape_release(&s);
+    }
+}
+
+/* A tube has strokes around it, unless it is as thin as an edge: then they run up, as they do beside it. */
+static void ways_on_thin_tubes(void)
+{
+    static const double radii[] = {0.3, 0.04}; /* 31 and 4 pixels */
+    for (int k = 0; k < 2; k++) {
+        shape s = {0};
+        shot  got;
+        int   all = 0, off = 0;
+        shape_torus(&s, "ring", 1.2, radii[k], 400, 64);
+        shape_place(&s, dvec_of(1, 0, 0), 90, dvec_of(0, 0, 0));
+        shape_make_normals(&s, 60);
+        const shot_view view = {.width = 480, .height = 360, .eye = {0, 0, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = true};
+        if (shot_of_shape(&got, &s, "tube.glb", form_look, NULL, &view) && check_that("P27", got.direction != NULL, "there is a map of directions"))
+            for (int y = got.height - 3; y >= 2; y -= 4)
+                for (int x = 2; x < got.width; x += 4) {
+                    size_t at = (size_t)y * (size_t)got.width + (size_t)x;
+                    if (abs(y - got.height / 2) > 30 || !isfinite((double)got.depth[at]) || (double)got.normal[at][2] < 0.9)
+                        continue;
+                    const float *v = got.direction[at];
+                    all++;
+                    off += off_by(0.5 * atan2((double)v[1], (double)v[0]), k ? PI / 2 : 0) > 20;
+                }
+        check_at_least("P27", all, 15, "places along the crest of a tube of radius %g", radii[k]);
+        check_at_most("P27", off, 0.1 * all, "of them whose strokes do not run %s", k ? "up" : "around it");
+        shot_release(&got);
+        shape_release(&s);
+    }
+}
+
 static const check_case cases[] = {
     {"ways_on_smooth_bodies", ways_on_smooth_bodies},
     {"ways_where_nothing_bends", ways_where_nothing_bends},
+    {"ways_on_a_ball", ways_on_a_ball},
+    {"ways_on_thin_tubes", ways_on_thin_tubes},
 };
 
 int main(int argc, char **argv)

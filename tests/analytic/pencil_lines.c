@@ -21,7 +21,7 @@ typedef struct copy {
 
 typedef struct setting {
     int    dark, light, width, height, seed;
-    double sketch, darkest;
+    double sketch, darkest, texture, pressure;
     copy   copies[COPIES];
 } setting;
 
@@ -93,6 +93,16 @@ static double ink_between(const shot *exact, double x, double y)
     return 1 - paper;
 }
 
+/* Noise, one texel a pixel; the texel's middle is a pixel's corner, so four are mixed. */
+static double grain_between(const mip_chain *grain, int channel, int x, int y)
+{
+    const uint8_t *bytes = mip_layer(grain, 0, 0);
+    double         sum = 0;
+    for (int k = 0; k < 4; k++)
+        sum += 0.25 * bytes[2 * (((y - 1 + (k >> 1)) & (GRAPHITE_SIDE - 1)) * GRAPHITE_SIDE + ((x - 1 + (k & 1)) & (GRAPHITE_SIDE - 1))) + channel] / 255.0;
+    return sum;
+}
+
 /* Grey 0 … 1 that is shown. */
 static double expected(const setting *s, const shot *exact, const mip_chain *grain, int x, int y)
 {
@@ -104,13 +114,11 @@ static double expected(const setting *s, const shot *exact, const mip_chain *gra
         dark += i < s->dark ? ink / s->dark : 0;
         light += i < s->dark ? 0 : ink / s->light;
     }
-    /* Noise, one texel a pixel; the texel's middle is a pixel's corner, so four are mixed. */
-    const uint8_t *bytes = mip_layer(grain, 0, 0);
-    double p = 0;
-    for (int k = 0; k < 4; k++)
-        p += 0.25 * bytes[2 * (((y - 1 + (k >> 1)) & (GRAPHITE_SIDE - 1)) * GRAPHITE_SIDE + ((x - 1 + (k & 1)) & (GRAPHITE_SIDE - 1)))] / 255.0;
-    double intensity_light = 1 - (light) * s->sketch * (1 - p), intensity_dark = 1 - dark;
-    return 1 - (1 - fmin(intensity_light, intensity_dark)) * s->darkest;
+    double p = grain_between(grain, 0, x, y), intensity_light = 1 - light * s->sketch * (1 - p), intensity_dark = 1 - dark;
+    /* Row P29: streaks take from both groups, the weight of the hand changes final lines alone. */
+    double force = 1 - s->texture * (1 - grain_between(grain, 1, x, y));
+    force *= intensity_dark <= intensity_light ? 1 - s->pressure * (1 - p) : 1;
+    return 1 - (1 - fmin(intensity_light, intensity_dark)) * s->darkest * force;
 }
 
 static double shown(const shot *s, int x, int y)
@@ -133,14 +141,16 @@ static void equations(void)
     static const struct {
         const char *keys;
         int         dark, light, seed;
-        double      sketch;
-    } rows[] = {{"", 4, 3, 0, 0.6},
-                {"\"dark\":1,\"light\":0", 1, 0, 0, 0.6},
-                {"\"dark\":0,\"light\":1", 0, 1, 3, 0.6},
-                {"\"dark\":0,\"light\":5,\"light_sway\":9,\"sketch\":0.9", 0, 5, 0, 0.9},
-                {"\"dark\":9,\"light\":7,\"dark_sway\":5,\"jitter\":3,\"sketch\":0.3", 9, 7, 11, 0.3},
-                {"\"dark\":2,\"light\":2,\"dark_sway\":0,\"light_sway\":0,\"jitter\":0,\"sketch\":1", 2, 2, 0, 1},
-                {"\"dark\":16,\"light\":16,\"lead\":\"HB\"", 16, 16, 0, 0.6}};
+        double      sketch, texture, pressure;
+    } rows[] = {{"", 4, 3, 0, 0.6, 0, 0},
+                {"\"dark\":1,\"light\":0", 1, 0, 0, 0.6, 0, 0},
+                {"\"dark\":0,\"light\":1", 0, 1, 3, 0.6, 0, 0},
+                {"\"dark\":0,\"light\":5,\"light_sway\":9,\"sketch\":0.9", 0, 5, 0, 0.9, 0, 0},
+                {"\"dark\":9,\"light\":7,\"dark_sway\":5,\"jitter\":3,\"sketch\":0.3", 9, 7, 11, 0.3, 0, 0},
+                {"\"dark\":2,\"light\":2,\"dark_sway\":0,\"light_sway\":0,\"jitter\":0,\"sketch\":1", 2, 2, 0, 1, 0, 0},
+                {"\"dark\":16,\"light\":16,\"lead\":\"HB\"", 16, 16, 0, 0.6, 0, 0},
+                {"\"texture\":0.5", 4, 3, 0, 0.6, 0.5, 0},
+                {"\"pressure\":0.7,\"sketch\":0.9", 4, 3, 0, 0.9, 0, 0.7}};
     shape scene = {0};
     mip_chain grain;
     lmn_error error = {0};
@@ -148,7 +158,7 @@ static void equations(void)
     if (!check_that("P10", graphite_grain(&grain, 1, &error) == LMN_OK, "noise can be made"))
         return;
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        setting   s = {.width = view_of_lines.width, .height = view_of_lines.height, .seed = rows[r].seed, .sketch = rows[r].sketch};
+        setting   s = {.width = view_of_lines.width, .height = view_of_lines.height, .seed = rows[r].seed, .sketch = rows[r].sketch, .texture = rows[r].texture, .pressure = rows[r].pressure};
         shot      exact, drawn;
         shot_view bare = view_of_lines;
         bare.without_maps = true;
@@ -481,14 +491,19 @@ static void overrun(void)
         snprintf(look, sizeof look, "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":"
                  "\"#808080\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"none\"},\"perturb\":{\"technique\":\"pencil\",\"overrun\":%g,\"overrun_angle\":0}}]}", lengths[k]);
         if (shot_of_shape(&drawn, &scene, "plate.glb", look, NULL, &view)) {
-            int    side = (int)floor(shot_project(&drawn, dvec_of(1.2, 0, 0)).x), beyond = 0, short_of = 0, rows = 0;
-            for (int y = 100; y < 300; y++, rows++) {
+            int    side = (int)floor(shot_project(&drawn, dvec_of(1.2, 0, 0)).x), beyond = 0, short_of = 0, before = 0, even = 0;
+            for (int y = 100; y < 300; y++) {
                 int last = 0;
                 for (int x = side - 40; x < side + 40 && x < 400; x++)
                     last = shown(&drawn, x, y) < 0.9 ? x : last;
                 beyond = last - side > beyond ? last - side : beyond;
                 short_of = side - last > short_of ? side - last : short_of;
+                even += y > 100 && last == before;
+                before = last;
             }
+            /* Strokes of a band end together, and bands pass into one another. */
+            check_at_least("P35", even, k ? 60 : 199, "rows of 200 that end where the one before does");
+            check_at_most("P35", even, k ? 150 : 199, "and not all of a band");
             check_near("P35", beyond, lengths[k], 1.6, "overrun %g: px that strokes run past the contour at most", lengths[k]);
             check_near("P35", short_of, lengths[k], 2.1, "and fall short of it");
         }

@@ -1,10 +1,13 @@
 #include "halftone_scenes.h"
 
+#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "check.h"
 #include "picture.h"
@@ -442,4 +445,20 @@ bool halftone_far(shot *out, const char *surface, double octave, int side, doubl
 void halftone_begin(void)
 {
     setenv("LIMNER_CACHE", "", 1);
+}
+
+void halftone_begin_kept(const char *program)
+{
+    char folder[128], path[512];
+    snprintf(folder, sizeof folder, "truth/made-%s", program);
+    mkdir("truth", 0777);
+    mkdir(folder, 0777);
+    DIR *files = opendir(folder);
+    for (struct dirent *file = files ? readdir(files) : NULL; file; file = readdir(files)) {
+        snprintf(path, sizeof path, "%s/%s", folder, file->d_name);
+        unlink(path);
+    }
+    if (files)
+        closedir(files);
+    setenv("LIMNER_CACHE", folder, 1);
 }

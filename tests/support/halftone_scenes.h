@@ -89,5 +89,7 @@ int halftone_command(const char *command, const char *arguments, char *out, size
 
 /* Screens are made here and not taken from earlier runs. Call first. */
 void halftone_begin(void);
+/* The same, but what is made once is found again by later drawings of this run: for tests of what is drawn with textures that take long to make. */
+void halftone_begin_kept(const char *program);
 
 #endif

@@ -61,13 +61,14 @@ double light_of_disc(const tracer *t, dvec place, dvec normal, dvec towards, dou
 {
     dvec      along = dvec_unit(towards), a, b, origin = dvec_add(place, dvec_scale(normal, 1e-5));
     int       seen = 0;
-    trace_hit hit;
+    uint32_t  last = UINT32_MAX;
+    double    half = tan(degrees / 2 * pi / 180);
     axes_of(along, &a, &b);
     for (int i = 0; i < rays; i++) {
-        double x, y, half = tan(degrees / 2 * pi / 180);
+        double x, y;
         disc_point(i, rays, 0, &x, &y);
         dvec ray = dvec_add(along, dvec_add(dvec_scale(a, x * half), dvec_scale(b, y * half)));
-        seen += !tracer_hit(t, origin, ray, 0, INFINITY, NULL, &hit);
+        seen += !tracer_blocked(t, origin, ray, 0, INFINITY, &last);
     }
     return (double)seen / rays;
 }
@@ -111,8 +112,8 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
     size_t count;
     const trace_triangle *triangles = tracer_triangles(t, &count);
     dvec viewer = shot_viewer(s, &w);
-    for (int y = 0; y < m->height; y += step)
-        for (int x = 0; x < m->width; x += step) {
+    for (int y = 0; y < m->height; y++)
+        for (int x = 2 * y % step; x < m->width; x += step) { /* shifted from row to row, so that odd places come up as often as even ones */
             dvec      origin, direction;
             trace_hit hit;
             size_t    at = (size_t)y * (size_t)m->width + (size_t)x;

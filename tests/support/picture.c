@@ -117,8 +117,12 @@ uint8_t *picture_encode_rgba(const uint8_t *rgba, int width, int height, size_t 
 
 double picture_linear(uint8_t srgb)
 {
-    double v = srgb / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+    static double known[256]; /* whole pictures are asked for, some hundred times */
+    if (srgb && known[srgb] == 0) {
+        double v = srgb / 255.0;
+        known[srgb] = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+    }
+    return known[srgb];
 }
 
 double picture_srgb(double linear)

@@ -1,5 +1,6 @@
 #include "trace.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +14,8 @@ typedef struct box {
 
 typedef struct bvh_node {
     box      bounds;
-    uint32_t first, count; /* count > 0: a leaf of triangles order[first…]; else children first and first + 1 */
+    uint32_t first, count; /* count > 0: a leaf of triangles order[first…]; else children first and first + 1, cut along this axis */
+    int      axis;
 } bvh_node;
 
 struct tracer {
@@ -96,6 +98,7 @@ static void split(tracer *t, size_t index, uint32_t first, uint32_t count)
     size_t child = t->node_count;
     t->node_count += 2;
     node->first = (uint32_t)child;
+    node->axis = axis;
     split(t, child, first, left - first);
     split(t, child + 1, left, first + count - left);
 }
@@ -180,27 +183,27 @@ static bool hit_triangle(const trace_triangle *f, dvec origin, dvec direction, d
     return true;
 }
 
+/* Comparisons and not fmin and fmax, which are calls of the library: most of a tracer's time is spent here. */
 static bool hit_box(const box *b, const double origin[3], const double inverse[3], double low, double high)
 {
     for (int a = 0; a < 3; a++) {
-        if (isinf(inverse[a])) { /* along the slab: in it or not */
+        if (inverse[a] > DBL_MAX || inverse[a] < -DBL_MAX) { /* along the slab: in it or not */
             if (origin[a] < b->low[a] || origin[a] > b->high[a])
                 return false;
             continue;
         }
-        double near = (b->low[a] - origin[a]) * inverse[a], far = (b->high[a] - origin[a]) * inverse[a];
-        if (near > far) {
-            double swap = near;
-            near = far;
-            far = swap;
-        }
-        low = fmax(low, near - 1e-12 * fabs(near));
-        high = fmin(high, far + 1e-12 * fabs(far));
+        bool   forward = inverse[a] >= 0;
+        double near = ((forward ? b->low[a] : b->high[a]) - origin[a]) * inverse[a], far = ((forward ? b->high[a] : b->low[a]) - origin[a]) * inverse[a];
+        near -= near > 0 ? 1e-12 * near : -1e-12 * near;
+        far += far > 0 ? 1e-12 * far : -1e-12 * far;
+        low = near > low ? near : low;
+        high = far < high ? far : high;
     }
     return low <= high;
 }
 
-bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], trace_hit *out)
+/* The first hit, or `any` hit, whichever comes up. */
+static bool search(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], bool any, trace_hit *out)
 {
     double   o[3] = {origin.x, origin.y, origin.z};
     double   inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
@@ -213,9 +216,10 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
         const bvh_node *node = &t->nodes[stack[--depth]];
         if (!hit_box(&node->bounds, o, inverse, low, high))
             continue;
-        if (node->count == 0 && depth + 2 <= STACK) {
-            stack[depth++] = node->first;
-            stack[depth++] = node->first + 1;
+        if (node->count == 0 && depth + 2 <= STACK) { /* the nearer child is on top */
+            bool nearer = inverse[node->axis] < 0;
+            stack[depth++] = node->first + !nearer;
+            stack[depth++] = node->first + nearer;
         }
         for (uint32_t i = node->first; i < node->first + node->count; i++) {
             uint32_t triangle = t->order[i];
@@ -225,10 +229,28 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
                 out->triangle = triangle;
                 high = out->t;
                 found = true;
+                if (any)
+                    return true;
             }
         }
     }
     return found;
+}
+
+bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], trace_hit *out)
+{
+    return search(t, origin, direction, low, high, skip, false, out);
+}
+
+bool tracer_blocked(const tracer *t, dvec origin, dvec direction, double low, double high, uint32_t *last)
+{
+    trace_hit hit;
+    if (*last < t->count && hit_triangle(&t->triangles[*last], origin, direction, low, high, &hit))
+        return true;
+    if (!search(t, origin, direction, low, high, NULL, true, &hit))
+        return false;
+    *last = hit.triangle;
+    return true;
 }
 
 static int by_distance(const void *a, const void *b)

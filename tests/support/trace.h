@@ -32,6 +32,9 @@ const trace_triangle *tracer_triangles(const tracer *t, size_t *count);
 /* The first hit with low < t < high that is on neither of the two triangles `skip` (TRACE_NONE: nothing left out). */
 bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], trace_hit *out);
 
+/* Does anything lie in between? `last` is the triangle that did for a ray like this one, tried first, and is kept up; to begin with UINT32_MAX. */
+bool tracer_blocked(const tracer *t, dvec origin, dvec direction, double low, double high, uint32_t *last);
+
 /* Every triangle hit with low < t < high, nearest first; at most `room` are written, the number of all is returned. */
 size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out, size_t room);
 

@@ -1,5 +1,8 @@
 /* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some value:
- * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES */
+ * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly]
+ *
+ * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, not with both of its extremes. What decides which shaders
+ * are built is still drawn with all. For the paths of drawing that share most of their code with the usual one, which is not drawn briefly. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,12 +19,25 @@
 
 enum { SIDE = 160, VALUES_MAX = 24, TEXT_SIZE = 96 };
 
+/* What a technique draws before anything is set: the same for all parameters that ask for the same. */
+typedef struct plain_picture {
+    const technique *technique;
+    const lmn_scene *scene;
+    const char      *only_if; /* NULL: nothing */
+    uint8_t         *pixels;
+} plain_picture;
+
+enum { PLAIN_MAX = 1024 };
+
 typedef struct fixture {
     lmn_scene    *scene;
     lmn_scene    *solid; /* for parameters that only solids know */
     lmn_renderer *renderer;
     const char   *examples;
+    bool          brief;
     int           mistakes, drawn;
+    plain_picture plain[PLAIN_MAX];
+    size_t        plain_count;
 } fixture;
 
 /* Parameters that cannot change this picture, with the reason. */
@@ -104,10 +120,31 @@ static lmn_drawing *draw(fixture *f, const lmn_scene *scene, const lmn_look *loo
     return NULL;
 }
 
-static bool are_equal(const lmn_drawing *a, const lmn_drawing *b)
+static bool are_equal(const uint8_t *pixels, const lmn_drawing *drawing)
 {
     int width, height;
-    return memcmp(lmn_drawing_pixels(a, &width, &height), lmn_drawing_pixels(b, &width, &height), (size_t)SIDE * SIDE * 4) == 0;
+    return memcmp(pixels, lmn_drawing_pixels(drawing, &width, &height), (size_t)SIDE * SIDE * 4) == 0;
+}
+
+/* Lent; NULL when it cannot be drawn. `look` has what the parameter asks for, and nothing else. */
+static const uint8_t *plain_of(fixture *f, const lmn_scene *scene, const technique *t, const param *p, const lmn_look *look, const char *what)
+{
+    for (size_t i = 0; i < f->plain_count; i++) {
+        const plain_picture *known = &f->plain[i];
+        bool same = known->only_if && p->only_if ? strcmp(known->only_if, p->only_if) == 0 : known->only_if == p->only_if;
+        if (same && known->technique == t && known->scene == scene)
+            return known->pixels;
+    }
+    lmn_drawing *drawing = f->plain_count < PLAIN_MAX ? draw(f, scene, look, what) : NULL;
+    uint8_t     *pixels = drawing ? malloc((size_t)SIDE * SIDE * 4) : NULL;
+    int          width, height;
+    if (pixels) {
+        memcpy(pixels, lmn_drawing_pixels(drawing, &width, &height), (size_t)SIDE * SIDE * 4);
+        f->plain[f->plain_count++] = (plain_picture){t, scene, p->only_if, pixels};
+    } else
+        f->mistakes++;
+    lmn_drawing_destroy(&drawing);
+    return pixels;
 }
 
 /* Values worth trying; a number's extremes come first. */
@@ -195,20 +232,21 @@ static bool check_param(fixture *f, const kind *k, const technique *t, const par
         lmn_look_set(look, "0:surface.technique", "lit", NULL);
     make_condition_hold(look, k, t, p->only_if);
     const lmn_scene *scene = is_of_solids(k, p) ? f->solid : f->scene;
-    lmn_drawing *before = draw(f, scene, look, path);
+    const uint8_t *before = plain_of(f, scene, t, p, look, path);
     size_t count = values_of(p, values);
-    bool changed = false;
+    bool changed = false, briefly = f->brief && !p->variant && !p->toggles;
+    size_t first = briefly && count > 1 && p->def <= p->min ? 1 : 0; /* the least value is often the one that is there already */
     for (size_t i = 0; i < count && before; i++) {
-        if (changed && i >= 2) /* the two extremes are drawn in any case */
+        if (changed && (briefly || i >= 2)) /* the two extremes are drawn in any case */
             break;
-        if (lmn_look_set(look, path, values[i], NULL) != LMN_OK)
+        const char *value = values[(first + i) % count];
+        if (lmn_look_set(look, path, value, NULL) != LMN_OK)
             continue;
-        snprintf(what, sizeof what, "%.60s: %.90s=%.90s", t->name, path, values[i]);
+        snprintf(what, sizeof what, "%.60s: %.90s=%.90s", t->name, path, value);
         lmn_drawing *after = draw(f, scene, look, what);
         changed = changed || (after && !are_equal(before, after));
         lmn_drawing_destroy(&after);
     }
-    lmn_drawing_destroy(&before);
     lmn_look_destroy(&look);
     return changed;
 }
@@ -304,12 +342,16 @@ static int end_fixture(void **state)
     lmn_scene_destroy(&f->scene);
     lmn_scene_destroy(&f->solid);
     lmn_renderer_destroy(&f->renderer);
+    for (size_t i = 0; i < f->plain_count; i++)
+        free(f->plain[i].pixels);
     return 0;
 }
 
 int main(int count, char **arguments)
 {
-    fixture f = {.examples = count > 1 ? arguments[1] : "examples"};
+    static fixture f;
+    f.examples = count > 1 ? arguments[1] : "examples";
+    f.brief = count > 2 && strcmp(arguments[2], "briefly") == 0;
     const struct CMUnitTest tests[] = {cmocka_unit_test_prestate_setup_teardown(test_every_parameter, make_fixture, end_fixture, &f)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
