@@ -69,6 +69,7 @@ static void ragged_tones(void)
         worst = fmax(worst, fabs(ink - i / 48.0));
         last = ink;
     }
+    check_at_most("P21", wall_ink("\"overlays\":1,\"ragged\":2", 0, LEAD_8B), 0, "ragged: ink where none is wanted");
     check_at_most("P21", worst, 1.0 / 12, "ragged: ink off the wanted darkness, at most");
     check_at_most("P20", step, 0.06, "largest step of a ramp of 49 tones, which without is a sixth");
 }

@@ -338,7 +338,6 @@ static void ways_on_thin_tubes(void)
         int   all = 0, off = 0;
         shape_torus(&s, "ring", 1.2, radii[k], 400, 64);
         shape_place(&s, dvec_of(1, 0, 0), 90, dvec_of(0, 0, 0));
-        shape_make_normals(&s, 60);
         const shot_view view = {.width = 480, .height = 360, .eye = {0, 0, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = true};
         if (shot_of_shape(&got, &s, "tube.glb", form_look, NULL, &view) && check_that("P27", got.direction != NULL, "there is a map of directions"))
             for (int y = got.height - 3; y >= 2; y -= 4)
