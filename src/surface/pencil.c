@@ -25,7 +25,7 @@ static const param params[] = {
                    .doc = "hatching: strokes with gaps, in so many tones; gradation: strokes cover each other, and tones pass into one another."),
     PARAM_INT_ROW(pencil_values, overlays, .def = 2, .min = 1, .max = 6, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "How often the surface is gone over; each time has its part of the darkness and turns a little."),
-    PARAM_FLOAT_ROW(pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES,
+    PARAM_FLOAT_ROW(pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES, .only_if = "overlays>1",
                     .doc = "How far each time turns besides; on the page each has ways of its own between those of the others, which hides where they meet."),
     PARAM_ENUM_ROW(pencil_values, lead, .names = lead_grade_names, .def = LEAD_4B, .cpu_only = true, .doc = "The lead, from hard and light to soft and dark."),
     PARAM_FLOAT_ROW(pencil_values, gloss, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of a small highlight that stays bare."),

@@ -57,6 +57,14 @@ float cover_of(float darkness, int overlay)
 #define INKS 0
 #include "surface/halftone/inks.glsl"
 
+/* Parts' own colours stand for light on dark paper; on light paper also those that are lighter than it stand for shade. */
+float darkness_in(vec3 ink, float tone)
+{
+    float paper = dot(mix(vec3(1.0), u_paper.rgb, u_paper.a), LUMINANCE);
+    bool light = paper < 0.2 && dot(ink, LUMINANCE) > paper;
+    return u_ink_tint < 0.5 ? darkness_of(tone) : light ? tone : 1.0 - tone;
+}
+
 vec4 surface_colour(surface_point p)
 {
     s_point = p;
@@ -65,11 +73,11 @@ vec4 surface_colour(surface_point p)
 #ifdef WITH_GLOSS
     tone += u_gloss * highlight(p, 24.0);
 #endif
-    float darkness = focused(p, clamp(darkness_of(tone), 0.0, 1.0));
+    vec3 own = mix(u_ink.rgb, p.albedo.rgb, u_ink_tint);
+    float darkness = focused(p, clamp(darkness_in(own, tone), 0.0, 1.0));
     /* Every time over has its part, so that together they are as dark as wanted. */
     float part = darkness_of_share(darkness, 1.0 / float(OVERLAYS));
     vec4 paper = paper_of(p);
-    vec3 own = mix(u_ink.rgb, p.albedo.rgb, u_ink_tint);
     vec3 left = vec3(1.0);
     float bare = 1.0;
     for (int i = 0; i < OVERLAYS; i++) {
@@ -78,12 +86,11 @@ vec4 surface_colour(surface_point p)
         left *= 1.0 - cover * pencil.a * (1.0 - pencil.rgb);
         bare *= 1.0 - cover;
     }
-    /* Row P32: graphite covers what is not covered yet, up to what the lead can do. Row P34: coloured pencils each take their colours away. */
-    vec3 graphite = 1.0 - (1.0 - bare) * u_numbers[0].x * u_ink.a * (1.0 - own);
-    vec3 rest = u_pencils_count > 1 ? 1.0 - (1.0 - left) * u_numbers[0].x : graphite;
-    /* Light pencils lie on dark paper as chalk does. Where there is no paper, ink gets as thin as it can be and be the same on white. */
-    if (u_pencils_count < 2 && strokes_are_light())
+    /* Row P32: graphite and wax cover what is not covered yet, up to what the lead can do; on dark paper, too. */
+    if (u_pencils_count < 2)
         return laid_over(paper, vec4(own, 1.0), (1.0 - bare) * u_numbers[0].x * u_ink.a);
+    /* Row P34: coloured pencils each take their colours away. Where there is no paper, ink gets as thin as it can be and be the same on white. */
+    vec3 rest = 1.0 - (1.0 - left) * u_numbers[0].x;
     float clear = min(rest.r, min(rest.g, rest.b));
     return vec4(paper.rgb * rest, paper.a) + (1.0 - paper.a) * vec4(rest - clear, 1.0 - clear);
 }

@@ -24,7 +24,8 @@ vec3 eye_at(ivec2 pixel, float depth)
 
 /* What neighbours say: sums of u², uv, v², uσ, vσ + uτ, vτ. */
 struct ray_sums {
-    vec3 places, turns;
+    vec3  places, turns;
+    float count;
 };
 
 void add_ray(inout ray_sums sums, ivec2 pixel, vec3 origin, mat3 frame)
@@ -35,6 +36,7 @@ void add_ray(inout ray_sums sums, ivec2 pixel, vec3 origin, mat3 frame)
     float counts = normal.z > 0.7 && abs(place.z) < 0.6 * length(place.xy) ? 1.0 : 0.0;
     vec2 turn = normal.xy / max(normal.z, 0.7), at = place.xy - place.z * turn;
     sums.places += counts * vec3(at.x * at.x, at.x * at.y, at.y * at.y);
+    sums.count += counts;
     sums.turns += counts * vec3(at.x * turn.x, at.y * turn.x + at.x * turn.y, at.y * turn.y);
 }
 
@@ -56,7 +58,7 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     vec4 own = texelFetch(t_normal_depth, pixel, 0);
     vec3 origin = eye_at(pixel, own.w);
     mat3 frame = frame_around(own.xyz);
-    ray_sums sums = ray_sums(vec3(0.0), vec3(0.0));
+    ray_sums sums = ray_sums(vec3(0.0), vec3(0.0), 0.0);
     add_ray(sums, pixel + ivec2(STEP, 0), origin, frame);
     add_ray(sums, pixel - ivec2(STEP, 0), origin, frame);
     add_ray(sums, pixel + ivec2(0, STEP), origin, frame);
@@ -69,14 +71,17 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     float pixel_length = 2.0 * u_unproject.y / u_size.y * (u_perspective > 0.5 ? own.w : 1.0);
     /* A normal that hardly turns from pixel to pixel does not turn; one that turns very much is an edge's, which has no room for strokes of its own. */
     float turn = (apart + abs(mean)) * pixel_length;
-    float sure = unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.05, 0.12, turn)) * (0.15 + 0.85 * smoothstep(0.0, 0.006, turn));
+    /* Directions of curvatures that are alike are an accident of rounding, and so are those that fewer than three neighbours tell: there what lies beside, and the plain
+     * way, take over. */
+    float own_way = smoothstep(0.02, 0.1, unlike) * step(2.5, sums.count);
+    float sure = own_way * unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.035, 0.08, turn)) * (0.15 + 0.85 * smoothstep(0.0, 0.006, turn));
     vec2 way = apart > 0.0 ? doubled * ((mean < 0.0 ? -1.0 : 1.0) / apart) : vec2(1.0, 0.0);
     vec2 bent = on_page(origin, tangent_of(way, frame));
     part_frame part = frame_of_part(id.r);
     mat3 to_part = part.turn * mat3(u_world_from_eye);
     vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward, part.level) * to_part);
     /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a way of their own. */
-    return bent * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure)));
+    return bent * sure + plain * (0.03 * max(1.0 - smoothstep(0.0, 0.08, sure), 1.0 - own_way));
 }
 
 void main()
