@@ -219,6 +219,21 @@ static lmn_status bring_textures(lmn_renderer *r, plan *p, bool maps, warnings *
     return status;
 }
 
+/* Shadows that were asked for and cannot be. */
+static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *notes)
+{
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    if (!v->shadows || v->lights != LIGHTS_FILE)
+        return;
+    for (size_t i = 0; i < scene->node_count; i++) {
+        if (scene->nodes[i].light < 0)
+            continue;
+        if (scene->lights[scene->nodes[i].light].type != LIGHT_DIRECTIONAL)
+            warnings_add(notes, WARNING_UNUSED, "scene.shadows: the file's first light shines from a place; only light from one direction throws shadows");
+        return;
+    }
+}
+
 lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                         bool maps, warnings *notes, lmn_error *error)
 {
@@ -232,6 +247,8 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
         status = find_ground(&wishes.ground, look, desc, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
+    if (status == LMN_OK)
+        note_lights(scene, look, notes);
     if (status == LMN_OK)
         status = bring_textures(r, &s->plan, maps, notes, error);
     if (status == LMN_OK)

@@ -402,6 +402,21 @@ static void place_sheet(double s, double t, const void *user, halftone_corner *o
     }
 }
 
+/* A lamp throws no shadows: that is said. */
+static void lamps_have_no_shadows(void)
+{
+    for (int wanted = 0; wanted < 2; wanted++) {
+        shot           s;
+        halftone_scene scene = {.lights = {{0.5, 0.5, 0.4}}, .light_count = 1};
+        const shot_view view = halftone_view(64, 64, 64);
+        halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
+        if (halftone_shot(&s, &scene, "lamp.gltf", halftone_look_with("hatch\"", wanted ? "\"lights\":\"file\",\"shadows\":true" : "\"lights\":\"file\"", ""), NULL, &view))
+            check_near("P30", shot_has_warning(&s, "unused"), wanted, 0, "a warning about shadows of a lamp, %s", wanted ? "asked for" : "not asked for");
+        shot_release(&s);
+        halftone_release(&scene);
+    }
+}
+
 static void mirrored_hatching_has_edges(void)
 {
     static const char *const forms[] = {"hatch", "screen"};
@@ -443,6 +458,7 @@ static void mirrored_hatching_has_edges(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
+        {"lamps", lamps_have_no_shadows},
         {"indication", indication_shifts_tone}, {"limit", indication_limits_tone}, {"relief", strokes_have_flanks}, {"whole", whole_or_not_at_all},
         {"light-map", light_map_is_the_light}, {"tiles", tiles_are_lit_apart}, {"cylinder", whole_on_a_cylinder}, {"shadows", shadows_are_denser_strokes},
         {"mirror", mirrored_hatching_has_edges},
