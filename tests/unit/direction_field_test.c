@@ -1,4 +1,4 @@
-/* Fields of directions against surfaces whose curvature is known, and on meshes that are barely meshes. */
+/* Fields of directions against surfaces whose curvature is known, and on meshes that are barely meshes. Row P26 of the notes on pencils. */
 #include "field_shapes.h"
 
 #include "scene/direction_field.h"
