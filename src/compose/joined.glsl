@@ -78,7 +78,7 @@ vec4 ink_of_copies(inout float depth)
     for (int once = 0; once < drawn; once++) {
         float nearest = depth_of_ink(line_place(inked));
 #ifdef HAS_FOCUS
-        ink *= in_focus_of_window(nearest);
+        ink *= in_focus_of_window(nearest < 1.0 ? nearest : fill_depth);
 #endif
         depth = min(depth, nearest);
     }
