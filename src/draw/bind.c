@@ -120,9 +120,9 @@ static void set_focus(frame *f)
 /* Where the middle of all that is drawn lies on the page: strokes on the page move with it. */
 static void set_anchor(frame *f)
 {
-    box3 box = f->plan->box;
     const double *view = f->camera.view.m, *projection = f->camera.projection.m;
-    double middle[3] = {((double)box.min.x + (double)box.max.x) / 2, ((double)box.min.y + (double)box.max.y) / 2, ((double)box.min.z + (double)box.max.z) / 2}, eye[3];
+    double middle[3], eye[3];
+    box3_middle(f->plan->box, middle);
     for (int k = 0; k < 3; k++)
         eye[k] = view[k] * middle[0] + view[4 + k] * middle[1] + view[8 + k] * middle[2] + view[12 + k];
     double depth = f->camera.orthographic ? 1 : fmax(-eye[2], f->camera.near);

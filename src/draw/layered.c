@@ -57,7 +57,7 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
 static void forget_lines(frame *f, layer_stack *stack)
 {
     static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH, TARGET_OVERSHOOT,
-                                 TARGET_OUTLINES,                                 TARGET_ENLARGED, TARGET_TRACES, TARGET_TRACES_ROW, TARGET_UNCERTAINTY, TARGET_FIELD};
+                                 TARGET_OUTLINES, TARGET_ENLARGED, TARGET_TRACES, TARGET_TRACES_ROW, TARGET_UNCERTAINTY, TARGET_FIELD};
     for (int i = 0; i < stack->count; i++)
         for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
             gpu_target_release(f->g, stack->states[i].targets[own[k]]);

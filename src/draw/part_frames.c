@@ -181,11 +181,8 @@ gpu_texture *upload_part_frames(upload *u, gpu *g, const lmn_scene *scene)
     box3 box = box3_empty();
     for (size_t i = 0; i < u->part_count; i++)
         box = box3_union(box, u->part_boxes[i]);
-    if (!box3_is_empty(box)) {
-        u->frame_origin[0] = ((double)box.min.x + (double)box.max.x) / 2;
-        u->frame_origin[1] = ((double)box.min.y + (double)box.max.y) / 2;
-        u->frame_origin[2] = ((double)box.min.z + (double)box.max.z) / 2;
-    }
+    if (!box3_is_empty(box))
+        box3_middle(box, u->frame_origin);
     if (values && movers && animated) {
         mark_animated(scene, animated);
         write_frames(u, scene, movers, animated, values);

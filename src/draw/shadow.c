@@ -42,7 +42,8 @@ static view_camera camera_of_light(box3 box, const double back[3])
     cross(seed, back, right);
     scale_to(right, 1);
     cross(back, right, up);
-    double middle[3] = {((double)box.min.x + (double)box.max.x) / 2, ((double)box.min.y + (double)box.max.y) / 2, ((double)box.min.z + (double)box.max.z) / 2};
+    double middle[3];
+    box3_middle(box, middle);
     double half[3] = {((double)box.max.x - (double)box.min.x) / 2, ((double)box.max.y - (double)box.min.y) / 2, ((double)box.max.z - (double)box.min.z) / 2};
     double reach = sqrt(dot(half, half)), side = 0;
     const double *axes[2] = {right, up};

@@ -65,17 +65,11 @@ static lmn_status add_instances(upload *u, gpu *g, const lmn_scene *scene, uploa
     return status;
 }
 
-static double diagonal(box3 b)
-{
-    double x = (double)b.max.x - b.min.x, y = (double)b.max.y - b.min.y, z = (double)b.max.z - b.min.z;
-    return sqrt(x * x + y * y + z * z);
-}
-
 /* Where parts overlap, their cut faces lie in the same place: the smaller part's is seen, as within a part. Steps are a few
  * times what interpolated depth is off. */
 static float nearer_of(const upload *u, const lmn_scene *scene, size_t part_index)
 {
-    double share = u->extent > 0 ? diagonal(scene->parts[part_index].bounds) / u->extent : 1;
+    double share = u->extent > 0 ? box3_diagonal(scene->parts[part_index].bounds) / u->extent : 1;
     int level = (int)(6 * (1 - sqrt(fmin(fmax(share, 0), 1))));
     return (float)(8 * level + (int)(part_index % 8)) * 3e-7f;
 }
@@ -145,7 +139,7 @@ static lmn_status open_upload(upload *out, const lmn_scene *scene, upload_desc *
     box3 box = box3_empty();
     for (size_t i = 0; i < scene->part_count; i++)
         box = box3_union(box, scene->parts[i].bounds);
-    out->extent = box3_is_empty(box) ? 0 : diagonal(box);
+    out->extent = box3_is_empty(box) ? 0 : box3_diagonal(box);
     return LMN_OK;
 }
 

@@ -19,12 +19,6 @@ static const scene_values *values_of(const frame *f)
     return f->plan->look->wide[KIND_SCENE].values;
 }
 
-static double diagonal(box3 b)
-{
-    double x = (double)b.max.x - (double)b.min.x, y = (double)b.max.y - (double)b.min.y, z = (double)b.max.z - (double)b.min.z;
-    return sqrt(x * x + y * y + z * z);
-}
-
 static void set_places(const frame *f, int width, int height)
 {
     const double *m = f->camera.projection.m;
@@ -64,7 +58,7 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
     gpu_set_texture(f->g, "t_depth", depth, false);
     if (shadow_is_soft(f))
         shadow_set(f);
-    gpu_set_float(f->g, "u_radius", (float)((double)v->occlusion_radius * diagonal(f->plan->box)));
+    gpu_set_float(f->g, "u_radius", (float)((double)v->occlusion_radius * box3_diagonal(f->plan->box)));
     gpu_draw_screen(f->g);
 }
 

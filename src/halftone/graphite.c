@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/colour.h"
 #include "base/memory.h"
 #include "halftone/random.h"
 #include "halftone/strokes.h"
@@ -19,8 +20,7 @@ float lead_darkest(lead_grade grade)
 
 float lead_ink(lead_grade grade)
 {
-    double seen = 1 - (double)lead_darkest(grade);
-    return (float)(1 - (seen <= 0.04045 ? seen / 12.92 : pow((seen + 0.055) / 1.055, 2.4)));
+    return 1 - colour_to_linear(1 - lead_darkest(grade));
 }
 
 /* --- clouds ------------------------------------------------------------------------------------------------------- */

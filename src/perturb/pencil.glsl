@@ -35,12 +35,11 @@ vec2 near_sine(vec2 angle)
 }
 
 #ifdef WITH_OVERRUN
+#include "gpu/hash.glsl"
+
 float band_noise(float band)
 {
-    uint hash = uint(int(band)) * 0x9e3779b1u;
-    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
-    hash ^= hash >> 13u;
-    return float(int(hash & 0xFFFFu)) * (2.0 / 65535.0) - 1.0;
+    return corner_noise(uint(int(band)) * 0x9e3779b1u).x;
 }
 
 /* The fill, moved along its strokes by another way in each band. */

@@ -287,6 +287,8 @@ mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3]);
 box3 box3_empty(void);
 bool box3_is_empty(box3 b);
 box3 box3_union(box3 a, box3 b);
+void box3_middle(box3 b, double out[3]);
+double box3_diagonal(box3 b); /* its length */
 bool box3_overlap(box3 a, box3 b); /* do they share more than their borders? */
 box3 box3_intersection(box3 a, box3 b); /* empty unless they overlap */
 box3 box3_with_point(box3 b, vec3 p);

@@ -109,6 +109,19 @@ box3 box3_intersection(box3 a, box3 b)
                   {fminf(a.max.x, b.max.x), fminf(a.max.y, b.max.y), fminf(a.max.z, b.max.z)}};
 }
 
+void box3_middle(box3 b, double out[3])
+{
+    out[0] = ((double)b.min.x + (double)b.max.x) / 2;
+    out[1] = ((double)b.min.y + (double)b.max.y) / 2;
+    out[2] = ((double)b.min.z + (double)b.max.z) / 2;
+}
+
+double box3_diagonal(box3 b)
+{
+    double x = (double)b.max.x - (double)b.min.x, y = (double)b.max.y - (double)b.min.y, z = (double)b.max.z - (double)b.min.z;
+    return sqrt(x * x + y * y + z * z);
+}
+
 box3 box3_union(box3 a, box3 b)
 {
     return (box3){{smaller(a.min.x, b.min.x), smaller(a.min.y, b.min.y), smaller(a.min.z, b.min.z)},

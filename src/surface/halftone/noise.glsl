@@ -25,14 +25,6 @@ float number_of(uint hash)
     return float(int(hash >> 8u)) * (1.0 / 16777215.0);
 }
 
-/* Two independent values. By way of signed numbers: software drivers turn these into floats in one step. */
-vec2 corner_noise(uint hash)
-{
-    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
-    hash ^= hash >> 13u;
-    return vec2(ivec2(int(hash & 0xFFFFu), int(hash >> 16u))) * (2.0 / 65535.0) - 1.0;
-}
-
 /* Smooth noise in the plane, −1 … 1. */
 vec2 plane_noise(vec2 at, uint seed)
 {

@@ -1,4 +1,5 @@
 /* Looking a darkness up in a stack of tones t_tones, each of which holds the strokes of those before: row P20. MIXES_TONES: two tones may mix. */
+#include "gpu/hash.glsl"
 
 /* Ink of a tone: 0 is paper, then the pictures of the map. */
 float tone_ink(vec2 at, float level, float tone)
@@ -16,9 +17,8 @@ float map_ink(vec2 at, float level, float darkness)
 #else
 #ifdef WITH_RAGGED
     /* Each band as wide as a stroke or two has a border of its own. */
-    uint hash = uint(int(floor(at.y * u_tones_facts.x * 0.4))) * 0x9e3779b1u;
-    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
-    wanted = clamp(wanted + u_ragged * (float(int(hash >> 16u)) * (1.0 / 65535.0) - 0.5) * min(wanted, 1.0), 0.0, count);
+    float own = corner_noise(uint(int(floor(at.y * u_tones_facts.x * 0.4))) * 0x9e3779b1u).y;
+    wanted = clamp(wanted + 0.5 * u_ragged * own * min(wanted, 1.0), 0.0, count);
 #endif
     return tone_ink(at, level, floor(wanted + 0.5));
 #endif
