@@ -1,0 +1,63 @@
+/* Neutral output: what lies on a sheet of paper, in the order in which it is drawn. Everything that writes vectors sees only this. Origin at the top left, x to the right,
+ * y down, in millimetres. Arrays belong to the sheet. */
+#ifndef LIMNER_SHEET_SHEET_H
+#define LIMNER_SHEET_SHEET_H
+
+#include "base/colour.h"
+#include "base/error.h"
+
+typedef enum sheet_kind { SHEET_PATH, SHEET_DOTS, SHEET_IMAGE, SHEET_TEXT } sheet_kind;
+typedef enum sheet_cap { SHEET_CAP_ROUND, SHEET_CAP_BUTT } sheet_cap;
+
+/* A run of points: lines between them, or dots at them. */
+typedef struct sheet_path {
+    uint32_t  first, count;  /* in the sheet's points */
+    bool      closed, filled; /* filled: the area in it, even-odd with the paths of the same item; else a line */
+    float     width;         /* of a line, or diameter of dots, mm */
+    float     dash, gap;     /* mm; dash 0: unbroken */
+    float     phase;
+    sheet_cap cap;
+} sheet_path;
+
+typedef struct sheet_item {
+    sheet_kind kind;
+    uint32_t   group;        /* in the sheet's groups */
+    colour     ink;          /* linear, straight alpha */
+    uint64_t   id;           /* 0: none; in hexadecimal it names the item */
+    uint32_t   first, count; /* paths */
+    /* images: PNG bytes, owned; place and size */
+    unsigned char *png;
+    size_t     png_size;
+    double     box[4];       /* x, y, width, height */
+    /* text, owned; box[0], box[1] is where its baseline begins, box[3] its size */
+    char      *text;
+    int32_t    anchor;       /* −1 begins there, 0 is centred, 1 ends there */
+} sheet_item;
+
+/* What belongs together: a view, a part in it, a class of lines of that part. Groups form a tree; a group comes behind its parent. */
+typedef struct sheet_group {
+    int32_t  parent;         /* −1: none */
+    char    *name;           /* "view-front", the part's name, "contour"; owned */
+    char    *css_class;      /* NULL or names of classes, owned */
+    uint32_t part;           /* id; 0: none */
+    double   clip[4];        /* x, y, width, height; width 0: not cut */
+} sheet_group;
+
+typedef struct sheet {
+    double       width, height; /* mm */
+    double       pixels_per_mm; /* of the page that the drawing was made for */
+    colour       ground;        /* alpha 0: none */
+    char        *title, *description; /* owned; NULL: none */
+    sheet_group *groups;
+    size_t       group_count, group_capacity;
+    sheet_item  *items;
+    size_t       item_count, item_capacity;
+    sheet_path  *paths;
+    size_t       path_count, path_capacity;
+    float      (*points)[2];
+    size_t       point_count, point_capacity;
+} sheet;
+
+void sheet_release(sheet *s);
+
+#endif

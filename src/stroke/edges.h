@@ -1,0 +1,46 @@
+/* Edges of meshes, sorted before anything is drawn into those that are always lines, those that may become an outline, and the rest,
+ * which never are. Seed 001, section 7.1; rows OE-01 to OE-04. */
+#ifndef LIMNER_STROKE_EDGES_H
+#define LIMNER_STROKE_EDGES_H
+
+#include "scene/scene.h"
+
+#define EDGE_NO_FACE UINT32_MAX
+
+typedef enum edge_flag {
+    EDGE_BORDER    = 1 << 0, /* one face only, or faces that do not pair */
+    EDGE_CREASE    = 1 << 1, /* its faces turn by more than the crease angle, or the file says that it is hard */
+    EDGE_MATERIAL  = 1 << 2, /* its faces have different materials */
+    EDGE_CANDIDATE = 1 << 3, /* an outline from where one face is seen from the front and the other from behind: smooth and strictly convex, or
+                              * smooth and not flat where the piece it belongs to is not closed */
+    EDGE_SILENT    = 1 << 4  /* the file says that it is no line, not even as an outline */
+} edge_flag;
+
+/* One edge. Its faces, as seen along it from vertex[0] to vertex[1]: face[0] is the one whose winding has it in this order. */
+typedef struct mesh_edge {
+    uint32_t vertex[2];
+    uint32_t face[2]; /* EDGE_NO_FACE: none */
+    uint32_t flags;   /* of edge_flag, not 0 */
+} mesh_edge;
+
+/* A mesh with all its primitives welded by position: vertices that lie at one place are one. Triangles that were there twice are one, those without area
+ * are gone. Places are the mesh's own. */
+typedef struct edge_mesh {
+    uint32_t   vertex_count, face_count, edge_count, piece_count;
+    vec3      *places;
+    uint32_t (*faces)[3];
+    vec3      *normals;   /* per face, unit, by winding */
+    int32_t   *materials; /* per face; NULL: all alike */
+    mesh_edge *edges;     /* those with flags, in a fixed order */
+    uint32_t  *pieces;    /* per face: what hangs together over edges, numbered from 0 */
+    bool      *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
+    box3      *boxes;     /* per piece */
+    uint32_t   all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
+} edge_mesh;
+
+/* Sorts the edges of a mesh; crease_angle in radians. `places` (may be NULL) replaces the positions of all primitives, one after the other, where the mesh
+ * has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
+lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error);
+void       edge_mesh_release(edge_mesh *m);
+
+#endif

@@ -1,0 +1,134 @@
+/* Strokes: lines with geometry. From a scene and a camera to chains of points on the page, each stretch with the number of surfaces in front of it.
+ * Needs no GPU. Seed 001, chapter 7.
+ *
+ *   stroke_scene: edges of all parts, once a scene ──► stroke_view: what a camera sees of it ──► stroke_set: the lines that were asked for
+ *
+ * The page has its origin at the top left, x to the right, y down, in pixels; what lies outside it is cut off. */
+#ifndef LIMNER_STROKE_STROKE_H
+#define LIMNER_STROKE_STROKE_H
+
+#include "limner/error.h"
+#include "scene/scene.h"
+#include "stroke/edges.h"
+
+/* What a line is, most important first. A line that is several of these is the first of them. */
+typedef enum stroke_class {
+    STROKE_CONTOUR,      /* where a surface turns away from the eye */
+    STROKE_BORDER,       /* where a surface ends */
+    STROKE_CREASE,
+    STROKE_INTERSECTION, /* where two surfaces run through each other */
+    STROKE_MATERIAL,
+    STROKE_SUGGESTIVE,   /* where a contour would appear if the eye moved a little */
+    STROKE_RIDGE,
+    STROKE_VALLEY,
+    STROKE_APPARENT,     /* apparent ridge: where what is seen bends most */
+    STROKE_CLASS_COUNT
+} stroke_class;
+/* "contour", "border" …: names in files, reports and looks. */
+const char *stroke_class_name(stroke_class c);
+
+typedef struct stroke_point {
+    float x, y;
+    float depth;  /* eye depth, file units */
+    float arc;    /* length along the whole chain up to here, pixels */
+    float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
+} stroke_point;
+
+/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order. */
+typedef struct stroke {
+    stroke_class kind;
+    uint32_t     part;        /* id */
+    uint32_t     hidden_by;   /* surfaces in front; 0: visible */
+    uint32_t     chain;       /* number of the chain, from 0 */
+    uint64_t     id;          /* of the chain: the same as long as its most lasting edge is in it, from frame to frame */
+    uint32_t     first, count; /* points; neighbours in a chain both have the point between them */
+    bool         closed;      /* the whole chain is this stroke and ends where it began, the first point once more */
+    float        phase;       /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
+    float        chain_length; /* pixels */
+} stroke;
+
+typedef struct stroke_set {
+    stroke       *strokes;
+    stroke_point *points;
+    size_t        stroke_count, point_count, chain_count;
+    uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
+} stroke_set;
+void stroke_set_release(stroke_set *s);
+
+/* --- the scene ---------------------------------------------------------------------------------------------------- */
+
+/* One part at one place. */
+typedef struct stroke_item {
+    uint32_t part_index; /* id − 1 */
+    uint32_t mesh;       /* in the scene's edge meshes */
+    mat4     world;
+} stroke_item;
+
+typedef struct stroke_scene {
+    edge_mesh   *meshes;
+    size_t       mesh_count;
+    stroke_item *items;
+    size_t       item_count;
+    double       extent; /* diagonal of all */
+} stroke_scene;
+
+/* Takes the parts with `parts[index]` (NULL: all) in their rest pose; worlds as scene_world_matrices gives them. Solids have no triangles and are left out.
+ * Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+                               lmn_progress_fn progress, void *user, lmn_error *error);
+void       stroke_scene_release(stroke_scene *s);
+
+/* --- the view ----------------------------------------------------------------------------------------------------- */
+
+typedef struct stroke_camera {
+    mat4   view, projection; /* GL's; near and far do not matter, but what is nearer than the near plane is cut off */
+    double near;             /* eye depth, above 0 in perspective */
+    bool   orthographic;
+    int    width, height;    /* of the page, pixels */
+} stroke_camera;
+
+typedef struct stroke_view stroke_view;
+/* Projects the scene, which is borrowed until the view is destroyed. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, const stroke_camera *camera, lmn_progress_fn progress, void *user,
+                              lmn_error *error);
+void       stroke_view_destroy(stroke_view **v);
+
+/* How many surfaces lie in front of each of these places (world axes), UINT32_MAX for those outside the page. What a place lies on does not count. Any thread. */
+void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t count, uint32_t *out);
+
+typedef enum contour_kind {
+    CONTOURS_NONE,
+    CONTOURS_EDGES,  /* edges of the mesh between front and back: exactly the outline of what is there */
+    CONTOURS_SMOOTH  /* where the interpolated normal is at right angles to the view: the outline of the surface that is meant */
+} contour_kind;
+
+/* Which lines are wanted. */
+typedef struct stroke_wishes {
+    int32_t contours; /* contour_kind */
+    int32_t creases, borders, materials, intersections; /* bool */
+    float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
+    int32_t hidden;    /* bool: stretches behind surfaces too */
+    float   simplify;  /* by how much points may be moved, pixels */
+    float   shortest;  /* chains shorter than this are left out, pixels */
+} stroke_wishes;
+#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f}
+
+/* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
+ * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+                       lmn_error *error);
+
+/* What `stroke_verify` found. */
+typedef struct stroke_check {
+    uint64_t samples, wrong;
+} stroke_check;
+/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample
+ * counts as wrong when no place within half a pixel along the stroke has the count that the stroke claims (hidden or not, when `visible_only`). Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
+                         lmn_error *error);
+
+/* Gives strokes of a new frame the phases of those of the frame before: chains that share their id keep what repeats along them where it was on the
+ * model; where chains split or merge, the longest one that is known hands over. Seed: nienhaus; peers.md section 5. */
+void stroke_follow(stroke_set *now, const stroke_set *before);
+
+#endif
