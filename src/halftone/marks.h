@@ -24,6 +24,7 @@ typedef struct mark_dot {
     vec3     place, normal;
     float    share[2]; /* of the triangle's second and third corner */
     float    priority; /* 1 − rank / count; every prefix of the ranks is evenly spread */
+    float    bright;   /* of what it lies on, 0 … 1, as the eye counts it: set by who knows the material; 1 */
     uint32_t triangle;
 } mark_dot;
 
@@ -32,8 +33,12 @@ typedef struct mark_line {
     vec3     a, b, normal;
     vec3     middle, middle_normal; /* of the whole stroke: where its tone is decided, so that it is drawn whole */
     float    light, perspective;    /* priorities */
+    float    span;                  /* 0: two thresholds (EX-01). Else the light priority is the top of a layer that is this wide, and within it the share
+                                     * that light asks for is multiplied by that of distance, so that one order serves both (EX-31) */
     float    from, to;              /* along the stroke, model units, from its beginning */
     float    length;                /* of the whole stroke, model units */
+    float    density;               /* length of all strokes there to a unit of area */
+    float    bright;                /* as a dot's */
     uint32_t triangle, stroke;
 } mark_line;
 
@@ -71,7 +76,7 @@ bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, 
 
 typedef struct tile_wishes {
     float  repeat;  /* how many times the unit square of strokes lies on the unit of texture coordinates */
-    float  jitter;  /* how far copies of a stroke are moved, share of the square (EX-33) */
+    float  jitter;  /* how far copies of a stroke are moved, share of the square, at most 0.5 (EX-33) */
     float  turn;    /* turns the strokes, radians */
     uint32_t seed;
     /* Indication (EX-28): a grey map over texture coordinates, 0 … 1, row 0 at the bottom; 0.5 changes nothing. NULL: none. */
@@ -136,13 +141,16 @@ typedef enum mark_law {
     MARK_LAW_DOT     /* for dots, which do not get smaller */
 } mark_law;
 
-/* 1 − t of the thesis' three thresholds (EX-03 to EX-05): share of the marks to be drawn at an eye-space place when all are drawn face-on at distance `d`. Not clamped. */
+/* 1 − t of the thesis' thresholds (EX-03, EX-04): share of the marks to be drawn at an eye-space place when all are drawn face-on at distance `d`. Not clamped. */
 double mark_share_by_distance(const double place[3], double d);
 double mark_share_by_slope(const double place[3], const double normal[3]);
-double mark_share(mark_law law, const double place[3], const double normal[3], const double way[3], double d);
+/* Both together, by one of the laws (EX-05). `way`: unit, of a line. The last two laws are exact off the picture's middle too. Without perspective d is a number to a unit of length. */
+double mark_share(mark_law law, const double place[3], const double normal[3], const double way[3], double d, bool orthographic);
 
-/* Page area, in pixels, of a unit of a surface's area (EX-02); `focal`: of the projection, pixels at depth 1. */
+/* Page area, in pixels, of a unit of a surface's area (EX-02); `focal`: of the projection, pixels at depth 1, or to a unit without perspective. */
 double mark_page_area(const double place[3], const double normal[3], double focal, bool orthographic);
+/* Page length of a unit of length along a way. */
+double mark_page_length(const double place[3], const double way[3], double focal, bool orthographic);
 
 /* EX-07: visible where both priorities are at least their thresholds. */
 bool  mark_is_drawn(float light, float perspective, float light_threshold, float perspective_threshold);
@@ -152,6 +160,8 @@ float mark_fade(float light, float perspective, float light_threshold, float per
 /* How much of a dot is drawn, share of its area, when `share` of all dots are wanted: those of low rank whole, some around the share in part. Dots grow where there are
  * not enough of them, to `most` times their area. */
 float mark_dot_ink(float priority, float share, float ramp, float most);
+/* How much of a stroke is drawn, share of its width. `light_share`, `share`: what light and distance ask for, 0 … 1. */
+float mark_line_ink(const mark_line *line, float light_share, float share, float ramp);
 
 /* Sum of the areas of evenly spread dots, for a place of the page to be covered to this share by what does not overlap. */
 float mark_ink_of_cover(float cover);
@@ -167,7 +177,7 @@ typedef struct mark_style {
     float  fade, most;       /* ramp; how much larger dots may become, times their area */
     float  taper;            /* share of a stroke over which each end runs out */
     int32_t law;             /* mark_law, of strokes */
-    float  shadow, light, contrast; /* tone without and in full light; its bend */
+    float  shadow, light, contrast, texture; /* tone without and in full light; its bend; share of the surface's own brightness */
     bool   white;            /* marks stand for light */
     colour ink;
 } mark_style;
