@@ -162,6 +162,11 @@ void raster_depth(frame *f, gpu_texture *depth);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 
+/* --- marks.c: marks on surfaces --- */
+bool figure_has_marks(const figure *fig);
+/* Those of the figure's surface technique, where its surface is what is seen, over a picture. */
+void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
+
 /* --- solids.c: evaluation of solids --- */
 typedef struct solid_wishes {
     int32_t evaluation; /* layer_evaluation */

@@ -52,7 +52,7 @@ typedef struct marks {
     double     area;        /* of the surface, model units */
     double     line_length; /* of all lines */
 } marks;
-void marks_release(marks *m);
+void surface_marks_release(marks *m);
 
 /* Area of a surface. */
 double mark_surface_area(const mark_surface *s);
@@ -102,7 +102,7 @@ typedef struct trace_wishes {
     float    uneven;   /* how much lengths and ways differ, 0 … 1 */
     int      series;   /* 1 … 4: sets of strokes that cross; later ones for darker places */
     float    turn;     /* angle between one set and the next, radians */
-    const float (*field)[6]; /* per vertex, the way the surface bends: scene/direction_field.h. NULL: strokes lie in planes through the model */
+    bool     bends;    /* strokes run along the way the surface bends: scene/direction_field.h. Else in planes through the model */
     uint32_t seed;
 } trace_wishes;
 

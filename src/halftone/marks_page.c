@@ -19,6 +19,7 @@ typedef struct pager {
     const mark_style *style;
     double            focal;
     double            cofactors[9];
+    bool              backs;     /* what turns away is left to who knows what hides it */
 } pager;
 
 static double dot(const double a[3], const double b[3])
@@ -105,7 +106,7 @@ static float dot_size(const pager *g, const marks *m, const mark_dot *d, float *
     double stretch;
     place_on_page p = find_place(g, d->place, d->normal, &stretch);
     float margin = g->style->diameter;
-    if (!p.inside || p.facing <= 0 || p.x < -margin || p.y < -margin || p.x > (float)g->view->width + margin || p.y > (float)g->view->height + margin)
+    if (!p.inside || (p.facing <= 0 && !g->backs) || p.x < -margin || p.y < -margin || p.x > (float)g->view->width + margin || p.y > (float)g->view->height + margin)
         return 0;
     *x = p.x;
     *y = p.y;
@@ -151,7 +152,7 @@ static float stroke_ink(const pager *g, const mark_line *l)
 {
     double stretch, way[3];
     place_on_page p = find_place(g, l->middle, l->middle_normal, &stretch);
-    if (!p.inside || p.facing <= 0)
+    if (!p.inside || (p.facing <= 0 && !g->backs))
         return 0;
     move_way(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, way);
     double length = fmax(sqrt(dot(way, way)), 1e-300), own = hypot(hypot((double)l->b.x - (double)l->a.x, (double)l->b.y - (double)l->a.y), (double)l->b.z - (double)l->a.z);
@@ -264,7 +265,7 @@ static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m,
 
 lmn_status marks_visible(marks_page *out, const marks *m, const mark_view *view, const mark_style *style, mark_hidden_fn hidden, void *user, lmn_error *error)
 {
-    pager g = {.view = view, .style = style, .focal = view->projection.m[5] * view->height / 2};
+    pager g = {.view = view, .style = style, .focal = view->projection.m[5] * view->height / 2, .backs = hidden != NULL};
     double determinant = mat4_cofactors(&view->model_view, g.cofactors);
     for (int k = 0; k < 9 && determinant < 0; k++)
         g.cofactors[k] = -g.cofactors[k];

@@ -106,7 +106,7 @@ lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32
     return done ? LMN_OK : error_memory(error);
 }
 
-void marks_release(marks *m)
+void surface_marks_release(marks *m)
 {
     mem_free(m->dots);
     mem_free(m->lines);

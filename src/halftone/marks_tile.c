@@ -400,6 +400,6 @@ lmn_status marks_tile(marks *out, const mark_surface *s, const strokes *texture,
     mem_free(t.entries);
     mem_free(t.pieces);
     if (status != LMN_OK)
-        marks_release(out);
+        surface_marks_release(out);
     return status;
 }

@@ -8,11 +8,13 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "halftone/random.h"
+#include "scene/direction_field.h"
 #include "scene/mesh.h"
 
 enum { POINTS_MAX = 512 /* of one half of a stroke */ };
 
 static const double SHARP = 0.5;      /* cosine between faces at which strokes end */
+static const double FEATURE = 0.7;   /* radians: edges over which ways do not go on */
 static const double STRAIGHT = 0.012; /* by how much chords may leave out of a stroke, share of its length */
 
 typedef struct d3 {
@@ -22,7 +24,9 @@ typedef struct d3 {
 typedef struct tracer {
     const mark_surface *surface;
     const trace_wishes *wishes;
+    primitive           mesh;   /* the surface, for who knows only these */
     uint32_t           *across; /* mesh_adjacency */
+    direction_field     field;
     marks              *out;
     double              density;
 } tracer;
@@ -261,11 +265,10 @@ static d3 plane_of_model(d3 normal)
 /* The unit tangent along the way a surface bends. */
 static d3 way_of_field(const tracer *t, const mark_dot *seed, d3 normal)
 {
-    const uint32_t *corner = &t->surface->indices[3 * (size_t)seed->triangle];
     double m[6] = {0}, share[3] = {1 - (double)seed->share[0] - (double)seed->share[1], (double)seed->share[0], (double)seed->share[1]};
-    for (int i = 0; i < 3; i++)
+    for (uint32_t i = 0; i < 3; i++)
         for (int k = 0; k < 6; k++)
-            m[k] += share[i] * (double)t->wishes->field[corner[i]][k];
+            m[k] += share[i] * (double)direction_field_at(&t->field, &t->mesh, 3 * seed->triangle + i)[k];
     d3 u = unit(fabs(normal.x) < 0.7 ? cross(normal, (d3){1, 0, 0}) : cross(normal, (d3){0, 1, 0})), v = cross(normal, u);
     d3 tu = {m[0] * u.x + m[3] * u.y + m[5] * u.z, m[3] * u.x + m[1] * u.y + m[4] * u.z, m[5] * u.x + m[4] * u.y + m[2] * u.z};
     d3 tv = {m[0] * v.x + m[3] * v.y + m[5] * v.z, m[3] * v.x + m[1] * v.y + m[4] * v.z, m[5] * v.x + m[4] * v.y + m[2] * v.z};
@@ -279,7 +282,7 @@ static d3 plane_at(const tracer *t, const mark_dot *seed, int set, random_source
     const double MOST = 0.35; /* radians */
     d3 normal = face_normal(t, seed->triangle), plane;
     double turn = set * (double)t->wishes->turn + (double)t->wishes->uneven * MOST * random_hand(r);
-    if (t->wishes->field)
+    if (t->wishes->bends)
         plane = cross(normal, way_of_field(t, seed, normal));
     else
         plane = plane_of_model(normal);
@@ -306,7 +309,7 @@ static lmn_status trace_set(tracer *t, int set, size_t count, path *p, lmn_error
         else if (t->out->line_count > LIMIT_MARKS)
             status = error_set(error, LMN_LIMIT, "the strokes on this surface have more than %d pieces", LIMIT_MARKS);
     }
-    marks_release(&seeds);
+    surface_marks_release(&seeds);
     return status;
 }
 
@@ -316,19 +319,23 @@ lmn_status marks_trace(marks *out, const mark_surface *s, const trace_wishes *wi
     out->area = mark_surface_area(s);
     if (!(out->area > 0))
         return LMN_OK;
-    primitive p = {.vertex_count = s->vertex_count, .index_count = 3 * s->triangle_count, .positions = (vec3 *)(uintptr_t)s->places,
-                   .indices = (uint32_t *)(uintptr_t)s->indices};
-    tracer t = {.surface = s, .wishes = wishes, .across = mesh_adjacency(&p), .out = out};
+    tracer t = {.surface = s, .wishes = wishes, .out = out};
+    t.mesh = (primitive){.vertex_count = s->vertex_count, .index_count = 3 * s->triangle_count, .positions = (vec3 *)(uintptr_t)s->places,
+                         .indices = (uint32_t *)(uintptr_t)s->indices, .material = NONE};
+    t.across = mesh_adjacency(&t.mesh);
     path *room = mem_alloc(sizeof *room);
     lmn_status status = t.across && room ? LMN_OK : error_memory(error);
+    if (status == LMN_OK && wishes->bends)
+        status = direction_field_make(&t.field, &t.mesh, FEATURE, 0, error);
     size_t each = (wishes->count + (size_t)wishes->series - 1) / (size_t)wishes->series;
     for (int set = 0; set < wishes->series && status == LMN_OK; set++)
         status = trace_set(&t, set, each, room, error);
     for (size_t i = 0; i < out->line_count; i++)
         out->lines[i].density = (float)(out->line_length / out->area);
+    direction_field_release(&t.field);
     mem_free(room);
     mem_free(t.across);
     if (status != LMN_OK)
-        marks_release(out);
+        surface_marks_release(out);
     return status;
 }

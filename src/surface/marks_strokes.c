@@ -1,0 +1,116 @@
+/* strokes: pen strokes that lie on the surface as lines, of which light and distance choose. Seed 001, sections 5.1.6, 5.3 and 5.4; rows EX-11 to EX-14, EX-26 to EX-29, EX-33. With texture
+ * coordinates strokes of a texture, as in the seed; without, strokes that follow the form. */
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "halftone/strokes.h"
+#include "surface/marks.h"
+#include "surface/surface.h"
+
+static const char *const placed_names[] = {"form", "planes", "uv", NULL};
+static const char *const law_names[] = {"thesis", "line", NULL};
+
+static const param params[] = {
+    MARK_ROWS(30000, "Strokes"),
+    PARAM_ENUM_ROW(surface_strokes_values, placed, .names = placed_names, .cpu_only = true,
+                   .doc = "form: each stroke runs along the way the surface bends; planes: where planes through the model cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
+    PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 1.3, .min = 0.1, .max = 64, .soft_min = 0.5, .soft_max = 6, .unit = UNIT_PX, .doc = "Width of strokes, wherever they are."),
+    PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 2.2, .min = 0.5, .max = 200, .soft_min = 1, .soft_max = 20, .unit = UNIT_PX, .doc = "Mean distance of strokes where it is darkest, all sets together."),
+    PARAM_FLOAT_ROW(surface_strokes_values, length, .def = 0.035, .min = 0.0005, .max = 1, .soft_max = 0.2, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed<2",
+                    .doc = "Mean length of strokes, share of the model's diagonal."),
+    PARAM_INT_ROW(surface_strokes_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .cpu_only = true, .only_if = "placed<2", .doc = "Sets of strokes that cross each other, later ones where it is darker."),
+    PARAM_FLOAT_ROW(surface_strokes_values, turn, .def = 62, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "series>1",
+                    .doc = "Angle between one set of strokes and the next; uv: of the texture."),
+    PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed<2", .doc = "How much strokes differ in length and way."),
+    PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.3, .min = 0, .max = 0.5, .unit = UNIT_SHARE, .doc = "Share of its length over which each end of a stroke runs out."),
+    PARAM_ENUM_ROW(surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
+                   .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is the seed's simpler law, which leaves too few where strokes are foreshortened."),
+    PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .only_if = "placed=uv", .doc = "A file of strokes (.stx, .svg) to lay out by texture coordinates. Empty: the pattern."),
+    PARAM_ENUM_ROW(surface_strokes_values, pattern, .names = stroke_pattern_names, .def = PATTERN_CROSS, .cpu_only = true, .only_if = "placed=uv", .doc = "Strokes for texture coordinates, where no file is given."),
+    PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 1000, .soft_max = 32, .cpu_only = true, .only_if = "placed=uv",
+                    .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there are as many strokes as asked for."),
+    PARAM_FLOAT_ROW(surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=uv",
+                    .doc = "How far each copy of a stroke is moved, share of the texture, so that it is not seen to repeat."),
+};
+
+static void describe(text *out, const void *values)
+{
+    const surface_strokes_values *v = values;
+    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %d %.9g %.9g %s", v->common.count, v->common.pattern_seed, v->placed, (double)v->length, v->series, (double)v->turn,
+                (double)v->uneven, v->pattern, (double)v->repeat, (double)v->jitter, v->strokes.text);
+}
+
+/* The area of the surface in texture coordinates. */
+static double area_of_uvs(const mark_surface *s)
+{
+    double sum = 0;
+    for (size_t t = 0; t < s->triangle_count; t++) {
+        const vec2 *a = &s->uvs[s->indices[3 * t]], *b = &s->uvs[s->indices[3 * t + 1]], *c = &s->uvs[s->indices[3 * t + 2]];
+        sum += 0.5 * fabs(((double)b->x - (double)a->x) * ((double)c->y - (double)a->y) - ((double)b->y - (double)a->y) * ((double)c->x - (double)a->x));
+    }
+    return sum;
+}
+
+static lmn_status make_tiled(marks *out, const mark_surface *surface, const surface_strokes_values *v, lmn_error *error)
+{
+    strokes texture = {NULL, 0, 0, 1};
+    lmn_status status;
+    if (v->strokes.text[0])
+        status = strokes_load(&texture, v->strokes.text, error);
+    else
+        status = strokes_generate(&texture, &(pattern_wishes){.pattern = (stroke_pattern)v->pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed}, error);
+    double squares = area_of_uvs(surface), often = squares > 0 && texture.count > 0 ? sqrt(v->common.count / (squares * (double)texture.count)) : 1;
+    tile_wishes wishes = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1), .jitter = v->jitter, .seed = (uint32_t)v->common.pattern_seed};
+    if (status == LMN_OK)
+        status = marks_tile(out, surface, &texture, &wishes, error);
+    strokes_release(&texture);
+    return status;
+}
+
+static lmn_status make(marks *out, const mark_surface *surface, double extent, const void *values, lmn_error *error)
+{
+    const surface_strokes_values *v = values;
+    if (v->placed == PLACED_UV && surface->uvs)
+        return make_tiled(out, surface, v, error);
+    trace_wishes wishes = {.count = (size_t)v->common.count, .length = extent * (double)v->length, .uneven = v->uneven, .series = v->series,
+                           .turn = v->turn * (3.14159265f / 180), .bends = v->placed != PLACED_PLANES, .seed = (uint32_t)v->common.pattern_seed};
+    return marks_trace(out, surface, &wishes, error);
+}
+
+static const mark_source source = {.describe = describe, .make = make, .vertex = "surface/marks_strokes.vert", .fragment = "surface/marks_strokes.frag"};
+
+const technique surface_strokes = {
+    .name = "strokes", .doc = "Pen strokes that lie on the surface as lines of their own, whose number makes the tone.",
+    .example = "{\"surface\": {\"technique\": \"strokes\"}, \"lines\": \"discontinuity\"}",
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(surface_strokes_values), .channels = CHANNEL_NORMAL_DEPTH,
+    .surface = "surface/marks_paper.glsl", .marks = &source,
+};
+
+static float luminance_of(colour c)
+{
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
+
+bool surface_mark_style(mark_style *out, const technique_use *use)
+{
+    if (!use || !use->technique->marks)
+        return false;
+    const mark_values *v = use->values;
+    *out = (mark_style){.fade = v->fade, .most = 1, .shadow = v->shadow, .light = v->light, .contrast = v->contrast, .texture = v->texture, .ink = v->ink};
+    colour paper = v->paper;
+    if (!isnan(paper.r))
+        out->white = luminance_of(v->ink) > luminance_of(paper) * paper.a + 1 - paper.a;
+    if (use->technique == &surface_stipple) {
+        const stipple_values *s = use->values;
+        out->diameter = s->diameter;
+        out->most = s->grow * s->grow;
+    } else {
+        const surface_strokes_values *s = use->values;
+        out->diameter = s->width;
+        out->scale = s->scale;
+        out->taper = s->taper;
+        out->law = s->law;
+    }
+    return true;
+}
