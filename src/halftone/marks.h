@@ -63,14 +63,20 @@ double mark_surface_area(const mark_surface *s);
  * walls do not know of each other. Deterministic, whatever the number of threads. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error);
 
+/* The same, of what is longer than wide: `way` gives the way of a stroke at a dot, and its length counts. NULL: dots. */
+typedef vec3 (*mark_way_fn)(void *user, const mark_dot *at);
+lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_way_fn way, void *user, double length, lmn_error *error);
+
 /* A point among candidates. */
 typedef struct spread_place {
     vec3 place, normal;
+    vec3 way; /* unit: along the stroke that begins there; 0 for dots */
 } spread_place;
 
 /* Orders points by taking away, again and again, the one that is most crowded by those left (sample elimination: Yuksel 2015). ranks[i] is the number of point i in the order, those
- * that are left longest first; what goes before `wanted` points are left has UINT32_MAX. `area`: of what they lie on. False: memory is gone. */
-bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area);
+ * that are left longest first; what goes before `wanted` points are left has UINT32_MAX. `area`: of what they lie on; `length`: of the strokes
+ * that will be there, 0 for dots: strokes keep away from each other more sideways than along. False: memory is gone. */
+bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area, double length);
 
 /* --- strokes of a stroke texture (marks_tile.c) --------------------------------------------------------------------- */
 

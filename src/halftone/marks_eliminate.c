@@ -14,6 +14,8 @@ typedef struct round_of {
     const uint32_t     *alive;  /* numbers of the points that are left when it begins */
     uint32_t            count;
     double              reach;  /* beyond it points do not crowd each other */
+    double              longer; /* strokes: distances along them count this many times less than sideways, squared; 1: dots */
+    double              cell;   /* side of the table's cells */
     double              closest; /* nearer than this is as bad as this */
     uint32_t           *table;  /* first of each bucket in `members`, one more behind */
     uint32_t           *members;
@@ -35,9 +37,9 @@ static void find_cells(size_t begin, size_t end, void *user)
     round_of *r = user;
     for (size_t i = begin; i < end; i++) {
         const vec3 *p = &r->points[r->alive[i]].place;
-        r->cells[i][0] = (int32_t)floor((double)p->x / r->reach);
-        r->cells[i][1] = (int32_t)floor((double)p->y / r->reach);
-        r->cells[i][2] = (int32_t)floor((double)p->z / r->reach);
+        r->cells[i][0] = (int32_t)floor((double)p->x / r->cell);
+        r->cells[i][1] = (int32_t)floor((double)p->y / r->cell);
+        r->cells[i][2] = (int32_t)floor((double)p->z / r->cell);
     }
 }
 
@@ -63,6 +65,11 @@ static float weight_of(const round_of *r, const spread_place *a, const spread_pl
     const double AWAY = -0.25; /* cosine from which on surfaces are each other's backs */
     double x = (double)a->place.x - (double)b->place.x, y = (double)a->place.y - (double)b->place.y, z = (double)a->place.z - (double)b->place.z;
     double square = x * x + y * y + z * z;
+    if (r->longer > 1) {
+        double own = x * (double)a->way.x + y * (double)a->way.y + z * (double)a->way.z, other = x * (double)b->way.x + y * (double)b->way.y + z * (double)b->way.z;
+        double along = fmin(0.5 * (own * own + other * other), square);
+        square = r->longer * (square - along) + along / r->longer;
+    }
     if (square >= r->reach * r->reach)
         return 0;
     double facing = (double)a->normal.x * (double)b->normal.x + (double)a->normal.y * (double)b->normal.y + (double)a->normal.z * (double)b->normal.z;
@@ -223,12 +230,15 @@ static uint32_t take_away(crowd *c, const round_of *r)
 /* --- rounds ---------------------------------------------------------------------------------------------------------- */
 
 /* Takes points away until `target` are left; those that go when fewer than `wanted` are left get their ranks. */
-static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size_t wanted, uint32_t *ranks, const spread_place *points, double area)
+static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size_t wanted, uint32_t *ranks, const spread_place *points, double area, double length)
 {
+    const double LONGEST = 8, OVERLAP = 0.8; /* ends of strokes may lie beside each other */
     /* What discs of the densest packing have room for; from the paper, with its β and γ for how close the closest may be. */
     double radius = sqrt(area / (2 * sqrt(3.0) * target));
     double closest = 2 * radius * (1 - pow((double)target / *count, 1.5)) * 0.65;
-    round_of r = {.points = points, .alive = alive, .count = *count, .reach = 2 * radius, .closest = closest};
+    /* Strokes that follow each other at their length leave this much room sideways. */
+    double longer = fmin(fmax(OVERLAP * OVERLAP * length * length * target / area, 1), LONGEST);
+    round_of r = {.points = points, .alive = alive, .count = *count, .reach = 2 * radius, .closest = closest, .longer = longer, .cell = 2 * radius * sqrt(longer)};
     crowd c = {NULL, NULL, NULL, 0};
     bool done = round_open(&r) && crowd_open(&c, &r);
     while (done && c.count > target) {
@@ -248,7 +258,7 @@ static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size
     return done;
 }
 
-bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area)
+bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area, double length)
 {
     uint32_t *alive = mem_alloc(count * sizeof *alive), left = (uint32_t)count;
     if (!alive)
@@ -260,7 +270,7 @@ bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, 
     bool done = true;
     uint32_t target = wanted < left ? (uint32_t)wanted : left / 2;
     while (done && left > 1) {
-        done = eliminate_to(alive, &left, target > 1 ? target : 1, wanted, ranks, points, area);
+        done = eliminate_to(alive, &left, target > 1 ? target : 1, wanted, ranks, points, area, length);
         target = left / 2;
     }
     if (done && left == 1 && wanted > 0)

@@ -159,10 +159,10 @@ static float stroke_ink(const pager *g, const mark_line *l)
     for (int k = 0; k < 3; k++)
         way[k] /= length;
     /* Ink where it is darkest, and what all strokes would have, of lines side by side. */
-    double darkest = (double)g->style->diameter / (double)g->style->scale;
+    double darkest = (double)g->style->diameter * (1 - (double)g->style->taper) / (double)g->style->scale;
     double d = g->focal * stretch * own / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
     double share = mark_share((mark_law)g->style->law, p.eye, p.normal, way, d, g->view->orthographic);
-    double ink = -log(1 - (double)darkness_at(g, &p, l->bright) * (1 - exp(-darkest))) / darkest;
+    double ink = -log(fmax(1 - (double)darkness_at(g, &p, l->bright), 1e-4)) / darkest;
     return mark_line_ink(l, (float)fmin(ink, 1), (float)share, g->style->fade);
 }
 

@@ -67,17 +67,22 @@ static void share_out(mark_dot *out, size_t count, const mark_surface *s, double
 }
 
 /* Ranks of the candidates; false when memory is gone. */
-static bool rank(uint32_t *ranks, const mark_dot *candidates, size_t count, size_t wanted, double area)
+static bool rank(uint32_t *ranks, const mark_dot *candidates, size_t count, size_t wanted, double area, mark_way_fn way, void *user, double length)
 {
     spread_place *points = mem_alloc(count * sizeof *points);
     for (size_t i = 0; points && i < count; i++)
-        points[i] = (spread_place){candidates[i].place, candidates[i].normal};
-    bool done = points && marks_eliminate(ranks, points, count, wanted, area);
+        points[i] = (spread_place){candidates[i].place, candidates[i].normal, way ? way(user, &candidates[i]) : (vec3){0, 0, 0}};
+    bool done = points && marks_eliminate(ranks, points, count, wanted, area, length);
     mem_free(points);
     return done;
 }
 
 lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error)
+{
+    return marks_spread(out, s, count, seed, NULL, NULL, 0, error);
+}
+
+lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_way_fn way, void *user, double length, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->area = mark_surface_area(s);
@@ -92,7 +97,7 @@ lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32
     bool done = candidates && ranks && out->dots;
     if (done) {
         share_out(candidates, many, s, out->area, seed);
-        done = rank(ranks, candidates, many, count, out->area);
+        done = rank(ranks, candidates, many, count, out->area, way, user, length);
     }
     for (size_t i = 0; done && i < many; i++) {
         if (ranks[i] == UINT32_MAX)

@@ -277,11 +277,11 @@ static d3 way_of_field(const tracer *t, const mark_dot *seed, d3 normal)
 }
 
 /* The plane of a stroke: turned about the normal from the one that the surface asks for. */
-static d3 plane_at(const tracer *t, const mark_dot *seed, int set, random_source *r)
+static d3 plane_at(const tracer *t, const mark_dot *seed, int set, double uneven, random_source *r)
 {
     const double MOST = 0.35; /* radians */
     d3 normal = face_normal(t, seed->triangle), plane;
-    double turn = set * (double)t->wishes->turn + (double)t->wishes->uneven * MOST * random_hand(r);
+    double turn = set * (double)t->wishes->turn + uneven * MOST * random_hand(r);
     if (t->wishes->bends)
         plane = cross(normal, way_of_field(t, seed, normal));
     else
@@ -292,16 +292,30 @@ static d3 plane_at(const tracer *t, const mark_dot *seed, int set, random_source
     return unit((d3){c * plane.x + s * aside.x + rest * normal.x, c * plane.y + s * aside.y + rest * normal.y, c * plane.z + s * aside.z + rest * normal.z});
 }
 
+typedef struct set_ways {
+    const tracer *tracer;
+    int           set;
+} set_ways;
+
+/* Of a stroke, before its own unevenness. */
+static vec3 way_of_set(void *user, const mark_dot *at)
+{
+    const set_ways *w = user;
+    random_source none = {0};
+    d3 normal = face_normal(w->tracer, at->triangle);
+    return rounded(unit(cross(normal, plane_at(w->tracer, at, w->set, 0, &none))));
+}
+
 /* One set of strokes; seeds of a set are spread evenly among themselves. */
 static lmn_status trace_set(tracer *t, int set, size_t count, path *p, lmn_error *error)
 {
     const trace_wishes *w = t->wishes;
     marks seeds;
-    lmn_status status = marks_stipple(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, error);
+    lmn_status status = marks_spread(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, way_of_set, &(set_ways){t, set}, w->length, error);
     for (size_t i = 0; i < seeds.dot_count && status == LMN_OK; i++) {
         const mark_dot *seed = &seeds.dots[i];
         random_source r = random_start(w->seed, (uint32_t)(set * 0x10001) ^ (uint32_t)i * 2654435761u);
-        d3 plane = plane_at(t, seed, set, &r);
+        d3 plane = plane_at(t, seed, set, (double)w->uneven, &r);
         double length = w->length * (1 + 0.6 * (double)w->uneven * random_signed(&r));
         walk_both(t, p, seed, plane, length);
         if (!add_stroke(t, p, seed, 1 - (float)set / (float)w->series, seed->priority))

@@ -47,8 +47,8 @@ float share_there(mark_place m, vec3 way, float d)
 /* Share of its width that the stroke has. */
 float ink_of_stroke(mark_place m, vec3 way)
 {
-    float darkest = u_width / u_scale, darkness = darkness_at(m, a_middle.w);
-    float light_share = clamp(-log(1.0 - darkness * (1.0 - exp(-darkest))) / darkest, 0.0, 1.0);
+    float darkest = u_width * (1.0 - u_taper) / u_scale, darkness = darkness_at(m, a_middle.w);
+    float light_share = clamp(-log(max(1.0 - darkness, 1e-4)) / darkest, 0.0, 1.0);
     float share = share_there(m, way, u_focal / max(a_normal.w * u_scale, 1e-20));
     if (a_along.w > 0.0)
         return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_share) / a_along.w, 0.0, 1.0) * share, 1.0);
