@@ -30,11 +30,11 @@ void mark_sets_release(mark_sets **all, gpu *g)
 }
 
 /* What decides which marks a figure has, beside the scene that the upload belongs to. */
-static uint64_t key_of(const frame *f, const figure *fig, const technique_use *surface)
+static uint64_t key_of(const frame *f, const figure *fig, const technique_use *surface, bool points)
 {
     text t = {0};
     surface->technique->marks->describe(&t, surface->values);
-    text_append(&t, " %.17g ", f->up->crease_angle);
+    text_append(&t, " %.17g %d ", f->up->crease_angle, points);
     for (size_t i = 0; i < f->plan->part_count; i++)
         text_append(&t, "%c", fig->designated[i] ? 'x' : '.');
     char *words = text_take(&t);
@@ -45,7 +45,7 @@ static uint64_t key_of(const frame *f, const figure *fig, const technique_use *s
     return key;
 }
 
-static gpu_marks *upload_dots(gpu *g, const marks *m)
+static gpu_marks *upload_dots(gpu *g, const marks *m, bool points)
 {
     float (*records)[4] = mem_alloc(m->dot_count * DOT_VECTORS * sizeof *records);
     for (size_t i = 0; records && i < m->dot_count; i++) {
@@ -53,7 +53,8 @@ static gpu_marks *upload_dots(gpu *g, const marks *m)
         memcpy(records[DOT_VECTORS * i], (float[]){d->place.x, d->place.y, d->place.z, d->priority}, sizeof *records);
         memcpy(records[DOT_VECTORS * i + 1], (float[]){d->normal.x, d->normal.y, d->normal.z, d->bright}, sizeof *records);
     }
-    gpu_marks *out = records ? gpu_marks_create(g, DOT_VECTORS, records[0], m->dot_count) : NULL;
+    gpu_marks *(*create)(gpu *, int, const float *, size_t) = points ? gpu_marks_create_points : gpu_marks_create;
+    gpu_marks *out = records ? create(g, DOT_VECTORS, records[0], m->dot_count) : NULL;
     if (!records)
         gpu_fail(g, LMN_MEMORY, "out of memory");
     mem_free(records);
@@ -79,7 +80,7 @@ static gpu_marks *upload_lines(gpu *g, const marks *m)
     return out;
 }
 
-static void make_set(frame *f, const figure *fig, const technique_use *surface, struct mark_set *out)
+static void make_set(frame *f, const figure *fig, const technique_use *surface, bool points, struct mark_set *out)
 {
     mark_ground ground;
     marks made = {.dots = NULL};
@@ -95,19 +96,19 @@ static void make_set(frame *f, const figure *fig, const technique_use *surface, 
         return;
     }
     out->density = made.area > 0 ? (double)made.dot_count / made.area : 0;
-    out->marks = made.dot_count ? upload_dots(f->g, &made) : made.line_count ? upload_lines(f->g, &made) : NULL;
+    out->marks = made.dot_count ? upload_dots(f->g, &made, points) : made.line_count ? upload_lines(f->g, &made) : NULL;
     surface_marks_release(&made);
 }
 
 /* Finds or makes them; the set that was not drawn for longest goes. NULL after an error. */
-static struct mark_set *set_of(frame *f, const figure *fig, const technique_use *surface)
+static struct mark_set *set_of(frame *f, const figure *fig, const technique_use *surface, bool points)
 {
     if (!f->up->marks && !(f->up->marks = mem_calloc(1, sizeof *f->up->marks))) {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
         return NULL;
     }
     mark_sets *all = f->up->marks;
-    uint64_t key = key_of(f, fig, surface);
+    uint64_t key = key_of(f, fig, surface, points);
     struct mark_set *oldest = &all->sets[0];
     for (size_t i = 0; i < SETS_MAX; i++) {
         struct mark_set *s = &all->sets[i];
@@ -120,7 +121,7 @@ static struct mark_set *set_of(frame *f, const figure *fig, const technique_use 
     }
     gpu_marks_destroy(f->g, &oldest->marks);
     *oldest = (struct mark_set){.key = key};
-    make_set(f, fig, surface, oldest);
+    make_set(f, fig, surface, points, oldest);
     oldest->used = gpu_failed(f->g) ? 0 : ++all->clock;
     return gpu_failed(f->g) ? NULL : oldest;
 }
@@ -137,11 +138,14 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
     if (!figure_has_marks(s->figure) || gpu_failed(f->g))
         return;
     stopwatch w = watch_start(f);
-    struct mark_set *set = set_of(f, s->figure, surface);
+    const mark_source *source = surface->technique->marks;
+    bool points = source->point && source->point(surface->values) <= gpu_facts_of(f->g)->max_point;
+    struct mark_set *set = set_of(f, s->figure, surface, points);
     text prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
-    const mark_source *source = surface->technique->marks;
+    if (points)
+        text_append(&prelude, "#define AS_POINTS\n");
     gpu_program *p = set && set->marks ? program_of(f, GPU_FLOOR, source->vertex, source->fragment, &prelude) : NULL;
     if (p && !gpu_failed(f->g)) {
         gpu_pass pass = {.colours = {onto}, .colour_count = 1};

@@ -26,7 +26,13 @@ static lmn_status make(marks *out, const mark_surface *surface, double extent, c
     return marks_stipple(out, surface, (size_t)v->count, (uint32_t)v->pattern_seed, error);
 }
 
-static const mark_source source = {.describe = describe, .make = make, .vertex = "surface/stipple.vert", .fragment = "surface/stipple.frag"};
+static float largest(const void *values)
+{
+    const stipple_values *v = values;
+    return v->diameter * v->grow + 3;
+}
+
+static const mark_source source = {.point = largest, .describe = describe, .make = make, .vertex = "surface/stipple.vert", .fragment = "surface/stipple.frag"};
 
 const technique surface_stipple = {
     .name = "stipple", .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.",

@@ -120,6 +120,7 @@ typedef struct mark_source {
     /* `extent`: diagonal of what is drawn. */
     lmn_status (*make)(struct marks *out, const struct mark_surface *surface, double extent, const void *values, lmn_error *error);
     const char  *vertex, *fragment; /* paths below src/ */
+    float      (*point)(const void *values); /* the largest dot's diameter, pixels: drawn as points (AS_POINTS) where the driver has such large ones, else as quads. NULL: quads */
 } mark_source;
 
 typedef struct technique {
