@@ -1,11 +1,13 @@
 /* Marks of figures on the GPU: kept with the upload as long as what they are made from stays the same, and drawn over the figure's shade, each frame anew decided which. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "draw/frame_private.h"
 #include "draw/marks.h"
 #include "halftone/store.h"
+#include "surface/marks.h"
 
 enum { SETS_MAX = 8, DOT_VECTORS = 2, LINE_VECTORS = 5 };
 
@@ -13,7 +15,11 @@ enum { SETS_MAX = 8, DOT_VECTORS = 2, LINE_VECTORS = 5 };
 struct mark_set {
     uint64_t   key, used; /* of what they are made from; when they were drawn last */
     gpu_marks *marks;     /* NULL: there are none */
-    double     origin[3], density; /* dots to a unit of area */
+    double     origin[3];
+    double     density;  /* dots to a unit of area; strokes: the least length of them to one */
+    float     *ranks;    /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
+    size_t     count;
+    bool       lines;
 };
 
 struct mark_sets {
@@ -21,10 +27,17 @@ struct mark_sets {
     uint64_t        clock;
 };
 
+static void set_release(struct mark_set *s, gpu *g)
+{
+    gpu_marks_destroy(g, &s->marks);
+    mem_free(s->ranks);
+    *s = (struct mark_set){.key = 0};
+}
+
 void mark_sets_release(mark_sets **all, gpu *g)
 {
     for (size_t i = 0; *all && i < SETS_MAX; i++)
-        gpu_marks_destroy(g, &(*all)->sets[i].marks);
+        set_release(&(*all)->sets[i], g);
     mem_free(*all);
     *all = NULL;
 }
@@ -61,23 +74,46 @@ static gpu_marks *upload_dots(gpu *g, const marks *m, bool points)
     return out;
 }
 
-static gpu_marks *upload_lines(gpu *g, const marks *m)
+static int by_perspective(const void *left, const void *right)
+{
+    const mark_line *a = *(const mark_line *const *)left, *b = *(const mark_line *const *)right;
+    if (a->perspective != b->perspective)
+        return a->perspective > b->perspective ? -1 : 1;
+    return a < b ? -1 : a > b;
+}
+
+static void write_line(float (*r)[4], const mark_line *l)
+{
+    memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->light}, sizeof *r);
+    memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, l->perspective}, sizeof *r);
+    memcpy(r[2], (float[]){l->middle.x, l->middle.y, l->middle.z, l->bright}, sizeof *r);
+    memcpy(r[3], (float[]){l->middle_normal.x, l->middle_normal.y, l->middle_normal.z, l->density}, sizeof *r);
+    memcpy(r[4], (float[]){l->from, l->to, l->length, l->span}, sizeof *r);
+}
+
+/* Those that stay longest with distance come first, so that from far away only the first need to be looked at. */
+static void upload_lines(gpu *g, const marks *m, struct mark_set *out)
 {
     float (*records)[4] = mem_alloc(m->line_count * LINE_VECTORS * sizeof *records);
-    for (size_t i = 0; records && i < m->line_count; i++) {
-        const mark_line *l = &m->lines[i];
-        float (*r)[4] = &records[LINE_VECTORS * i];
-        memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->light}, sizeof *r);
-        memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, l->perspective}, sizeof *r);
-        memcpy(r[2], (float[]){l->middle.x, l->middle.y, l->middle.z, l->bright}, sizeof *r);
-        memcpy(r[3], (float[]){l->middle_normal.x, l->middle_normal.y, l->middle_normal.z, l->density}, sizeof *r);
-        memcpy(r[4], (float[]){l->from, l->to, l->length, l->span}, sizeof *r);
-    }
-    gpu_marks *out = records ? gpu_marks_create(g, LINE_VECTORS, records[0], m->line_count) : NULL;
-    if (!records)
+    const mark_line **order = mem_alloc(m->line_count * sizeof *order);
+    out->ranks = mem_alloc(m->line_count * sizeof *out->ranks);
+    out->lines = true;
+    out->density = INFINITY;
+    if (records && order && out->ranks) {
+        for (size_t i = 0; i < m->line_count; i++)
+            order[i] = &m->lines[i];
+        qsort(order, m->line_count, sizeof *order, by_perspective);
+        for (size_t i = 0; i < m->line_count; i++) {
+            write_line(&records[LINE_VECTORS * i], order[i]);
+            out->ranks[i] = 1 - order[i]->perspective;
+            out->density = fmin(out->density, (double)order[i]->density);
+        }
+        out->marks = gpu_marks_create(g, LINE_VECTORS, records[0], m->line_count);
+    } else {
         gpu_fail(g, LMN_MEMORY, "out of memory");
+    }
     mem_free(records);
-    return out;
+    mem_free(order);
 }
 
 static void make_set(frame *f, const figure *fig, const technique_use *surface, bool points, struct mark_set *out)
@@ -95,8 +131,13 @@ static void make_set(frame *f, const figure *fig, const technique_use *surface, 
         gpu_fail(f->g, status, "%s", error.message);
         return;
     }
-    out->density = made.area > 0 ? (double)made.dot_count / made.area : 0;
-    out->marks = made.dot_count ? upload_dots(f->g, &made, points) : made.line_count ? upload_lines(f->g, &made) : NULL;
+    out->count = made.dot_count ? made.dot_count : made.line_count;
+    if (made.dot_count) {
+        out->density = (double)made.dot_count / made.area;
+        out->marks = upload_dots(f->g, &made, points);
+    } else if (made.line_count) {
+        upload_lines(f->g, &made, out);
+    }
     surface_marks_release(&made);
 }
 
@@ -119,11 +160,42 @@ static struct mark_set *set_of(frame *f, const figure *fig, const technique_use 
         if (s->used < oldest->used)
             oldest = s;
     }
-    gpu_marks_destroy(f->g, &oldest->marks);
-    *oldest = (struct mark_set){.key = key};
+    set_release(oldest, f->g);
+    oldest->key = key;
     make_set(f, fig, surface, points, oldest);
     oldest->used = gpu_failed(f->g) ? 0 : ++all->clock;
     return gpu_failed(f->g) ? NULL : oldest;
+}
+
+/* How many of the set, in its order, can be drawn at all: what a place of the figure that is as near and as much towards the eye as can be asks for. */
+static size_t count_to_draw(const frame *f, const figure *fig, const struct mark_set *set, const mark_style *style)
+{
+    const double *p = f->camera.projection.m, SPARE = 1.01;
+    double nearest = INFINITY, farthest = -INFINITY, focal = p[5] * f->height / 2;
+    camera_depth_range(&f->camera, fig->box, &nearest, &farthest);
+    /* Pixels to a unit there; beside the middle of the picture things are seen larger. */
+    double scale = focal;
+    if (!f->camera.orthographic)
+        scale = focal * sqrt(1 + 1 / (p[0] * p[0]) + 1 / (p[5] * p[5])) / fmax(nearest, f->camera.near);
+    double share, size = (double)style->diameter;
+    if (set->lines)
+        share = scale / (set->density * (double)style->scale);
+    else
+        share = (double)mark_ink_of_cover(1) / (0.78539816 * size * size) * scale * scale / set->density;
+    double most = share * (1 + (double)style->fade) * SPARE;
+    if (!(most < 1))
+        return set->count;
+    if (!set->lines)
+        return (size_t)ceil(most * (double)set->count);
+    size_t low = 0, high = set->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if ((double)set->ranks[middle] <= most)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
 bool figure_has_marks(const figure *fig)
@@ -162,7 +234,9 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         gpu_set_float(f->g, "u_density", (float)set->density);
         gpu_set_float(f->g, "u_near_plane", (float)f->camera.near);
         gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
-        gpu_draw_marks(f->g, set->marks);
+        mark_style style = {.diameter = 1};
+        surface_mark_style(&style, surface);
+        gpu_draw_first_marks(f->g, set->marks, count_to_draw(f, s->figure, set, &style));
     }
     if (!p) {
         char *unused = text_take(&prelude);

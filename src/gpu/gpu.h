@@ -196,8 +196,9 @@ void gpu_watch_end(gpu *g);
 bool gpu_watched(gpu *g, int watch);
 /* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
-/* All of the marks, in their order. */
+/* All of the marks, in their order; or the first ones alone. */
 void gpu_draw_marks(gpu *g, gpu_marks *m);
+void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count);
 /* Draw calls since the context was made. */
 uint64_t gpu_draw_count(const gpu *g);
 

@@ -102,19 +102,25 @@ size_t gpu_marks_count(const gpu_marks *m)
     return m ? m->count : 0;
 }
 
-void gpu_draw_marks(gpu *g, gpu_marks *m)
+void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)
 {
-    if (g->failed || !g->program || !m || !m->count)
+    if (g->failed || !g->program || !m || !count)
         return;
+    count = count < m->count ? count : m->count;
     glBindVertexArray(m->array);
-    if (m->points) {
-        if (!g->facts.es)
-            glEnable(GL_PROGRAM_POINT_SIZE);
-        glDrawArrays(GL_POINTS, 0, (GLsizei)m->count);
-        if (!g->facts.es)
-            glDisable(GL_PROGRAM_POINT_SIZE);
-        g->draws++;
+    if (!m->points) {
+        gpu_draw_indices(g, (uint32_t)(INDICES * count));
         return;
     }
-    gpu_draw_indices(g, (uint32_t)(INDICES * m->count));
+    if (!g->facts.es) /* there sizes are always those of the shader */
+        glEnable(GL_PROGRAM_POINT_SIZE);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)count);
+    if (!g->facts.es)
+        glDisable(GL_PROGRAM_POINT_SIZE);
+    g->draws++;
+}
+
+void gpu_draw_marks(gpu *g, gpu_marks *m)
+{
+    gpu_draw_first_marks(g, m, gpu_marks_count(m));
 }
