@@ -63,6 +63,8 @@ double mark_surface_area(const mark_surface *s);
  * walls do not know of each other. Deterministic, whatever the number of threads. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error);
 
+/* The same, found again on disk (halftone/store.h) where it was made before. */
+lmn_status marks_stipple_kept(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error);
 /* The same, of what is longer than wide: `way` gives the way of a stroke at a dot, and its length counts. NULL: dots. */
 typedef vec3 (*mark_way_fn)(void *user, const mark_dot *at);
 lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_way_fn way, void *user, double length, lmn_error *error);

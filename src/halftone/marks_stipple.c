@@ -2,11 +2,13 @@
 #include "halftone/marks.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/limits.h"
 #include "base/memory.h"
 #include "halftone/random.h"
+#include "halftone/store.h"
 
 enum { CANDIDATES = 3 /* for each dot that is wanted */ };
 
@@ -103,12 +105,83 @@ lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_
         if (ranks[i] == UINT32_MAX)
             continue;
         candidates[i].priority = 1 - (float)ranks[i] / (float)count;
+        candidates[i].bright = 1;
         out->dots[ranks[i]] = candidates[i];
     }
     out->dot_count = done ? count : 0;
     mem_free(candidates);
     mem_free(ranks);
     return done ? LMN_OK : error_memory(error);
+}
+
+/* --- kept on disk ------------------------------------------------------------------------------------------------------ */
+
+enum { KEPT_FROM = 20000 /* fewer are made as fast as they are read */, KEPT_WIDTH = 1024, DESCRIPTION_ROOM = 128 };
+
+/* Two texels a dot: its triangle, in two halves that floats have exactly, and its place there. */
+static void write_dots(mip_chain *chain, const marks *m)
+{
+    float (*texels)[2] = chain->data[0];
+    for (size_t i = 0; i < m->dot_count; i++) {
+        texels[2 * i][0] = (float)(m->dots[i].triangle >> 16);
+        texels[2 * i][1] = (float)(m->dots[i].triangle & 0xFFFF);
+        memcpy(texels[2 * i + 1], m->dots[i].share, sizeof texels[0]);
+    }
+}
+
+/* False when what was kept does not fit the surface. */
+static bool read_dots(marks *out, const mip_chain *chain, const mark_surface *s, size_t count)
+{
+    const float (*texels)[2] = chain->data[0];
+    if (chain->format != MIP_RG16F || (size_t)chain->width * (size_t)chain->height < 2 * count)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t triangle = (uint32_t)texels[2 * i][0] << 16 | (uint32_t)texels[2 * i][1];
+        if (triangle >= s->triangle_count)
+            return false;
+        mark_dot *d = &out->dots[i];
+        *d = (mark_dot){.share = {texels[2 * i + 1][0], texels[2 * i + 1][1]}, .priority = 1 - (float)i / (float)count, .bright = 1, .triangle = triangle};
+        d->place = between(s->places, &s->indices[3 * (size_t)triangle], d->share);
+        d->normal = unit(between(s->normals, &s->indices[3 * (size_t)triangle], d->share));
+    }
+    return true;
+}
+
+/* Equal text, equal dots. */
+static void describe(char out[DESCRIPTION_ROOM], const mark_surface *s, size_t count, uint32_t seed)
+{
+    uint64_t places = store_hash(s->places, s->vertex_count * sizeof *s->places), normals = store_hash(s->normals, s->vertex_count * sizeof *s->normals);
+    uint64_t indices = store_hash(s->indices, 3 * (size_t)s->triangle_count * sizeof *s->indices);
+    snprintf(out, DESCRIPTION_ROOM, "stipple 1 %zu %u %016llx %016llx %016llx", count, seed, (unsigned long long)places, (unsigned long long)normals,
+             (unsigned long long)indices);
+}
+
+lmn_status marks_stipple_kept(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error)
+{
+    char description[DESCRIPTION_ROOM];
+    mip_chain chain;
+    if (count < KEPT_FROM || count > LIMIT_MARKS)
+        return marks_stipple(out, s, count, seed, error);
+    describe(description, s, count, seed);
+    memset(out, 0, sizeof *out);
+    if (store_find(&chain, description)) {
+        out->area = mark_surface_area(s);
+        out->dots = mem_alloc(count * sizeof *out->dots);
+        bool done = out->dots && read_dots(out, &chain, s, count);
+        mip_chain_release(&chain);
+        out->dot_count = done ? count : 0;
+        if (done)
+            return LMN_OK;
+        mem_free(out->dots);
+    }
+    lmn_status status = marks_stipple(out, s, count, seed, error);
+    int rows = (int)((2 * count + KEPT_WIDTH - 1) / KEPT_WIDTH);
+    if (status == LMN_OK && out->dot_count == count && mip_chain_create(&chain, KEPT_WIDTH, rows, 1, 1, MIP_RG16F, NULL) == LMN_OK) {
+        write_dots(&chain, out);
+        store_keep(&chain, description);
+        mip_chain_release(&chain);
+    }
+    return status;
 }
 
 void surface_marks_release(marks *m)

@@ -7,7 +7,7 @@
 #include "surface/surface.h"
 
 static const param params[] = {
-    MARK_ROWS(100000, "Dots"),
+    MARK_ROWS(150000, "Dots"),
     PARAM_FLOAT_ROW(stipple_values, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .doc = "Diameter of the dots."),
     PARAM_FLOAT_ROW(stipple_values, grow, .def = 1.5, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_NONE,
                     .doc = "Dots become up to this many times as wide where there are not enough of them for the tone."),
@@ -23,7 +23,7 @@ static lmn_status make(marks *out, const mark_surface *surface, double extent, c
 {
     (void)extent;
     const mark_values *v = values;
-    return marks_stipple(out, surface, (size_t)v->count, (uint32_t)v->pattern_seed, error);
+    return marks_stipple_kept(out, surface, (size_t)v->count, (uint32_t)v->pattern_seed, error);
 }
 
 static float largest(const void *values)
