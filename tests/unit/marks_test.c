@@ -138,33 +138,31 @@ static void test_prefixes(void **state)
     release_sheet(&s);
 }
 
-static double height_of(const sheet *s, uint32_t triangle)
-{
-    const uint32_t *c = &s->indices[3 * triangle];
-    return (double)(s->places[c[0]].z + s->places[c[1]].z + s->places[c[2]].z) / 3;
-}
-
-/* Every part of a surface has as many as its area, however it is cut into triangles, in every prefix. */
+/* A ring, closed, whose inner triangles are a third as large as the outer ones: every part of it has as many dots as its area, in every prefix. */
 static void test_shares_of_area(void **state)
 {
     (void)state;
-    enum { COUNT = 4000 };
-    sheet s = make_sheet(20, 1.2, 1.2, 1, true);
+    enum { COUNT = 4000, CELLS = 24 };
+    sheet s = make_sheet(CELLS, 1, 1, 1, false);
+    for (uint32_t i = 0; i < s.surface.vertex_count; i++) {
+        double u = 6.283185307179586 * (double)s.uvs[i].x, v = 6.283185307179586 * (double)s.uvs[i].y;
+        s.places[i] = (vec3){(float)((1 + 0.5 * cos(v)) * cos(u)), (float)((1 + 0.5 * cos(v)) * sin(u)), (float)(0.5 * sin(v))};
+        s.normals[i] = (vec3){(float)(cos(v) * cos(u)), (float)(cos(v) * sin(u)), (float)sin(v)};
+    }
     marks m;
     assert_int_equal(marks_stipple(&m, &s.surface, COUNT, 3, NULL), LMN_OK);
-    for (size_t prefix = COUNT / 4; prefix <= COUNT; prefix *= 2) {
-        int counts[2] = {0, 0};
-        double area[2] = {0, 0};
-        for (size_t i = 0; i < prefix; i++)
-            counts[height_of(&s, m.dots[i].triangle) > 0.85]++;
-        for (uint32_t t = 0; t < s.surface.triangle_count; t++) {
-            mark_surface one = s.surface;
-            one.indices = &s.indices[3 * t];
-            one.triangle_count = 1;
-            area[height_of(&s, t) > 0.85] += mark_surface_area(&one);
+    double whole = mark_surface_area(&s.surface);
+    for (size_t prefix = COUNT / 4; prefix <= COUNT; prefix *= 2)
+        for (uint32_t band = 0; band < 8; band++) {
+            mark_surface part = s.surface;
+            part.indices = &s.indices[band * 6 * CELLS * CELLS / 8];
+            part.triangle_count = 2 * CELLS * CELLS / 8;
+            size_t count = 0;
+            for (size_t i = 0; i < prefix; i++)
+                count += m.dots[i].triangle / part.triangle_count == band;
+            double wanted = mark_surface_area(&part) / whole;
+            assert_near((double)count / (double)prefix / wanted, 1, 0.05);
         }
-        assert_near((double)counts[1] / (double)prefix, area[1] / (area[0] + area[1]), 0.015);
-    }
     surface_marks_release(&m);
     release_sheet(&s);
 }
