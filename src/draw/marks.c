@@ -181,7 +181,7 @@ static size_t count_to_draw(const frame *f, const figure *fig, const struct mark
     if (set->lines)
         share = scale / (set->density * (double)style->scale);
     else
-        share = (double)mark_ink_of_cover(1) / (0.78539816 * size * size) * scale * scale / set->density;
+        share = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) * scale * scale / set->density;
     double most = share * (1 + (double)style->fade) * SPARE;
     if (!(most < 1))
         return set->count;

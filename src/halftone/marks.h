@@ -171,8 +171,9 @@ float mark_dot_ink(float priority, float share, float ramp, float most);
 /* How much of a stroke is drawn, share of its width. `light_share`, `share`: what light and distance ask for, 0 … 1. */
 float mark_line_ink(const mark_line *line, float light_share, float share, float ramp);
 
-/* Sum of the areas of evenly spread dots, for a place of the page to be covered to this share by what does not overlap. */
-float mark_ink_of_cover(float cover);
+/* Sum of the areas of evenly spread dots, for a place of the page to be covered to this share by what does not overlap. `rim`: 0 for true discs; for those that
+ * are drawn in pixels 1 / diameter²: the soft rims of dots that touch cover less. */
+float mark_ink_of_cover(float cover, float rim);
 
 /* --- what is drawn of them, on a page (marks_page.c) ----------------------------------------------------------------- */
 
@@ -187,6 +188,7 @@ typedef struct mark_style {
     int32_t law;             /* mark_law, of strokes */
     float  shadow, light, contrast, texture; /* tone without and in full light; its bend; share of the surface's own brightness */
     bool   white;            /* marks stand for light */
+    bool   pixels;           /* dots are blended into pixels: the same ones are drawn as on the GPU; else true discs of the same tone */
     colour ink;
 } mark_style;
 

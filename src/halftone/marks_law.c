@@ -83,9 +83,9 @@ float mark_line_ink(const mark_line *line, float light_share, float share, float
     return mark_fade(line->light, line->perspective, 1 - light_share, 1 - clamped(share), ramp);
 }
 
-float mark_ink_of_cover(float cover)
+float mark_ink_of_cover(float cover, float rim)
 {
-    /* Fitted to discs at the places of marks_stipple, within a hundredth: they touch each other from a third on. */
-    float c = clamped(cover), over = fmaxf(c - 0.311f, 0);
-    return c + 0.156f * over * over / (1.08f - c);
+    /* Fitted to discs at the places of marks_stipple, within a hundredth: they touch each other from a third on. Rims that lie over each other cover as what is strewn at random does. */
+    float c = fminf(clamped(cover), 0.98f), over = fmaxf(c - 0.311f, 0), ink = c + 0.156f * over * over / (1.08f - c);
+    return ink + fminf(0.56f * c * rim, 1) * (-logf(1 - c) - ink);
 }

@@ -113,7 +113,8 @@ static float dot_size(const pager *g, const marks *m, const mark_dot *d, float *
     /* Dots to a pixel when all are drawn, against what this darkness needs. */
     double pixels = mark_page_area(p.eye, p.normal, g->focal, g->view->orthographic) * stretch;
     double all = (double)m->dot_count / m->area / fmax(pixels, 1e-300);
-    double needed = (double)mark_ink_of_cover(darkness_at(g, &p, d->bright)) / (0.78539816 * (double)g->style->diameter * (double)g->style->diameter);
+    float rim = g->style->pixels ? 1 / (g->style->diameter * g->style->diameter) : 0;
+    double needed = (double)mark_ink_of_cover(darkness_at(g, &p, d->bright), rim) / (0.78539816 * (double)g->style->diameter * (double)g->style->diameter);
     float ink = mark_dot_ink(d->priority, (float)(needed / all), g->style->fade, g->style->most);
     return g->style->diameter * sqrtf(ink);
 }

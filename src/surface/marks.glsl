@@ -49,11 +49,11 @@ float ink_of_rank(float rank, float share, float most)
     return own * clamp(share / max(all, 1e-20), 1.0, most);
 }
 
-/* Sum of the areas of evenly spread dots that cover this share of the page. */
-float ink_of_cover(float cover)
+/* Sum of the areas of evenly spread dots of this diameter that cover this share of the page. */
+float ink_of_cover(float cover, float diameter)
 {
-    float over = max(cover - 0.311, 0.0);
-    return cover + 0.156 * over * over / (1.08 - cover);
+    float c = min(cover, 0.98), over = max(c - 0.311, 0.0), ink = c + 0.156 * over * over / (1.08 - c);
+    return ink + min(0.56 * c / (diameter * diameter), 1.0) * (-log(1.0 - c) - ink);
 }
 
 vec2 page_of(vec4 clip)

@@ -27,13 +27,14 @@ void put_dot(dot_place d)
 {
     mark_place m = d.mark;
     float pixel = pixel_at(m.eye), steep = steepness(m);
-    float needed = ink_of_cover(darkness_at(m, a_normal.w)) / (0.78539816 * u_diameter * u_diameter);
+    float needed = ink_of_cover(darkness_at(m, a_normal.w), u_diameter) / (0.78539816 * u_diameter * u_diameter);
     float ink = ink_of_rank(1.0 - a_place.w, needed / d.there, u_grow * u_grow);
     if (ink <= 0.0 || !is_seen(m, d.at, pixel * (1.0 + 1.5 * steep)))
         return;
-    float radius = 0.5 * u_diameter * sqrt(ink), drawn = max(radius, 0.5);
+    /* A disc whose rim is a pixel wide has the area of one whose square of the radius is a twelfth larger. What is smaller than a pixel is paler instead. */
+    float square = 0.25 * u_diameter * u_diameter * ink, drawn = sqrt(max(square - 1.0 / 12.0, 0.25));
     float reach = pixel * (drawn + 1.0) * (1.0 + 2.0 * steep);
-    v_dot = vec4(drawn, min(1.0, 4.0 * radius * radius), -m.eye.z - reach, -m.eye.z + reach);
+    v_dot = vec4(drawn, min(1.0, 3.0 * square), -m.eye.z - reach, -m.eye.z + reach);
     v_at = d.at;
     vec2 at = d.at;
 #ifdef AS_POINTS
@@ -61,7 +62,7 @@ void main()
     float margin = 0.5 * u_diameter * u_grow + 1.0;
     bool near = clip.w > 0.0 && all(greaterThan(d.at, vec2(-margin))) && all(lessThan(d.at, u_size + margin));
     /* Those of high rank are too many even where it is darkest. Software drivers skip loops that nobody enters, but not branches. */
-    float most = ink_of_cover(1.0) / (0.78539816 * u_diameter * u_diameter) * (1.0 + u_fade);
+    float most = ink_of_cover(1.0, u_diameter) / (0.78539816 * u_diameter * u_diameter) * (1.0 + u_fade);
     int wanted = near && (1.0 - a_place.w) * d.there <= most ? 1 : 0;
     for (int once = 0; once < wanted; once++)
         put_dot(d);

@@ -85,17 +85,17 @@ static void tone_over_distance(void)
     for (int k = 0; k <= 6; k++) {
         double distance = 3 * exp2(0.5 * k);
         shot_view view = view_of(0, 0, distance, 2 * atan(0.35 * 3 / distance / 1.4) * 180 / 3.14159265); /* closer up to the wall's middle */
-        double ink = ink_of_wall(dark("stipple", tone, "\"count\":200000,\"grow\":1"), &view);
+        double ink = ink_of_wall(dark("stipple", tone, "\"count\":30000,\"grow\":1"), &view);
         check_near("EX-05", ink, tone, 0.03 * tone + 0.006, "dots at %.1f times the distance, the field of view with it", distance / 3);
         view.fov_deg = 12;
         view.eye = (dvec){0, 0, 9 * exp2(-0.25 * k)};
-        ink = ink_of_wall(dark("stipple", tone, "\"count\":200000,\"grow\":1"), &view);
+        ink = ink_of_wall(dark("stipple", tone, "\"count\":60000,\"grow\":1"), &view);
         check_near("EX-05", ink, tone, 0.03 * tone + 0.006, "dots from %.2f away", view.eye.z);
     }
     for (int tilt = 0; tilt <= 75; tilt += 15) {
         double a = tilt * 3.14159265 / 180;
         shot_view view = view_of(8 * sin(a), 0, 8 * cos(a), 3);
-        double ink = ink_of_wall(dark("stipple", tone, "\"count\":400000,\"grow\":1"), &view);
+        double ink = ink_of_wall(dark("stipple", tone, "\"count\":150000,\"grow\":1"), &view);
         check_near("EX-05", ink, tone, 0.1 * tone, "dots on a wall turned by %d degrees", tilt);
     }
 }
@@ -103,7 +103,7 @@ static void tone_over_distance(void)
 /* Strokes: their law keeps the ink on a wall that goes away or turns. */
 static void strokes_over_distance(void)
 {
-    static const char *const keys = "\"placed\":1,\"count\":60000,\"length\":0.02,\"series\":1,\"taper\":0,\"uneven\":0.3";
+    static const char *const keys = "\"placed\":\"planes\",\"count\":20000,\"length\":0.04,\"series\":1,\"uneven\":0.3";
     double first = 0;
     for (int k = 0; k <= 6; k++) {
         shot_view view = view_of(0, 0, 4 * exp2(0.5 * k), 2 * atan(0.3 / exp2(0.5 * k)) * 180 / 3.14159265);
@@ -183,6 +183,7 @@ static bool page_of(marks_page *page, const shot *s, const char *model, const st
         view.model_view = mat4_multiply(&eye, &world);
         mark_style style;
         surface_mark_style(&style, &use);
+        style.pixels = true;
         ok = marks_visible(page, &m, &view, &style, NULL, NULL, &error) == LMN_OK;
     }
     check_that("EX-07", ok, "the CPU draws the same marks: %s", error.message);
@@ -218,9 +219,9 @@ static void same_set(void)
                           .orthographic = k % 4 == 3};
         shot s;
         marks_page page = {.dots = NULL};
-        if (!shot_of_shape(&s, &ball, "stipple-ball.gltf", halftone_look_with(surface, "\"light_direction\":[0.48,0.6,0.64],\"fill\":0", ""), NULL, &view))
+        if (!shot_of_shape(&s, &ball, "stipple-ball.ply", halftone_look_with(surface, "\"light_direction\":[0.48,0.6,0.64],\"fill\":0", ""), NULL, &view))
             return;
-        if (page_of(&page, &s, "stipple-ball.gltf", &values, light)) {
+        if (page_of(&page, &s, "stipple-ball.ply", &values, light)) {
             int count = blobs_of(&s, blobs, ROOM), missing = 0, extra = 0, off = 0, alone = 0;
             double radius = 0, worst = 0;
             for (size_t i = 0; i < page.dot_count; i++)
@@ -244,7 +245,8 @@ static void same_set(void)
                 bool found = false;
                 for (size_t i = 0; i < page.dot_count && !found; i++)
                     found = hypot(blobs[j].x - (double)page.dots[i].x, blobs[j].y - (double)page.dots[i].y) < 4;
-                extra += !found;
+                /* Where a ball's normals turn away a little before it does, both are right. */
+                extra += !found && hypot(blobs[j].x - SIZE / 2.0, blobs[j].y - SIZE / 2.0) < 0.97 * radius;
             }
             check_that("EX-07", missing == 0 && extra == 0 && off == 0 && alone > 150, "view %d: %zu dots, %d alone; %d missing on the GPU, %d there alone, %d of another size (area off by %.2f at most)", k,
                        page.dot_count, alone, missing, extra, off, worst);
@@ -304,7 +306,7 @@ static void stays_put(void)
         memcpy(before, now, m.dot_count * sizeof *now);
     }
     check_at_most("EX-09", share, 0.02, "share of dots that change by more than a tenth in a step of half a degree, most of %d steps", steps);
-    check_at_most("EX-08", most, 0.5, "change of a dot in such a step");
+    check_at_most("EX-08", most, 0.1, "change of a dot in such a step");
     free(before);
     free(now);
     surface_marks_release(&m);
@@ -321,8 +323,8 @@ static void sizes(void)
         int    seen = 0;
         for (int far = 0; far < 2; far++) {
             char keys[96];
-            snprintf(keys, sizeof keys, "\"count\":%d,\"diameter\":%g,\"fade\":0.001,\"grow\":1", diameters[k] > 20 ? 2 : 9, diameters[k]);
-            shot_view view = view_of(far ? 1.2 : 0, 0, far ? 4 : 3, far ? 34 : 45);
+            snprintf(keys, sizeof keys, "\"count\":%d,\"diameter\":%g,\"fade\":0.001,\"grow\":1", diameters[k] > 40 ? 6 : 12, diameters[k]);
+            shot_view view = view_of(far ? 0.6 : 0, 0, far ? 4 : 3, far ? 18 : 30);
             shot s;
             if (!draw_wall(&s, dark("stipple", 0.9, keys), "", "", &view))
                 return;
@@ -397,7 +399,7 @@ static void hidden(void)
         view.without_maps = false;
         shot front;
         /* Light from the viewer: the near side is white where it is lit by more than about a third, so all but a rim; the far side, unlit, is dark. */
-        if (!shot_of_shape(&front, &s, "stipple-hidden.gltf", halftone_look_with(surfaces[k], "\"light_direction\":[0,0,1],\"fill\":0", ""), NULL, &view))
+        if (!shot_of_shape(&front, &s, "stipple-hidden.ply", halftone_look_with(surfaces[k], "\"light_direction\":[0,0,1],\"fill\":0", ""), NULL, &view))
             return;
         int inked = 0, all = 0;
         for (int y = 0; y < SIDE; y++)
@@ -443,7 +445,7 @@ int main(int argc, char **argv)
         {"tones", tones},         {"tone_over_distance", tone_over_distance}, {"strokes_over_distance", strokes_over_distance}, {"same_set", same_set}, {"stays_put", stays_put}, {"sizes", sizes},
         {"points_and_quads", points_and_quads}, {"at_the_rim", at_the_rim}, {"hidden", hidden}, {"uncut", uncut},
     };
-    halftone_begin();
+    halftone_begin_kept("stipple");
     int status = check_main(argc, argv, "stipple", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
