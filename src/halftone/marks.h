@@ -174,6 +174,8 @@ float mark_line_ink(const mark_line *line, float light_share, float share, float
 /* Sum of the areas of evenly spread dots, for a place of the page to be covered to this share by what does not overlap. `rim`: 0 for true discs; for those that
  * are drawn in pixels 1 / diameter²: the soft rims of dots that touch cover less. */
 float mark_ink_of_cover(float cover, float rim);
+/* The same for strokes, in layers of `span` (a share of all) of strokes side by side that cross those before; 0: strewn at random. `darkest`: of all strokes. */
+float mark_ink_of_strokes(float cover, float darkest, float span);
 
 /* --- what is drawn of them, on a page (marks_page.c) ----------------------------------------------------------------- */
 

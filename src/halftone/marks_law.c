@@ -89,3 +89,26 @@ float mark_ink_of_cover(float cover, float rim)
     float c = fminf(clamped(cover), 0.98f), over = fmaxf(c - 0.311f, 0), ink = c + 0.156f * over * over / (1.08f - c);
     return ink + fminf(0.56f * c * rim, 1) * (-logf(1 - c) - ink);
 }
+
+/* The share that dots or strokes side by side with this ink cover: the same curve backwards. */
+static float cover_of_ink(float ink)
+{
+    float v = ink - 0.311f, sum = v + 0.769f;
+    return v <= 0 ? ink : 0.311f + (sum - sqrtf(sum * sum - 4 * 0.844f * 0.769f * v)) / (2 * 0.844f);
+}
+
+float mark_ink_of_strokes(float cover, float darkest, float span)
+{
+    const float CROWDED = 0.24f; /* how far strokes of one set are from being side by side, to being strewn at random: measured */
+    float bare = 1, wanted = fmaxf(1 - clamped(cover), 1e-4f), ink = 0;
+    if (!(span > 0))
+        return fminf(-logf(wanted), darkest);
+    float most = cover_of_ink(darkest * span);
+    for (int set = 0; set < (int)(1 / span + 0.5f); set++) { /* each as far as its own strokes go */
+        float c = fminf(clamped(1 - wanted / bare), most);
+        float even = mark_ink_of_cover(c, 0);
+        ink += even + CROWDED * (-logf(fmaxf(1 - c, 1e-3f)) - even);
+        bare *= 1 - c;
+    }
+    return fminf(ink, darkest);
+}

@@ -163,7 +163,7 @@ static float stroke_ink(const pager *g, const mark_line *l)
     double darkest = (double)g->style->diameter * (1 - (double)g->style->taper) / (double)g->style->scale;
     double d = g->focal * stretch * own / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
     double share = mark_share((mark_law)g->style->law, p.eye, p.normal, way, d, g->view->orthographic);
-    double ink = -log(fmax(1 - (double)darkness_at(g, &p, l->bright), 1e-4)) / darkest;
+    double ink = (double)mark_ink_of_strokes(darkness_at(g, &p, l->bright), (float)darkest, l->span) / darkest;
     return mark_line_ink(l, (float)fmin(ink, 1), (float)share, g->style->fade);
 }
 

@@ -120,7 +120,23 @@ static void strokes_over_distance(void)
         double ink = ink_of_wall(dark("strokes", 0.3, keys), &view);
         check_near("EX-05", ink, first, 0.1 * first, "strokes on a wall turned by %d degrees", tilt);
     }
-    check_near("EX-05", first, 0.3, 0.03, "strokes: ink of the tone 0.3");
+    static const char *const sets[] = {"\"placed\":\"planes\",\"count\":40000,\"length\":0.04,\"series\":1", "\"placed\":\"form\",\"count\":40000,\"length\":0.04,\"series\":2",
+                                       "\"placed\":\"planes\",\"count\":40000,\"length\":0.04,\"series\":3,\"width\":2.5,\"scale\":2"};
+    for (int k = 0; k < 3; k++) {
+        double worst = 0, at = 0;
+        char line[128] = "";
+        shot_view view = view_of(0, 0, 6, 10);
+        for (int i = 0; i <= 8; i++) {
+            double ink = ink_of_wall(dark("strokes", i / 12.0, sets[k]), &view);
+            snprintf(line + strlen(line), sizeof line - strlen(line), " %.3f", ink);
+            if (fabs(ink - i / 12.0) > worst) {
+                worst = fabs(ink - i / 12.0);
+                at = i / 12.0;
+            }
+        }
+        check_note("%s", line);
+        check_at_most("EX-05", worst, 0.03, "strokes, way %d: ink off on a ramp of 9 tones up to 2/3 (worst at %.3f)", k, at);
+    }
 }
 
 /* --- the same set as on the CPU (EX-07) ------------------------------------------------------------------------------------------- */
