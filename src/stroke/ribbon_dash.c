@@ -8,6 +8,8 @@
 static const float shortest_period = 0.5f;
 /* Gaps shorter than this share of a whole one are closed. */
 static const float least_gap = 0.5f;
+/* Dashes of one stroke; a line that had more would be longer than any page. */
+static const float dashes_most = 1e6f;
 
 typedef struct dash_pattern {
     float dash, gap, begin; /* arc at which a dash begins */
@@ -46,16 +48,19 @@ void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const c
     float gap = hidden ? style->hidden_gap : style->gap;
     bool  plain = !(dash > 0) || !(gap > 0) || !(dash + gap >= shortest_period) || !isfinite(dash + gap) || !isfinite(s->phase);
     out->count = 0;
-    if (plain || to - from <= dash + gap * least_gap) {
+    if (plain || to - from <= dash + gap * least_gap || !((to - from) / (dash + gap) < dashes_most)) {
         add_ink(out, from, to, 0);
         return;
     }
     dash_pattern p = fit_pattern(chain, dash, gap, s->phase);
     float period = p.dash + p.gap, least = p.gap * least_gap, end = p.dash / 2;
-    add_ink(out, from, from + end, least);
+    /* Where a closed chain begins and ends nothing does. */
+    if (!chain->closed || from > 0)
+        add_ink(out, from, from + end, least);
     for (double k = floor((from - p.begin) / period); p.begin + k * period < to - end; k++) {
         double begin = p.begin + k * period, stop = begin + p.dash;
         add_ink(out, fmaxf((float)begin, from), fminf((float)stop, to), least);
     }
-    add_ink(out, to - end, to, least);
+    if (!chain->closed || to < chain->length)
+        add_ink(out, to - end, to, least);
 }
