@@ -237,9 +237,10 @@ static double *number_pieces(builder *b)
     b->pieces = NULL;
     m->boxes = mem_alloc(((size_t)m->piece_count + 1) * sizeof *m->boxes);
     m->closed = mem_alloc((size_t)m->piece_count + 1);
+    m->inward = mem_alloc((size_t)m->piece_count + 1);
     double *volumes = mem_calloc((size_t)m->piece_count + 1, sizeof *volumes);
     vec3 *origins = mem_alloc(((size_t)m->piece_count + 1) * sizeof *origins);
-    if (!m->boxes || !m->closed || !volumes || !origins) {
+    if (!m->boxes || !m->closed || !m->inward || !volumes || !origins) {
         mem_free(origins);
         mem_free(volumes);
         return NULL;
@@ -423,11 +424,13 @@ static void find_closed(builder *b)
 /* Concave edges of closed pieces never are outlines. Which way round a piece is says its volume. */
 static void drop_concave(edge_mesh *m, const double *volumes)
 {
+    for (uint32_t i = 0; i < m->piece_count; i++)
+        m->inward[i] = volumes[i] < 0;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < m->edge_count; i++) {
         mesh_edge e = m->edges[i];
         uint32_t piece = m->pieces[e.face[0]];
-        bool convex = ((e.flags & CONVEX) != 0) == (volumes[piece] >= 0);
+        bool convex = ((e.flags & CONVEX) != 0) != m->inward[piece];
         if (m->closed[piece] && !convex)
             e.flags &= ~(uint32_t)EDGE_CANDIDATE;
         e.flags &= ~(uint32_t)CONVEX;
@@ -497,6 +500,7 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->edges);
     mem_free(m->pieces);
     mem_free(m->closed);
+    mem_free(m->inward);
     mem_free(m->boxes);
     memset(m, 0, sizeof *m);
 }
