@@ -246,6 +246,13 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
     return true;
 }
 
+static float slope_of(window_point a, window_point b, window_point c)
+{
+    double rise_b = b.z - a.z, rise_c = c.z - a.z;
+    double x = rise_b * ((double)c.y - a.y) - rise_c * ((double)b.y - a.y), y = rise_c * ((double)b.x - a.x) - rise_b * ((double)c.x - a.x);
+    return (float)((fabs(x) + fabs(y)) / fabs(window_side(a, b, c)));
+}
+
 static void box_triangles(size_t begin, size_t end, void *user)
 {
     stroke_view *v = user;
@@ -257,6 +264,7 @@ static void box_triangles(size_t begin, size_t end, void *user)
         box->high_x = a.x > b.x ? (a.x > c.x ? a.x : c.x) : (b.x > c.x ? b.x : c.x);
         box->high_y = a.y > b.y ? (a.y > c.y ? a.y : c.y) : (b.y > c.y ? b.y : c.y);
         box->near_z = nextafterf((float)(a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z)), -INFINITY);
+        box->slope = slope_of(a, b, c);
     }
 }
 

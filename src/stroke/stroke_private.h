@@ -33,6 +33,7 @@ typedef struct window_triangle {
 typedef struct window_box {
     int32_t low_x, low_y, high_x, high_y;
     float   near_z; /* or a little less */
+    float   slope;  /* by how much z changes at most over one unit: places are rounded to units */
 } window_box;
 
 /* A grid of cells. */
