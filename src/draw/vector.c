@@ -166,11 +166,14 @@ static lmn_status measure_view(const vector_job *j, const vector_view *v, double
     return status;
 }
 
-/* Whole pixels around the same middle. */
-static lmn_status settle_box(vector_view *v, lmn_error *error)
+/* Whole pixels around the same middle; far more than the page has is of no use. */
+static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error)
 {
     int *sides[2] = {&v->width, &v->height};
     for (int k = 0; k < 2; k++) {
+        double most = 2 * (k ? page->height : page->width), over = fmax(v->box[2 + k] - most, 0);
+        v->box[k] += over / 2;
+        v->box[2 + k] -= over;
         double pixels = fmax(round(v->box[2 + k] * VECTOR_PIXELS_PER_MM), 1);
         if (!(pixels <= LIMIT_PICTURE_SIDE))
             return error_set(error, LMN_LIMIT, "a view is %.0f mm wide or high on the sheet, the limit is %.0f mm", v->box[2 + k], LIMIT_PICTURE_SIDE / VECTOR_PIXELS_PER_MM);
@@ -255,7 +258,7 @@ static lmn_status place_views(vector_job *j, lmn_error *error)
         s->scale = j->scale;
     }
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
-        status = settle_box(&s->views[i], error);
+        status = settle_box(&s->views[i], &s->page, error);
         if (status == LMN_OK)
             status = place_camera(j, &s->views[i], error);
     }

@@ -330,13 +330,17 @@ static void test_crowds(void **state)
     add_line(0, 280, 200, 280, 5, 3); /* alone */
     add_line(0, 60, 200, 60, 5, 0);   /* visible: stays, and so nothing is drawn beside it */
     add_line(0, 63, 200, 63, 5, 1);
+    add_line(300, 20, 310, 20, 5, 1); /* a crumb, and what is just more */
+    add_line(300, 40, 314, 40, 5, 1);
     ribbon_set r = make(&style);
     float before = -100;
     int   left = 0;
-    bool  across = false, alone = false;
+    bool  across = false, alone = false, crumb = false, more = false;
     for (size_t i = 0; i < r.ribbon_count; i++) {
         const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
         across = across || (a->x == b->x && b->y - a->y > 100);
+        crumb = crumb || (a->x == 300 && a->y == 20);
+        more = more || (a->x == 300 && a->y == 40);
         alone = alone || (a->y == 280 && b->x - a->x == 200);
         assert_false(r.ribbons[i].hidden_by > 0 && a->y == 63 && b->y == 63);
         if (a->y != b->y || a->y < 90 || a->y > 150)
@@ -348,7 +352,7 @@ static void test_crowds(void **state)
         left++;
     }
     assert_in_range(left, 5, 8);
-    assert_true(across && alone);
+    assert_true(across && alone && more && !crumb);
     ribbon_set_release(&r);
 }
 
