@@ -332,7 +332,7 @@ static void count_strokes(vector_job *j, const stroke_set *set, const stroke_sty
 }
 
 /* The strokes of one rule's parts, as ribbons. */
-static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, bool perspective, ribbon_set *out, lmn_error *error)
+static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
 {
     stroke_wishes wishes;
     stroke_style  style;
@@ -350,7 +350,6 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, boo
     }
     lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
     mem_free(parts);
-    set.perspective = perspective;
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, j->desc->seed, error);
     if (status == LMN_OK)
@@ -374,7 +373,7 @@ static lmn_status draw_lines(vector_job *j, const vector_view *v, const vector_i
     ribbon_set   *sets = mem_calloc(rules, sizeof *sets);
     lmn_status    status = sets ? stroke_view_create(&view, &j->strokes, &camera, report_part, j, error) : error_memory(error);
     for (size_t i = 0; i < rules && status == LMN_OK; i++)
-        status = draw_rule(j, view, &j->look->rules[i], !v->camera.orthographic, &sets[i], error);
+        status = draw_rule(j, view, &j->look->rules[i], &sets[i], error);
     if (status == LMN_OK)
         status = vector_put_ribbons(ink, sets, rules, error);
     for (size_t i = 0; sets && i < rules; i++)

@@ -64,7 +64,8 @@ static void put_cell(sheet *s, uint32_t group, colour ink, const char *heading, 
 static void put_block(sheet *s, const lmn_sheet_desc *wanted, const lmn_sheet *facts, uint32_t group, colour ink, const block_sizes *b)
 {
     double right = s->width - b->margin, bottom = s->height - b->margin, left = right - b->width, top = bottom - b->height, line = b->letter * 0.07;
-    const double shares[4] = {0, 0.54, 0.7, 0.82};
+    /* The last cell is the symbol's. */
+    const double shares[4] = {0, facts->view_count > 1 ? 0.54 : 0.66, facts->view_count > 1 ? 0.7 : 0.86, 0.82};
     const char  *headings[3] = {"Title", "Scale", "Unit"};
     const char  *words[3] = {wanted->title ? wanted->title : "", *facts->scale_text ? facts->scale_text : "–", facts->unit};
     put_line(s, group, ink, left, top, right, top, line * 2);
@@ -75,9 +76,10 @@ static void put_block(sheet *s, const lmn_sheet_desc *wanted, const lmn_sheet *f
             put_line(s, group, ink, x, top, x, bottom, line);
         put_cell(s, group, ink, headings[i], words[i], x, top, b);
     }
+    if (facts->view_count < 2)
+        return;
     put_line(s, group, ink, left + shares[3] * b->width, top, left + shares[3] * b->width, bottom, line);
-    if (facts->view_count > 1)
-        put_symbol(s, group, ink, left + (shares[3] + 1) / 2 * b->width, (top + bottom) / 2, b->height * 0.42, wanted->angle == LMN_FIRST_ANGLE);
+    put_symbol(s, group, ink, left + (shares[3] + 1) / 2 * b->width, (top + bottom) / 2, b->height * 0.42, wanted->angle == LMN_FIRST_ANGLE);
 }
 
 void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink)
