@@ -547,6 +547,7 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
         status = strokes_join(out, v, error);
     if (status == LMN_OK)
         status = strokes_thin(out, wishes->crowd, error);
+    out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)
         stroke_set_release(out);
     visibility_release(&seen);

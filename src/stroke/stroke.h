@@ -59,6 +59,7 @@ typedef struct stroke_set {
     stroke_point *points;
     stroke_mark  *marks;   /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
+    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
     uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
