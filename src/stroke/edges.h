@@ -13,7 +13,7 @@ typedef enum edge_flag {
     EDGE_MATERIAL  = 1 << 2, /* its faces have different materials */
     EDGE_CANDIDATE = 1 << 3, /* an outline from where one face is seen from the front and the other from behind: smooth and strictly convex, or
                               * smooth and not flat where the piece it belongs to is not closed */
-    EDGE_SILENT    = 1 << 4  /* the file says that it is no line, not even as an outline */
+    EDGE_TWISTED   = 1 << 4  /* beside others: both faces pass it the same way, so that one of them is inside out */
 } edge_flag;
 
 /* One edge. Its faces, as seen along it from vertex[0] to vertex[1]: face[0] is the one whose winding has it in this order. */

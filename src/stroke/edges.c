@@ -1,0 +1,502 @@
+/* Half-edges are sorted into buckets by their lower vertex, so that those of one edge lie side by side; each edge is then judged once. */
+#include "stroke/edges.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/mesh.h"
+
+/* What glTF's EXT_mesh_primitive_edge_visibility says of an edge; SAID_NOTHING where a primitive has none. */
+enum { SAID_HIDDEN, SAID_SILHOUETTE, SAID_HARD, SAID_REPEATED, SAID_NOTHING };
+
+/* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this share of its distance. */
+#define FLAT 1e-6f
+
+enum { CONVEX = 1 << 16, SHORT_BUCKET = 24 }; /* CONVEX: a flag while edges are sorted */
+
+typedef struct half_edge {
+    uint32_t high, corner; /* corner: 3 · face + number of the corner that it begins at */
+} half_edge;
+
+typedef struct builder {
+    edge_mesh  *mesh;
+    uint32_t   *starts;  /* per vertex, and one more */
+    half_edge  *halves;
+    uint8_t    *said;    /* per corner; NULL: nothing */
+    uint32_t   *pieces;  /* per face: another one of its piece, itself at the root */
+    size_t      edge_capacity;
+    float       crease;  /* cosine */
+    bool        has_crowds; /* edges of more than two faces */
+} builder;
+
+static vec3 minus(vec3 a, vec3 b)
+{
+    return (vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static float dot(vec3 a, vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* In double precision: slivers on large coordinates would lose their direction. */
+static vec3 face_normal(const vec3 *places, const uint32_t corners[3])
+{
+    vec3 p = places[corners[0]], q = places[corners[1]], r = places[corners[2]];
+    double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z;
+    double bx = (double)r.x - p.x, by = (double)r.y - p.y, bz = (double)r.z - p.z;
+    double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
+    double length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0))
+        return (vec3){0, 0, 0};
+    return (vec3){(float)(x / length), (float)(y / length), (float)(z / length)};
+}
+
+/* --- faces --------------------------------------------------------------------------------------------------------- */
+
+static bool count_mesh(const mesh *m, size_t *vertices, size_t *corners, bool *said)
+{
+    *vertices = *corners = 0;
+    *said = false;
+    for (size_t i = 0; i < m->primitive_count; i++) {
+        *vertices += m->primitives[i].vertex_count;
+        *corners += m->primitives[i].index_count;
+        *said = *said || m->primitives[i].edges.values;
+    }
+    return *vertices < UINT32_MAX / 4 && *corners < UINT32_MAX / 4;
+}
+
+/* All primitives' positions, one after the other. */
+static vec3 *gather_places(const mesh *m, const vec3 *posed, size_t count)
+{
+    vec3 *places = mem_alloc(count * sizeof *places);
+    size_t at = 0;
+    for (size_t i = 0; i < m->primitive_count && places; at += m->primitives[i++].vertex_count)
+        memcpy(places + at, posed ? posed + at : m->primitives[i].positions, m->primitives[i].vertex_count * sizeof *places);
+    return places;
+}
+
+/* Keeps one vertex a place, in order of appearance; ids[v] becomes its new number. */
+static void weld(edge_mesh *out, uint32_t *ids, uint32_t count)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (ids[i] != i) {
+            ids[i] = ids[ids[i]];
+            continue;
+        }
+        out->places[kept] = out->places[i];
+        ids[i] = kept++;
+    }
+    out->vertex_count = kept;
+}
+
+/* Faces with three corners and an area. */
+static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
+{
+    edge_mesh *out = b->mesh;
+    uint32_t base = 0;
+    for (size_t i = 0; i < m->primitive_count; base += m->primitives[i++].vertex_count) {
+        const primitive *p = &m->primitives[i];
+        for (uint32_t k = 0; k + 2 < p->index_count; k += 3) {
+            uint32_t corners[3];
+            for (int c = 0; c < 3; c++)
+                corners[c] = ids[base + p->indices[k + (uint32_t)c]];
+            vec3 normal = face_normal(out->places, corners);
+            if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2] || dot(normal, normal) == 0)
+                continue;
+            uint32_t f = out->face_count++;
+            memcpy(out->faces[f], corners, sizeof corners);
+            out->normals[f] = normal;
+            if (out->materials)
+                out->materials[f] = p->material;
+            for (uint32_t c = 0; c < 3 && b->said; c++)
+                b->said[3 * f + c] = p->edges.values ? p->edges.values[k + c] : SAID_NOTHING;
+        }
+    }
+}
+
+static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_error *error)
+{
+    edge_mesh *out = b->mesh;
+    size_t vertices, corners;
+    bool said;
+    if (!count_mesh(m, &vertices, &corners, &said))
+        return error_set(error, LMN_LIMIT, "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices, corners);
+    out->places = gather_places(m, posed, vertices);
+    uint32_t *ids = out->places ? mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places}) : NULL;
+    out->faces = mem_alloc(corners * sizeof **out->faces);
+    out->normals = mem_alloc(corners / 3 * sizeof *out->normals);
+    bool mixed = false;
+    for (size_t i = 1; i < m->primitive_count; i++)
+        mixed = mixed || m->primitives[i].material != m->primitives[0].material;
+    out->materials = mixed ? mem_alloc(corners / 3 * sizeof *out->materials) : NULL;
+    b->said = said ? mem_alloc(corners) : NULL;
+    bool good = ids && out->faces && out->normals && (out->materials || !mixed) && (b->said || !said);
+    if (good) {
+        weld(out, ids, (uint32_t)vertices);
+        gather_faces(b, m, ids);
+    }
+    mem_free(ids);
+    return good ? LMN_OK : error_memory(error);
+}
+
+/* --- buckets ------------------------------------------------------------------------------------------------------- */
+
+static uint32_t corner_vertex(const edge_mesh *m, uint32_t corner)
+{
+    return m->faces[corner / 3][corner % 3];
+}
+
+static uint32_t next_corner(uint32_t corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+static int compare_halves(const void *a, const void *b)
+{
+    const half_edge *p = a, *q = b;
+    if (p->high != q->high)
+        return p->high < q->high ? -1 : 1;
+    return p->corner < q->corner ? -1 : p->corner > q->corner;
+}
+
+static void sort_bucket(half_edge *halves, size_t count)
+{
+    if (count > SHORT_BUCKET) {
+        qsort(halves, count, sizeof *halves, compare_halves);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        half_edge moved = halves[i];
+        size_t k = i;
+        for (; k > 0 && halves[k - 1].high > moved.high; k--)
+            halves[k] = halves[k - 1];
+        halves[k] = moved;
+    }
+}
+
+static void fill_buckets(builder *b)
+{
+    const edge_mesh *m = b->mesh;
+    memset(b->starts, 0, ((size_t)m->vertex_count + 2) * sizeof *b->starts);
+    for (uint32_t f = 0; f < m->face_count; f++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t p = m->faces[f][k], q = m->faces[f][k == 2 ? 0 : k + 1];
+            b->starts[(p < q ? p : q) + 2]++;
+        }
+    for (uint32_t v = 0; v < m->vertex_count; v++)
+        b->starts[v + 2] += b->starts[v + 1];
+    /* Counted two places on, so that filling, which moves each start to its end, leaves them right. */
+    for (uint32_t f = 0; f < m->face_count; f++)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t p = m->faces[f][k], q = m->faces[f][k == 2 ? 0 : k + 1];
+            b->halves[b->starts[(p < q ? p : q) + 1]++] = (half_edge){p < q ? q : p, 3 * f + k};
+        }
+}
+
+/* --- pieces -------------------------------------------------------------------------------------------------------- */
+
+static uint32_t piece_root(uint32_t *pieces, uint32_t f)
+{
+    while (pieces[f] != f) {
+        pieces[f] = pieces[pieces[f]];
+        f = pieces[f];
+    }
+    return f;
+}
+
+static void join_pieces(uint32_t *pieces, uint32_t a, uint32_t b)
+{
+    a = piece_root(pieces, a);
+    b = piece_root(pieces, b);
+    if (a < b)
+        pieces[b] = a;
+    else
+        pieces[a] = b;
+}
+
+/* Six times the volume that a face closes off towards a point near it. */
+static double volume_of(const edge_mesh *m, uint32_t f, vec3 from)
+{
+    vec3 p = minus(m->places[m->faces[f][0]], from), q = minus(m->places[m->faces[f][1]], from), r = minus(m->places[m->faces[f][2]], from);
+    return (double)p.x * ((double)q.y * r.z - (double)q.z * r.y) + (double)p.y * ((double)q.z * r.x - (double)q.x * r.z) +
+           (double)p.z * ((double)q.x * r.y - (double)q.y * r.x);
+}
+
+/* Numbers the pieces; boxes, and volumes by their first corner, which says which way round they are. */
+static double *number_pieces(builder *b)
+{
+    edge_mesh *m = b->mesh;
+    for (uint32_t f = 0; f < m->face_count; f++)
+        if (b->pieces[f] == f)
+            m->piece_count++;
+    m->pieces = b->pieces;
+    b->pieces = NULL;
+    m->boxes = mem_alloc(((size_t)m->piece_count + 1) * sizeof *m->boxes);
+    m->closed = mem_alloc((size_t)m->piece_count + 1);
+    double *volumes = mem_calloc((size_t)m->piece_count + 1, sizeof *volumes);
+    vec3 *origins = mem_alloc(((size_t)m->piece_count + 1) * sizeof *origins);
+    if (!m->boxes || !m->closed || !volumes || !origins) {
+        mem_free(origins);
+        mem_free(volumes);
+        return NULL;
+    }
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < m->face_count; f++) { /* a root comes before all others of its piece */
+        if (m->pieces[f] == f) {
+            origins[count] = m->places[m->faces[f][0]];
+            m->boxes[count] = box3_empty();
+            m->closed[count] = true;
+            m->pieces[f] = count++;
+        } else {
+            m->pieces[f] = m->pieces[m->pieces[f]];
+        }
+        uint32_t piece = m->pieces[f];
+        volumes[piece] += volume_of(m, f, origins[piece]);
+        for (int k = 0; k < 3; k++)
+            m->boxes[piece] = box3_with_point(m->boxes[piece], m->places[m->faces[f][k]]);
+    }
+    mem_free(origins);
+    return volumes;
+}
+
+/* --- edges --------------------------------------------------------------------------------------------------------- */
+
+/* How far the neighbour's free corner lies above a face: below 0, the edge is convex; 0 when both lie in one plane. */
+static float height_above(const edge_mesh *m, uint32_t face, uint32_t neighbour_corner)
+{
+    uint32_t beyond = next_corner(next_corner(neighbour_corner));
+    vec3 from_edge = minus(m->places[corner_vertex(m, beyond)], m->places[corner_vertex(m, neighbour_corner)]);
+    float height = dot(from_edge, m->normals[face]);
+    return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) ? 0 : height;
+}
+
+/* Flags of an edge of two faces. `same_way`: both pass it in one direction, so one of them is inside out. */
+static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bool same_way)
+{
+    const edge_mesh *m = b->mesh;
+    uint32_t f = first / 3, g = second / 3, flags = 0;
+    float turn = dot(m->normals[f], m->normals[g]);
+    if ((same_way ? -turn : turn) < b->crease)
+        flags |= EDGE_CREASE;
+    if (m->materials && m->materials[f] != m->materials[g])
+        flags |= EDGE_MATERIAL;
+    float height = height_above(m, f, second);
+    if (!(flags & EDGE_CREASE) && height != 0)
+        flags |= EDGE_CANDIDATE;
+    if (flags && same_way)
+        flags |= EDGE_TWISTED;
+    return height < 0 ? flags | CONVEX : flags;
+}
+
+/* What the file says overrules the angle. */
+static uint32_t obey(uint32_t flags, const uint8_t *said, const half_edge *group, size_t count)
+{
+    uint32_t loudest = SAID_HIDDEN;
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        uint8_t word = said[group[i].corner];
+        any = any || word != SAID_NOTHING;
+        if (word != SAID_NOTHING && word > loudest)
+            loudest = word;
+    }
+    if (!any)
+        return flags;
+    if (loudest == SAID_HIDDEN)
+        return 0;
+    if (loudest == SAID_SILHOUETTE)
+        return EDGE_CANDIDATE | (flags & (CONVEX | EDGE_TWISTED));
+    return (flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE;
+}
+
+static bool put_edge(builder *b, uint32_t low, uint32_t flags, const half_edge *group, size_t count)
+{
+    edge_mesh *m = b->mesh;
+    if (!mem_grow((void **)&m->edges, &b->edge_capacity, (size_t)m->edge_count + 1, sizeof *m->edges))
+        return false;
+    uint32_t corner = group[0].corner, begin = corner_vertex(m, corner);
+    m->edges[m->edge_count++] = (mesh_edge){{begin, begin == low ? group[0].high : low},
+                                            {corner / 3, count > 1 ? group[1].corner / 3 : EDGE_NO_FACE}, flags};
+    return true;
+}
+
+/* All half-edges of one edge. */
+static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t count)
+{
+    edge_mesh *m = b->mesh;
+    uint32_t flags = EDGE_BORDER;
+    m->all_edges++;
+    m->loose_edges += count != 2;
+    if (count == 2) {
+        bool same_way = (corner_vertex(m, group[0].corner) == low) == (corner_vertex(m, group[1].corner) == low);
+        flags = judge_pair(b, group[0].corner, group[1].corner, same_way);
+        join_pieces(b->pieces, group[0].corner / 3, group[1].corner / 3);
+    }
+    b->has_crowds = b->has_crowds || count > 2;
+    if (b->said)
+        flags = obey(flags, b->said, group, count);
+    return flags == 0 || flags == CONVEX || put_edge(b, low, flags, group, count);
+}
+
+static bool take_edges(builder *b)
+{
+    edge_mesh *m = b->mesh;
+    b->has_crowds = false;
+    m->edge_count = m->all_edges = m->loose_edges = 0;
+    for (uint32_t f = 0; f < m->face_count; f++)
+        b->pieces[f] = f;
+    for (uint32_t v = 0; v < m->vertex_count; v++) {
+        half_edge *bucket = b->halves + b->starts[v];
+        size_t size = b->starts[v + 1] - b->starts[v];
+        sort_bucket(bucket, size);
+        for (size_t begin = 0, end = 0; begin < size; begin = end) {
+            while (end < size && bucket[end].high == bucket[begin].high)
+                end++;
+            if (!take_edge(b, v, bucket + begin, end - begin))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool have_same_corners(const uint32_t a[3], const uint32_t b[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (a[k] != b[0] && a[k] != b[1] && a[k] != b[2])
+            return false;
+    return true;
+}
+
+/* Drops faces that are there twice, whichever way round; only where an edge has more than two faces can there be any. Returns how many. */
+static uint32_t drop_twins(builder *b, uint8_t *dropped)
+{
+    edge_mesh *m = b->mesh;
+    for (uint32_t v = 0; v < m->vertex_count; v++) {
+        const half_edge *bucket = b->halves + b->starts[v];
+        size_t size = b->starts[v + 1] - b->starts[v];
+        for (size_t begin = 0, end = 0; begin < size; begin = end) {
+            while (end < size && bucket[end].high == bucket[begin].high)
+                end++;
+            for (size_t i = begin; i < end && end - begin <= SHORT_BUCKET; i++)
+                for (size_t k = i + 1; k < end; k++)
+                    if (have_same_corners(m->faces[bucket[i].corner / 3], m->faces[bucket[k].corner / 3]))
+                        dropped[bucket[k].corner / 3] = 1;
+        }
+    }
+    uint32_t kept = 0;
+    for (uint32_t f = 0; f < m->face_count; f++) {
+        if (dropped[f])
+            continue;
+        memmove(m->faces[kept], m->faces[f], sizeof m->faces[f]);
+        m->normals[kept] = m->normals[f];
+        if (m->materials)
+            m->materials[kept] = m->materials[f];
+        if (b->said)
+            memmove(&b->said[3 * kept], &b->said[3 * f], 3);
+        kept++;
+    }
+    uint32_t gone = m->face_count - kept;
+    m->face_count = kept;
+    return gone;
+}
+
+/* A piece is closed when none of its edges is loose or passed the same way twice. */
+static void find_closed(builder *b)
+{
+    edge_mesh *m = b->mesh;
+    for (uint32_t v = 0; v < m->vertex_count; v++) {
+        const half_edge *bucket = b->halves + b->starts[v];
+        size_t size = b->starts[v + 1] - b->starts[v];
+        for (size_t begin = 0, end = 0; begin < size; begin = end) {
+            while (end < size && bucket[end].high == bucket[begin].high)
+                end++;
+            bool fits = end - begin == 2 && (corner_vertex(m, bucket[begin].corner) == v) != (corner_vertex(m, bucket[begin + 1].corner) == v);
+            for (size_t i = begin; i < end && !fits; i++)
+                m->closed[m->pieces[bucket[i].corner / 3]] = false;
+        }
+    }
+}
+
+/* Concave edges of closed pieces never are outlines. Which way round a piece is says its volume. */
+static void drop_concave(edge_mesh *m, const double *volumes)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < m->edge_count; i++) {
+        mesh_edge e = m->edges[i];
+        uint32_t piece = m->pieces[e.face[0]];
+        bool convex = ((e.flags & CONVEX) != 0) == (volumes[piece] >= 0);
+        if (m->closed[piece] && !convex)
+            e.flags &= ~(uint32_t)EDGE_CANDIDATE;
+        e.flags &= ~(uint32_t)CONVEX;
+        if (e.flags & ~(uint32_t)EDGE_TWISTED)
+            m->edges[kept++] = e;
+    }
+    m->edge_count = kept;
+    mesh_edge *smaller = mem_realloc(m->edges, (size_t)kept * sizeof *smaller);
+    m->edges = smaller || kept == 0 ? smaller : m->edges;
+}
+
+static lmn_status sort_edges(builder *b, lmn_error *error)
+{
+    edge_mesh *m = b->mesh;
+    fill_buckets(b);
+    if (!take_edges(b))
+        return error_memory(error);
+    if (b->has_crowds) {
+        uint8_t *dropped = mem_calloc(m->face_count, 1);
+        if (!dropped)
+            return error_memory(error);
+        uint32_t gone = drop_twins(b, dropped);
+        mem_free(dropped);
+        if (gone) {
+            fill_buckets(b);
+            if (!take_edges(b))
+                return error_memory(error);
+        }
+    }
+    for (uint32_t f = 0; f < m->face_count; f++)
+        b->pieces[f] = piece_root(b->pieces, f);
+    double *volumes = number_pieces(b);
+    if (!volumes)
+        return error_memory(error);
+    find_closed(b);
+    drop_concave(m, volumes);
+    mem_free(volumes);
+    return LMN_OK;
+}
+
+lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
+    lmn_status status = make_faces(&b, m, places, error);
+    if (status == LMN_OK) {
+        b.starts = mem_alloc(((size_t)out->vertex_count + 2) * sizeof *b.starts);
+        b.halves = mem_alloc((size_t)out->face_count * 3 * sizeof *b.halves);
+        b.pieces = mem_alloc((size_t)out->face_count * sizeof *b.pieces);
+        status = b.starts && b.halves && b.pieces ? sort_edges(&b, error) : error_memory(error);
+    }
+    mem_free(b.starts);
+    mem_free(b.halves);
+    mem_free(b.pieces);
+    mem_free(b.said);
+    if (status != LMN_OK)
+        edge_mesh_release(out);
+    return status;
+}
+
+void edge_mesh_release(edge_mesh *m)
+{
+    mem_free(m->places);
+    mem_free(m->faces);
+    mem_free(m->normals);
+    mem_free(m->materials);
+    mem_free(m->edges);
+    mem_free(m->pieces);
+    mem_free(m->closed);
+    mem_free(m->boxes);
+    memset(m, 0, sizeof *m);
+}

@@ -1,0 +1,176 @@
+/* What the files of this room share: what a camera sees of a scene, made ready for asking what lies in front of what.
+ *
+ * In *window space* x and y are whole numbers, small fractions of a pixel measured from the middle of the page, so that on which side of a line a point lies is worked out
+ * without rounding: products of differences stay below 2^53. z grows with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both
+ * make lines and planes of the scene lines and planes of the window. */
+#ifndef LIMNER_STROKE_PRIVATE_H
+#define LIMNER_STROKE_PRIVATE_H
+
+#include "stroke/stroke.h"
+
+#define NO_VERTEX UINT32_MAX
+/* Window coordinates stay within this. */
+#define WINDOW_LIMIT 16777216.0
+/* What two places may differ by and still be one, share of the largest coordinate: a few roundings of single precision. */
+#define SAME_PLACE 1e-6
+
+typedef struct window_point {
+    int32_t x, y;
+    double  z;
+} window_point;
+
+typedef struct double3 {
+    double x, y, z;
+} double3;
+
+/* A triangle in the window. */
+typedef struct window_triangle {
+    uint32_t v[3]; /* in the view's points */
+    uint32_t face; /* that it is (a part of) */
+} window_triangle;
+
+/* Where it lies, for a first look. */
+typedef struct window_box {
+    int32_t low_x, low_y, high_x, high_y;
+    double  near_z;
+} window_box;
+
+/* A grid of cells at several sizes. Each triangle lies in one level, in all cells that it touches there. */
+enum { GRID_LEVELS = 12, GRID_SPAN = 6 };
+typedef struct grid_level {
+    int32_t   cell, columns, rows; /* side of a cell, window units */
+    uint32_t *starts;              /* per cell, and one more, in the grid's entries; NULL: the level is empty */
+} grid_level;
+
+typedef struct window_grid {
+    grid_level levels[GRID_LEVELS];
+    int32_t    low_x, low_y;       /* of the grid: its corner */
+    uint32_t  *entries;            /* triangles */
+} window_grid;
+
+typedef struct view_item {
+    uint32_t first_point, first_face, first_piece; /* numbers that the item's own begin at */
+} view_item;
+
+struct stroke_view {
+    const stroke_scene *scene;
+    stroke_camera       camera;
+    mat4                whole;         /* world to clip space */
+    double              units;         /* window units in a pixel */
+    double              same;          /* SAME_PLACE in file units */
+    view_item          *items;
+    window_point       *points;        /* of all items' vertices; behind them those of clipped faces */
+    size_t              point_count, point_capacity;
+    uint8_t            *outside;       /* per vertex of an item: which planes it is outside of */
+    uint8_t            *fronts;        /* per face of all items, one bit: seen from the front */
+    window_triangle    *triangles;
+    size_t              triangle_count, triangle_capacity;
+    window_box         *boxes;         /* per triangle */
+    window_grid         grid;
+    uint32_t            face_count, piece_count, vertex_count;
+};
+
+/* A straight line whose visibility is asked for. */
+typedef struct window_segment {
+    window_point a, b;
+    uint32_t     ends[2];  /* points of the view that a and b are; NO_VERTEX: neither */
+    uint32_t     faces[2]; /* that it lies on; EDGE_NO_FACE: none */
+} window_segment;
+
+/* From `from` on (share of the segment) this many surfaces lie in front. */
+typedef struct visibility_span {
+    float    from;
+    uint32_t count;
+} visibility_span;
+
+/* --- project.c --- */
+/* Eye space and back: a place of the world in the window, and whether it can be seen (not nearer than the near plane, not far outside). */
+bool   view_place(const stroke_view *v, double3 world, window_point *out);
+/* Cuts a line of the world to what lies in the window; false when nothing does. `cut`: the shares that are left. */
+bool   view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
+double3 item_place(const stroke_item *item, vec3 p);
+double view_depth(const stroke_view *v, double z); /* eye depth */
+double view_tolerance(const stroke_view *v, double z); /* of z */
+static inline bool view_is_front(const stroke_view *v, uint32_t face)
+{
+    return v->fronts[face >> 3] >> (face & 7) & 1;
+}
+
+/* Twice the area of a triangle in the window, above 0 anticlockwise with y down … exactly. */
+static inline double window_side(window_point a, window_point b, window_point c)
+{
+    return ((double)b.x - a.x) * ((double)c.y - a.y) - ((double)b.y - a.y) * ((double)c.x - a.x);
+}
+
+/* --- grid.c --- */
+lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error);
+void       grid_release(window_grid *g);
+/* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `alone`: it is the only one of the level. */
+typedef void (*grid_visit)(void *user, const uint32_t *entries, size_t count, bool alone);
+void       grid_walk(const window_grid *g, window_point a, window_point b, grid_visit visit, void *user);
+
+/* --- visibility.c --- */
+/* What covers segments: `spans` of segment i are spans[starts[i]] … spans[starts[i + 1] − 1], the first from 0 on. */
+typedef struct visibility {
+    visibility_span *spans;
+    uint32_t        *starts;
+    uint64_t         pairs;
+} visibility;
+lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count, lmn_progress_fn progress, void *user,
+                           lmn_error *error);
+void       visibility_release(visibility *out);
+
+/* --- hierarchy.c: boxes around boxes --- */
+typedef struct hierarchy_node {
+    box3     box;
+    uint32_t first, count; /* leaf: members; else count 0, and `first` is the left child, the right one behind it */
+} hierarchy_node;
+
+typedef struct hierarchy {
+    hierarchy_node *nodes;
+    uint32_t       *members;
+    uint32_t        node_count, member_count;
+} hierarchy;
+/* Sorts boxes into a tree with a few of them a leaf. */
+lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, uint32_t count, lmn_error *error);
+void       hierarchy_release(hierarchy *h);
+
+/* --- intersections.c --- */
+/* A straight line in which two faces of different pieces cross. */
+typedef struct face_crossing {
+    double3  ends[2];
+    uint32_t faces[2];  /* of all items */
+    uint32_t item;      /* of the first face */
+} face_crossing;
+typedef struct crossing_list {
+    face_crossing *crossings;
+    size_t         count, capacity;
+} crossing_list;
+/* All of them; the same in any order of the work. */
+lmn_status crossings_find(crossing_list *out, const stroke_view *v, lmn_progress_fn progress, void *user, lmn_error *error);
+
+/* --- lines.c --- */
+/* Line edges of one view, before they are chained. */
+typedef struct view_line {
+    stroke_class kind;
+    uint32_t     item;
+    uint32_t     ends[2];  /* of view points, or numbers from vertex_count on that only lines have */
+    uint64_t     id;
+    float        weight;
+} view_line;
+
+typedef struct view_lines {
+    view_line      *lines;
+    window_segment *segments; /* one a line */
+    size_t          count, capacity, segment_capacity;
+    uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
+} view_lines;
+lmn_status lines_collect(view_lines *out, stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+                         lmn_error *error);
+void       lines_release(view_lines *l);
+
+/* --- chains.c --- */
+lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
+                       lmn_error *error);
+
+#endif
