@@ -105,9 +105,9 @@ typedef enum contour_kind {
 /* Which lines are wanted. */
 typedef struct stroke_wishes {
     int32_t contours; /* contour_kind */
-    int32_t creases, borders, materials, intersections; /* bool */
+    bool    creases, borders, materials, intersections;
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
-    int32_t hidden;    /* bool: stretches behind surfaces too */
+    bool    hidden;    /* stretches behind surfaces too */
     float   simplify;  /* by how much points may be moved, pixels */
     float   shortest;  /* chains shorter than this are left out, pixels */
 } stroke_wishes;

@@ -1,0 +1,339 @@
+/* The pass "strokes": lines with geometry into a figure's edge map. Two ways lead there.
+ *
+ *   exact:   scene ──► view ──► chains ──► ribbons ──► quads, each frame, visibility worked out by the CPU
+ *   sampled: edges of meshes ──► quads, all on the GPU, visibility by the figure's depth around the axis
+ */
+#include "draw/strokes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "draw/frame_private.h"
+#include "lines/stroke/strokes.h"
+
+struct stroke_store {
+    bool          *parts; /* that the scene has; all that may hide lines */
+    size_t         part_count;
+    stroke_scene   scene;
+    gpu_marks    **edges; /* per mesh of the scene; NULL: not made yet */
+    stroke_view   *view;  /* of the last camera; NULL: none */
+    stroke_camera  camera;
+};
+
+static void release_view(stroke_store *s)
+{
+    if (s->view)
+        stroke_view_destroy(&s->view);
+    s->view = NULL;
+}
+
+void stroke_store_destroy(stroke_store **store, gpu *g)
+{
+    stroke_store *s = *store;
+    if (!s)
+        return;
+    release_view(s);
+    for (size_t i = 0; i < s->scene.mesh_count && s->edges; i++)
+        gpu_marks_destroy(g, &s->edges[i]);
+    stroke_scene_release(&s->scene);
+    mem_free(s->edges);
+    mem_free(s->parts);
+    mem_free(s);
+    *store = NULL;
+}
+
+/* --- the scene ----------------------------------------------------------------------------------------------------- */
+
+/* Parts that may hide the figure's lines: what is not seen through, and its own. */
+static bool hides(const frame *f, const figure *fig, size_t part)
+{
+    return !(f->mirror && f->mirror->designated[part]) && (fig->designated[part] || f->plan->opaque[part]);
+}
+
+static bool has_parts(const stroke_store *s, const frame *f, const figure *fig)
+{
+    bool same = s->part_count == f->up->part_count;
+    for (size_t i = 0; same && i < s->part_count; i++)
+        same = s->parts[i] == hides(f, fig, i);
+    return same;
+}
+
+static lmn_status fill_store(stroke_store *s, const frame *f, const figure *fig, lmn_error *error)
+{
+    s->part_count = f->up->part_count;
+    s->parts = mem_calloc(s->part_count, sizeof *s->parts);
+    for (size_t i = 0; i < s->part_count && s->parts; i++)
+        s->parts[i] = hides(f, fig, i);
+    lmn_status status = s->parts ? LMN_OK : error_memory(error);
+    if (status == LMN_OK)
+        status = stroke_scene_create(&s->scene, f->plan->scene, f->up->worlds, s->parts, f->up->crease_angle, NULL, NULL, error);
+    if (status != LMN_OK)
+        return status;
+    s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
+    return s->edges ? LMN_OK : error_memory(error);
+}
+
+static void fail(frame *f, lmn_status status, const lmn_error *error)
+{
+    gpu_fail(f->g, status, "%s", error->message);
+}
+
+/* The figure's; NULL after an error. */
+static stroke_store *find_store(frame *f, const figure *fig)
+{
+    if (f->up->strokes && has_parts(f->up->strokes, f, fig))
+        return f->up->strokes;
+    stroke_store_destroy(&f->up->strokes, f->g);
+    lmn_error error = {0};
+    stroke_store *s = mem_calloc(1, sizeof *s);
+    lmn_status status = s ? fill_store(s, f, fig, &error) : error_memory(&error);
+    if (status == LMN_OK) {
+        f->up->strokes = s;
+        return s;
+    }
+    stroke_store_destroy(&s, f->g);
+    fail(f, status, &error);
+    return NULL;
+}
+
+/* --- programs ------------------------------------------------------------------------------------------------------ */
+
+static gpu_texture *open_edges(frame *f, figure_state *s)
+{
+    gpu_texture *written = frame_acquire(f, TARGET_EDGE);
+    gpu_pass target = {.colours = {written}, .colour_count = 1, .clear = true, .clear_values = {{1, 1, 1, 1}}};
+    memcpy(target.clear_box, s->around, sizeof target.clear_box);
+    memcpy(target.scissor, s->pixels, sizeof target.scissor);
+    if (written)
+        gpu_pass_begin(f->g, &target);
+    return written;
+}
+
+static void keep_target(frame *f, figure_state *s, target t, gpu_texture *picture)
+{
+    gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = picture;
+}
+
+/* --- sampled ------------------------------------------------------------------------------------------------------- */
+
+/* The eye in an item's axes: its place, 1; or without perspective the way towards it, 0. */
+static void find_viewer(const frame *f, const mat4 *world, float out[4])
+{
+    mat4 both = mat4_multiply(&f->camera.view, world);
+    double cofactors[9], determinant = mat4_cofactors(&both, cofactors), eye[3], largest = 0;
+    /* The inverse's rows are the cofactors' columns: of the point 0, or of the axis z. */
+    for (int row = 0; row < 3; row++) {
+        const double *c = cofactors;
+        eye[row] = f->camera.orthographic
+                       ? c[6 + row]
+                       : -(c[row] * both.m[12] + c[3 + row] * both.m[13] + c[6 + row] * both.m[14]);
+        largest = fmax(largest, fabs(eye[row]));
+    }
+    double scale = f->camera.orthographic ? (determinant < 0 ? -1 : 1) / fmax(largest, 1e-300) : determinant != 0 ? 1 / determinant : 0;
+    for (int row = 0; row < 3; row++)
+        out[row] = (float)(eye[row] * scale);
+    out[3] = f->camera.orthographic ? 0 : 1;
+}
+
+static gpu_marks *edges_of(frame *f, stroke_store *store, uint32_t mesh)
+{
+    gpu_marks **slot = &store->edges[mesh];
+    if (*slot || gpu_failed(f->g))
+        return *slot;
+    float *records = strokes_edge_records(&store->scene.meshes[mesh]);
+    if (records)
+        *slot = gpu_marks_create(f->g, EDGE_RECORD_VECTORS, records, store->scene.meshes[mesh].edge_count);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(records);
+    return *slot;
+}
+
+static void draw_item_edges(frame *f, stroke_store *store, const stroke_item *item)
+{
+    gpu_marks *marks = edges_of(f, store, item->mesh);
+    mat4 both = mat4_multiply(&f->camera.view, &item->world), whole = mat4_multiply(&f->camera.projection, &both);
+    float clip[16], viewer[4];
+    for (int i = 0; i < 16; i++)
+        clip[i] = (float)whole.m[i];
+    find_viewer(f, &item->world, viewer);
+    gpu_set_mat4(f->g, "u_clip", clip);
+    gpu_set_vec4(f->g, "u_viewer", viewer);
+    gpu_draw_marks(f->g, marks);
+}
+
+/* Is the near plane before all parts, so that closed ones are seen from outside? */
+static bool eye_is_outside(const frame *f)
+{
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
+    return nearest > f->camera.near && !f->mirror;
+}
+
+static int wanted_bits(const stroke_wishes *w)
+{
+    enum { WANT_CONTOUR = 32 };
+    return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) | (w->creases ? RECORD_CREASE : 0) |
+           (w->materials ? RECORD_MATERIAL : 0);
+}
+
+static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const pass *p, const strokes_values *v)
+{
+    text prelude = {0};
+    reads_declare(&prelude, f, s, p, NULL);
+    text_append(&prelude, "#define SAMPLED\n");
+    gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/edges.vert", "lines/stroke/stroke.frag", &prelude);
+    /* Before the pass begins: making records takes the place of what is bound. */
+    for (size_t i = 0; i < store->scene.item_count; i++)
+        if (s->figure->designated[store->scene.items[i].part_index])
+            edges_of(f, store, store->scene.items[i].mesh);
+    gpu_texture *written = open_edges(f, s);
+    if (!program || !written || gpu_failed(f->g)) {
+        keep_target(f, s, TARGET_EDGE, written);
+        return;
+    }
+    gpu_use(f->g, program, (gpu_state){.blend = GPU_BLEND_MIN});
+    frame_set_common(f, s);
+    reads_set(f, s, p, NULL);
+    gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
+    gpu_set_vec2(f->g, "u_half_widths", v->common.width / 2, v->common.width * v->style.crease_width / 2);
+    gpu_set_int(f->g, "u_wanted", wanted_bits(&v->wishes));
+    gpu_set_int(f->g, "u_inside", !eye_is_outside(f));
+    for (size_t i = 0; i < store->scene.item_count; i++)
+        if (s->figure->designated[store->scene.items[i].part_index])
+            draw_item_edges(f, store, &store->scene.items[i]);
+    keep_target(f, s, TARGET_EDGE, written);
+}
+
+/* --- exact --------------------------------------------------------------------------------------------------------- */
+
+static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
+{
+    stroke_camera camera;
+    memset(&camera, 0, sizeof camera); /* compared byte by byte */
+    camera.view = f->camera.view;
+    camera.projection = f->camera.projection;
+    camera.near = f->camera.near;
+    camera.orthographic = f->camera.orthographic;
+    camera.width = f->width;
+    camera.height = f->height;
+    if (store->view && memcmp(&store->camera, &camera, sizeof camera) == 0)
+        return LMN_OK;
+    release_view(store);
+    store->camera = camera;
+    return stroke_view_create(&store->view, &store->scene, &camera, NULL, NULL, error);
+}
+
+/* Of several layers each has the lines with as many surfaces in front of them. */
+static void keep_layer(stroke_set *set, uint32_t layer)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < set->stroke_count; i++)
+        if (set->strokes[i].hidden_by == layer) {
+            set->strokes[kept] = set->strokes[i];
+            set->strokes[kept++].hidden_by = 0;
+        }
+    set->stroke_count = kept;
+}
+
+static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, const frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
+{
+    stroke_wishes wishes = strokes_wishes_of(v);
+    stroke_style style = strokes_style_of(v);
+    stroke_set set = {0};
+    if (s->figure->layered)
+        wishes.hidden = true;
+    memset(out, 0, sizeof *out);
+    lmn_status status = look_at(store, f, error);
+    if (status == LMN_OK)
+        status = stroke_find(&set, store->view, &wishes, s->figure->designated, NULL, NULL, error);
+    if (status == LMN_OK && s->figure->layered)
+        keep_layer(&set, (uint32_t)s->layer);
+    if (status == LMN_OK)
+        status = ribbons_make(out, &set, &style, f->seed, error);
+    stroke_set_release(&set);
+    return status;
+}
+
+/* From eye depth to window depth. */
+static void project_depths(ribbon_set *r, const view_camera *c)
+{
+    const double *m = c->projection.m;
+    for (size_t i = 0; i < r->point_count; i++) {
+        double depth = r->points[i].depth, clip = m[14] - m[10] * depth, w = m[15] - m[11] * depth;
+        r->points[i].depth = (float)fmin(fmax(0.5 * clip / w + 0.5, 0), 1 - 1e-7);
+    }
+}
+
+static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_state *s, const strokes_values *v)
+{
+    ribbon_set ribbons = {0};
+    lmn_error error = {0};
+    lmn_status status = make_ribbons(&ribbons, store, f, s, v, &error);
+    gpu_marks *marks = NULL;
+    if (status == LMN_OK) {
+        size_t count;
+        project_depths(&ribbons, &f->camera);
+        float *records = strokes_ribbon_records(&ribbons, f->height, &count);
+        if (records)
+            marks = gpu_marks_create(f->g, RIBBON_RECORD_VECTORS, records, count);
+        else
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        mem_free(records);
+    } else {
+        fail(f, status, &error);
+    }
+    ribbon_set_release(&ribbons);
+    return marks;
+}
+
+/* Where strokes lie, so that those beyond the figure's surfaces have a depth too. */
+static gpu_texture *draw_depth(frame *f, figure_state *s, gpu_marks *marks)
+{
+    text prelude = {0};
+    gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/depth.frag", &prelude);
+    gpu_texture *depth = frame_acquire(f, TARGET_STROKES);
+    gpu_pass target = {.depth = depth, .clear = true};
+    memcpy(target.clear_box, s->around, sizeof target.clear_box);
+    memcpy(target.scissor, s->pixels, sizeof target.scissor);
+    if (!program || !depth)
+        return depth;
+    gpu_pass_begin(f->g, &target);
+    gpu_use(f->g, program, (gpu_state){.depth_test = true, .depth_write = true});
+    frame_set_common(f, s);
+    gpu_draw_marks(f->g, marks);
+    return depth;
+}
+
+static void draw_exact(frame *f, figure_state *s, stroke_store *store, const strokes_values *v)
+{
+    text prelude = {0};
+    gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/stroke.frag", &prelude);
+    gpu_marks *marks = upload_ribbons(f, store, s, v);
+    gpu_texture *written = open_edges(f, s);
+    if (program && written && !gpu_failed(f->g)) {
+        gpu_use(f->g, program, (gpu_state){.blend = GPU_BLEND_MIN});
+        frame_set_common(f, s);
+        gpu_set_float(f->g, "u_pixel", (float)f->samples);
+        gpu_draw_marks(f->g, marks);
+        keep_target(f, s, TARGET_STROKES, draw_depth(f, s, marks));
+    }
+    keep_target(f, s, TARGET_EDGE, written);
+    if (marks)
+        gpu_marks_destroy(f->g, &marks);
+}
+
+void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
+{
+    const strokes_values *v = use->values;
+    bool exact = v->visibility == VISIBILITY_EXACT || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
+    stopwatch w = watch_start(f);
+    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure);
+    if (store && exact)
+        draw_exact(f, s, store, v);
+    else if (store)
+        draw_sampled(f, s, store, p, v);
+    watch_stop(f, w, group, p->name);
+}
