@@ -123,12 +123,10 @@ static void find_viewer(const frame *f, const mat4 *world, float out[4])
 {
     mat4 both = mat4_multiply(&f->camera.view, world);
     double cofactors[9], determinant = mat4_cofactors(&both, cofactors), eye[3], largest = 0;
-    /* The inverse's rows are the cofactors' columns: of the point 0, or of the axis z. */
+    /* Columns of cofactors are the inverse's rows: of the point 0, or of the axis z. */
     for (int row = 0; row < 3; row++) {
-        const double *c = cofactors;
-        eye[row] = f->camera.orthographic
-                       ? c[6 + row]
-                       : -(c[row] * both.m[12] + c[3 + row] * both.m[13] + c[6 + row] * both.m[14]);
+        const double *c = &cofactors[3 * row];
+        eye[row] = f->camera.orthographic ? c[2] : -(c[0] * both.m[12] + c[1] * both.m[13] + c[2] * both.m[14]);
         largest = fmax(largest, fabs(eye[row]));
     }
     double scale = f->camera.orthographic ? (determinant < 0 ? -1 : 1) / fmax(largest, 1e-300) : determinant != 0 ? 1 / determinant : 0;
