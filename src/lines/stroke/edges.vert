@@ -1,8 +1,13 @@
 /* Edges of a mesh as quads. Those that are no lines are moved out of sight, which costs least (row EX-13). */
 #include "lines/stroke/decide.glsl"
 #include "lines/stroke/quad.glsl"
+#include "lines/stroke/visible.glsl"
 uniform mat4  u_clip; /* from the mesh's axes to clip space */
 uniform vec2  u_half_widths; /* of outlines, of all others */
+
+/* An edge no longer than this, in pixels, is seen as a whole or not at all. */
+const float SHORT = 2.5;
+const float SEEN = 1.0; /* in the place of the bits */
 
 /* Pixels and window depth. */
 vec3 on_page(vec4 clip)
@@ -25,8 +30,12 @@ vec4 place_edge(int line)
     float half_width = line == PROFILE ? u_half_widths.x : u_half_widths.y;
     v_begin = vec4(on_page(begin), half_width);
     v_end = vec4(on_page(end), half_width);
-    v_look = vec4(1.0, 1.0, float(line), 0.0);
-    return corner_of(v_begin, v_end);
+    bool is_short = distance(v_begin.xy, v_end.xy) <= SHORT;
+    v_look = vec4(1.0, 1.0, float(line), is_short ? SEEN : 0.0);
+    vec4 corner = corner_of(v_begin, v_end);
+    for (int once = is_short ? 0 : 1; once < 1; once++)
+        corner = is_visible(0.5 * (v_begin.xyz + v_end.xyz)) ? corner : NOWHERE;
+    return corner;
 }
 
 void main()

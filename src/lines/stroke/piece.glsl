@@ -29,10 +29,12 @@ piece_place place_in_piece()
     float distance = length(gl_FragCoord.xy - p.axis.xy);
     p.aside = along.x * from.y - along.y * from.x < 0.0 ? -distance : distance;
     p.share = share_of(distance, p.axis.w);
+#ifndef SAMPLED
     int bits = int(v_look.w);
     if ((bits & BUTT_BEGIN) != 0)
         p.share *= clamp(ahead + 0.5, 0.0, 1.0);
     if ((bits & BUTT_END) != 0)
         p.share *= clamp(size - ahead + 0.5, 0.0, 1.0);
+#endif
     return p;
 }

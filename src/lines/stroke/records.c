@@ -44,12 +44,22 @@ static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e, double 
     put_vector(out + 12, m->normals[e->face[pair]], 0, pair ? outward * twist : -outward);
 }
 
+static bool is_always_line(const mesh_edge *e)
+{
+    return (e->flags & (EDGE_BORDER | EDGE_CREASE | EDGE_MATERIAL)) != 0;
+}
+
 float *strokes_edge_records(const edge_mesh *m)
 {
     float *records = mem_calloc((size_t)m->edge_count + 1, EDGE_RECORD_FLOATS * sizeof *records);
     double *volumes = find_volumes(m);
-    for (uint32_t i = 0; i < m->edge_count && records && volumes; i++)
-        put_edge(records + (size_t)EDGE_RECORD_FLOATS * i, m, &m->edges[i], volumes[m->pieces[m->edges[i].face[0]]]);
+    float *at = records;
+    for (int pass = 0; pass < 2; pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
+        for (uint32_t i = 0; i < m->edge_count && records && volumes; i++)
+            if (is_always_line(&m->edges[i]) == (pass == 0)) {
+                put_edge(at, m, &m->edges[i], volumes[m->pieces[m->edges[i].face[0]]]);
+                at += EDGE_RECORD_FLOATS;
+            }
     if (!volumes) {
         mem_free(records);
         records = NULL;

@@ -14,7 +14,7 @@ void main()
 {
     piece_place p = place_in_piece();
 #ifdef SAMPLED
-    for (int once = p.share > 0.0 ? 0 : 1; once < 1; once++)
+    for (int once = p.share > 0.0 && v_look.w == 0.0 ? 0 : 1; once < 1; once++)
         p.share = is_visible(p.axis.xyz) ? p.share : 0.0;
     float ink = p.share;
 #else
