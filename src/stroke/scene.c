@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/mesh.h"
-#include "stroke/stroke.h"
+#include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
     stroke_scene    *out;
@@ -139,6 +139,9 @@ void stroke_scene_release(stroke_scene *s)
 {
     for (size_t i = 0; i < s->mesh_count; i++)
         edge_mesh_release(&s->meshes[i]);
+    if (s->crossings)
+        mem_free(s->crossings->crossings);
+    mem_free(s->crossings);
     mem_free(s->meshes);
     mem_free(s->items);
     memset(s, 0, sizeof *s);

@@ -64,7 +64,10 @@ typedef struct stroke_item {
     mat4     world;
 } stroke_item;
 
+typedef struct crossing_list crossing_list;
+
 typedef struct stroke_scene {
+    crossing_list *crossings; /* where pieces run through each other; NULL: not asked for yet */
     edge_mesh   *meshes;
     size_t       mesh_count;
     stroke_item *items;
@@ -77,6 +80,8 @@ typedef struct stroke_scene {
 lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_scene_release(stroke_scene *s);
+/* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 

@@ -135,19 +135,22 @@ typedef struct hierarchy {
 lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, uint32_t count, lmn_error *error);
 void       hierarchy_release(hierarchy *h);
 
+/* Calls `pair` for all pairs of members whose boxes overlap, each once; false from it ends the search. */
+typedef bool (*hierarchy_pair)(void *user, uint32_t a, uint32_t b);
+bool       hierarchy_pairs(const hierarchy *h, const box3 *boxes, hierarchy_pair pair, void *user);
+
 /* --- intersections.c --- */
 /* A straight line in which two faces of different pieces cross. */
 typedef struct face_crossing {
     double3  ends[2];
-    uint32_t faces[2];  /* of all items */
-    uint32_t item;      /* of the first face */
+    uint32_t items[2], faces[2]; /* faces: of the items' meshes */
 } face_crossing;
-typedef struct crossing_list {
+struct crossing_list {
     face_crossing *crossings;
     size_t         count, capacity;
-} crossing_list;
-/* All of them; the same in any order of the work. */
-lmn_status crossings_find(crossing_list *out, const stroke_view *v, lmn_progress_fn progress, void *user, lmn_error *error);
+};
+/* All of them, in an order that depends on the scene alone. */
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user, lmn_error *error);
 
 /* --- lines.c --- */
 /* Line edges of one view, before they are chained. */
@@ -165,7 +168,7 @@ typedef struct view_lines {
     size_t          count, capacity, segment_capacity;
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
 } view_lines;
-lmn_status lines_collect(view_lines *out, stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 void       lines_release(view_lines *l);
 

@@ -1,0 +1,446 @@
+/* Lines joined into long chains, chains cut where the number of surfaces in front changes, and points left out that change nothing. Seed 001, section 7.3.3; row OE-11. */
+#include "stroke/stroke_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
+#define FLICKER 0.25
+/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. */
+#define STRAIGHT_ON 0.5
+enum { OUTSIDE = -1 }; /* of the page */
+
+/* A point of a chain and how many surfaces lie in front from here to the next one. */
+typedef struct chain_point {
+    double  x, y, z, arc;
+    float   weight;
+    int32_t count;
+} chain_point;
+
+typedef struct chainer {
+    stroke_set          *out;
+    const stroke_view   *v;
+    const view_lines    *lines;
+    const visibility    *seen;
+    const stroke_wishes *wishes;
+    uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
+    uint32_t            *nexts; /* per half-line: another one at the same end */
+    uint8_t             *used;  /* per line */
+    uint32_t            *path;  /* half-lines of the chain, by the end that they begin at */
+    size_t               path_count, path_capacity;
+    chain_point         *points, *rotated;
+    size_t               point_count, point_capacity, rotated_capacity;
+    uint8_t             *kept;  /* per point */
+    uint32_t            *stack;
+    size_t               kept_capacity, stack_capacity;
+    size_t               stroke_capacity, out_capacity;
+} chainer;
+
+/* --- joining ------------------------------------------------------------------------------------------------------- */
+
+static const window_point *end_place(const chainer *c, uint32_t half)
+{
+    const window_segment *s = &c->lines->segments[half / 2];
+    return half & 1 ? &s->b : &s->a;
+}
+
+static uint32_t end_number(const chainer *c, uint32_t half)
+{
+    return c->lines->lines[half / 2].ends[half & 1];
+}
+
+/* The cosine of the turn from coming in along one half-line to going out along another; both begin at the same end. */
+static double turn_between(const chainer *c, uint32_t in, uint32_t out)
+{
+    const window_point *p = end_place(c, in ^ 1), *q = end_place(c, out), *r = end_place(c, out ^ 1);
+    double ax = (double)q->x - p->x, ay = (double)q->y - p->y, bx = (double)r->x - q->x, by = (double)r->y - q->y;
+    double length = sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
+    return length > 0 ? (ax * bx + ay * by) / length : 1;
+}
+
+/* Does a kind of line end where three meet? Sharp ones end at corners; outlines and crossings go straight on. */
+static bool ends_at_corners(stroke_class kind)
+{
+    return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL;
+}
+
+/* The other half-lines of one's kind at one's end: how many, and the one that goes on straightest. */
+static size_t straightest(const chainer *c, uint32_t half, uint32_t *best)
+{
+    stroke_class kind = c->lines->lines[half / 2].kind;
+    size_t others = 0;
+    double most = -2;
+    *best = NO_VERTEX;
+    for (uint32_t h = c->heads[end_number(c, half)]; h != NO_VERTEX; h = c->nexts[h]) {
+        if (h / 2 == half / 2 || c->lines->lines[h / 2].kind != kind)
+            continue;
+        double turn = turn_between(c, half, h);
+        others++;
+        if (turn > most || (turn == most && h < *best)) {
+            most = turn;
+            *best = h;
+        }
+    }
+    if (others > 1 && most < STRAIGHT_ON)
+        *best = NO_VERTEX;
+    return others;
+}
+
+/* The half-line with which a chain goes on beyond this half-line's own end, NO_VERTEX: it ends there. */
+static uint32_t partner_of(const chainer *c, uint32_t half)
+{
+    uint32_t best, back;
+    size_t others = straightest(c, half, &best);
+    if (best == NO_VERTEX || (others > 1 && ends_at_corners(c->lines->lines[half / 2].kind)))
+        return NO_VERTEX;
+    if (others > 1) { /* both must want each other */
+        straightest(c, best, &back);
+        if (back != half)
+            return NO_VERTEX;
+    }
+    return best;
+}
+
+static bool link_ends(chainer *c)
+{
+    const view_lines *l = c->lines;
+    c->heads = mem_alloc(((size_t)l->end_count + 1) * sizeof *c->heads);
+    c->nexts = mem_alloc((2 * l->count + 1) * sizeof *c->nexts);
+    c->used = mem_calloc(l->count + 1, 1);
+    if (!c->heads || !c->nexts || !c->used)
+        return false;
+    memset(c->heads, 0xFF, ((size_t)l->end_count + 1) * sizeof *c->heads);
+    for (size_t h = 2 * l->count; h-- > 0;) {
+        uint32_t end = end_number(c, (uint32_t)h);
+        c->nexts[h] = c->heads[end];
+        c->heads[end] = (uint32_t)h;
+    }
+    return true;
+}
+
+/* Follows lines from a half-line on until they end or come back. The path gets the half-lines by the end that they begin at. */
+static bool follow(chainer *c, uint32_t half, bool *closed)
+{
+    *closed = false;
+    for (uint32_t h = half;;) {
+        if (!mem_grow((void **)&c->path, &c->path_capacity, c->path_count + 1, sizeof *c->path))
+            return false;
+        c->path[c->path_count++] = h;
+        c->used[h / 2] = 1;
+        uint32_t next = partner_of(c, h ^ 1);
+        *closed = next == half && c->path_count > 1;
+        if (next == NO_VERTEX || c->used[next / 2])
+            return true;
+        h = next;
+    }
+}
+
+/* The first half-line of the chain that a line belongs to. */
+static uint32_t first_of(const chainer *c, uint32_t line)
+{
+    uint32_t start = 2 * line, h = start;
+    for (size_t steps = 0; steps <= c->lines->count; steps++) {
+        uint32_t before = partner_of(c, h);
+        if (before == NO_VERTEX || (before ^ 1) == start || c->used[before / 2])
+            return h;
+        h = before ^ 1;
+    }
+    return start;
+}
+
+/* --- points -------------------------------------------------------------------------------------------------------- */
+
+static chain_point point_at(const chainer *c, const window_segment *s, double share, float weight, int32_t count)
+{
+    double x = s->a.x + share * ((double)s->b.x - s->a.x), y = s->a.y + share * ((double)s->b.y - s->a.y);
+    return (chain_point){x / c->v->units + 0.5 * c->v->camera.width, y / c->v->units + 0.5 * c->v->camera.height,
+                         s->a.z + share * (s->b.z - s->a.z), 0, weight, count};
+}
+
+static bool put_point(chainer *c, chain_point p)
+{
+    if (!mem_grow((void **)&c->points, &c->point_capacity, c->point_count + 1, sizeof *c->points))
+        return false;
+    c->points[c->point_count++] = p;
+    return true;
+}
+
+/* The part of a straight piece that lies on the page. */
+static bool clip_to_page(const chainer *c, const chain_point *p, const chain_point *q, double cut[2])
+{
+    const double from[2] = {p->x, p->y}, to[2] = {q->x, q->y}, limit[2] = {c->v->camera.width, c->v->camera.height};
+    cut[0] = 0;
+    cut[1] = 1;
+    for (int k = 0; k < 2; k++) {
+        double step = to[k] - from[k], low = -from[k], high = limit[k] - from[k];
+        if (step == 0 && (low > 0 || high < 0))
+            return false;
+        if (step == 0)
+            continue;
+        double enter = (step > 0 ? low : high) / step, leave = (step > 0 ? high : low) / step;
+        cut[0] = fmax(cut[0], enter);
+        cut[1] = fmin(cut[1], leave);
+    }
+    return cut[0] < cut[1];
+}
+
+static chain_point between(const chain_point *p, const chain_point *q, double share, int32_t count)
+{
+    return (chain_point){p->x + share * (q->x - p->x), p->y + share * (q->y - p->y), p->z + share * (q->z - p->z), 0,
+                         p->weight + (float)share * (q->weight - p->weight), count};
+}
+
+/* One straight piece with one count: cut at the rim of the page. */
+static bool put_piece(chainer *c, const chain_point *p, const chain_point *q)
+{
+    double cut[2];
+    chain_point from = *p;
+    if (p->x >= 0 && q->x >= 0 && p->y >= 0 && q->y >= 0 && p->x <= c->v->camera.width && q->x <= c->v->camera.width &&
+        p->y <= c->v->camera.height && q->y <= c->v->camera.height)
+        return put_point(c, from);
+    if (!clip_to_page(c, p, q, cut)) {
+        from.count = OUTSIDE;
+        return put_point(c, from);
+    }
+    if (cut[0] > 0) {
+        from.count = OUTSIDE;
+        if (!put_point(c, from))
+            return false;
+        from = between(p, q, cut[0], p->count);
+    }
+    return put_point(c, from) && (cut[1] >= 1 || put_point(c, (between(p, q, cut[1], OUTSIDE))));
+}
+
+/* A line of the chain, in its direction; all points but the last. */
+static bool put_line_points(chainer *c, uint32_t half)
+{
+    const window_segment *s = &c->lines->segments[half / 2];
+    const visibility_span *spans = c->seen->spans + c->seen->starts[half / 2];
+    size_t count = c->seen->starts[half / 2 + 1] - c->seen->starts[half / 2];
+    float weight = c->lines->lines[half / 2].weight;
+    for (size_t i = 0; i < count; i++) {
+        size_t k = half & 1 ? count - 1 - i : i;
+        double from = spans[k].from, to = k + 1 < count ? (double)spans[k + 1].from : 1;
+        int32_t number = spans[k].count < INT32_MAX ? (int32_t)spans[k].count : INT32_MAX;
+        chain_point p = point_at(c, s, half & 1 ? to : from, weight, number), q = point_at(c, s, half & 1 ? from : to, weight, number);
+        if (!put_piece(c, &p, &q))
+            return false;
+    }
+    return true;
+}
+
+static bool put_path(chainer *c)
+{
+    c->point_count = 0;
+    for (size_t i = 0; i < c->path_count; i++)
+        if (!put_line_points(c, c->path[i]))
+            return false;
+    uint32_t last = c->path[c->path_count - 1] ^ 1;
+    chain_point end = point_at(c, &c->lines->segments[last / 2], last & 1, c->lines->lines[last / 2].weight, OUTSIDE);
+    return put_point(c, end);
+}
+
+static double measure(chainer *c)
+{
+    double arc = 0;
+    for (size_t i = 0; i < c->point_count; i++) {
+        if (i > 0)
+            arc += hypot(c->points[i].x - c->points[i - 1].x, c->points[i].y - c->points[i - 1].y);
+        c->points[i].arc = arc;
+    }
+    return arc;
+}
+
+/* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */
+static bool rotate(chainer *c)
+{
+    size_t count = c->point_count - 1, first = 0;
+    while (first < count && c->points[first].count == c->points[first ? first - 1 : count - 1].count)
+        first++;
+    if (first == 0 || first == count)
+        return true;
+    if (!mem_grow((void **)&c->rotated, &c->rotated_capacity, c->point_count, sizeof *c->rotated))
+        return false;
+    memcpy(c->rotated, c->points + first, (count - first) * sizeof *c->points);
+    memcpy(c->rotated + count - first, c->points, first * sizeof *c->points);
+    memcpy(c->points, c->rotated, count * sizeof *c->points);
+    c->points[count] = c->points[0];
+    c->points[count].count = OUTSIDE;
+    return true;
+}
+
+static size_t stretch_end(const chainer *c, size_t begin)
+{
+    size_t end = begin;
+    while (end + 1 < c->point_count && c->points[end].count == c->points[begin].count)
+        end++;
+    return end;
+}
+
+/* Stretches too short to be seen take the visibility of the longer neighbour. */
+static void calm(chainer *c)
+{
+    size_t before = SIZE_MAX; /* the last stretch that stays */
+    for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
+        end = stretch_end(c, begin);
+        if (c->points[end].arc - c->points[begin].arc >= FLICKER || c->points[begin].count == OUTSIDE) {
+            before = begin;
+            continue;
+        }
+        bool has_next = end + 1 < c->point_count && c->points[end].count != OUTSIDE;
+        int32_t count = before != SIZE_MAX && c->points[before].count != OUTSIDE ? c->points[before].count
+                        : has_next                                               ? c->points[end].count
+                                                                                 : c->points[begin].count;
+        for (size_t i = begin; i < end; i++)
+            c->points[i].count = count;
+    }
+}
+
+/* --- simplifying --------------------------------------------------------------------------------------------------- */
+
+static double distance_from(const chain_point *p, const chain_point *a, const chain_point *b)
+{
+    double x = b->x - a->x, y = b->y - a->y, length = x * x + y * y;
+    double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
+    share = share < 0 ? 0 : share > 1 ? 1 : share;
+    return hypot(p->x - a->x - share * x, p->y - a->y - share * y);
+}
+
+/* Marks the points that stay between two that do (Douglas and Peucker). */
+static bool simplify(chainer *c, size_t begin, size_t end)
+{
+    double limit = c->wishes->simplify;
+    if (!mem_grow((void **)&c->kept, &c->kept_capacity, c->point_count, 1) ||
+        !mem_grow((void **)&c->stack, &c->stack_capacity, 2 * (end - begin) + 4, sizeof *c->stack))
+        return false;
+    memset(c->kept + begin, 0, end - begin + 1);
+    c->kept[begin] = c->kept[end] = 1;
+    size_t depth = 0;
+    c->stack[depth++] = (uint32_t)begin;
+    c->stack[depth++] = (uint32_t)end;
+    while (depth > 0) {
+        size_t last = c->stack[--depth], first = c->stack[--depth], worst = 0;
+        double most = limit;
+        for (size_t i = first + 1; i < last; i++) {
+            double away = distance_from(&c->points[i], &c->points[first], &c->points[last]);
+            if (away > most) {
+                most = away;
+                worst = i;
+            }
+        }
+        if (!worst)
+            continue;
+        c->kept[worst] = 1;
+        c->stack[depth++] = (uint32_t)first;
+        c->stack[depth++] = (uint32_t)worst;
+        c->stack[depth++] = (uint32_t)worst;
+        c->stack[depth++] = (uint32_t)last;
+    }
+    return true;
+}
+
+/* --- strokes ------------------------------------------------------------------------------------------------------- */
+
+static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
+{
+    stroke_set *out = c->out;
+    if (!simplify(c, begin, end) || !mem_grow((void **)&out->strokes, &c->stroke_capacity, out->stroke_count + 1, sizeof *out->strokes) ||
+        !mem_grow((void **)&out->points, &c->out_capacity, out->point_count + (end - begin + 1), sizeof *out->points))
+        return false;
+    s.first = (uint32_t)out->point_count;
+    for (size_t i = begin; i <= end; i++) {
+        const chain_point *p = &c->points[i];
+        if (c->kept[i])
+            out->points[out->point_count++] = (stroke_point){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc, p->weight};
+    }
+    s.count = (uint32_t)(out->point_count - s.first);
+    out->strokes[out->stroke_count++] = s;
+    return true;
+}
+
+static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
+{
+    stroke s = {.kind = line->kind, .part = c->v->scene->items[line->item].part_index + 1, .chain = (uint32_t)c->out->chain_count, .id = id,
+                .chain_length = (float)length};
+    size_t before = c->out->stroke_count;
+    for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
+        end = stretch_end(c, begin);
+        int32_t count = c->points[begin].count;
+        if (count == OUTSIDE || (count > 0 && !c->wishes->hidden) || c->points[end].arc <= c->points[begin].arc)
+            continue;
+        s.hidden_by = (uint32_t)count;
+        s.closed = closed && begin == 0 && end + 1 == c->point_count;
+        if (!put_stroke(c, s, begin, end))
+            return false;
+    }
+    c->out->chain_count += c->out->stroke_count > before;
+    return true;
+}
+
+static bool make_chain(chainer *c, uint32_t line)
+{
+    bool closed;
+    c->path_count = 0;
+    if (!follow(c, first_of(c, line), &closed) || !put_path(c) || (closed && !rotate(c)))
+        return false;
+    double length = measure(c);
+    if (length < c->wishes->shortest || length <= 0)
+        return true;
+    calm(c);
+    uint64_t id = UINT64_MAX;
+    for (size_t i = 0; i < c->path_count; i++) {
+        uint64_t own = c->lines->lines[c->path[i] / 2].id;
+        id = own < id ? own : id;
+    }
+    return put_strokes(c, &c->lines->lines[line], id, closed, length);
+}
+
+lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
+                       lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    out->pairs = seen->pairs;
+    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes};
+    bool good = link_ends(&c);
+    for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
+        for (uint32_t i = 0; i < lines->count && good; i++)
+            if ((int)lines->lines[i].kind == kind && !c.used[i])
+                good = make_chain(&c, i);
+    mem_free(c.heads);
+    mem_free(c.nexts);
+    mem_free(c.used);
+    mem_free(c.path);
+    mem_free(c.points);
+    mem_free(c.rotated);
+    mem_free(c.kept);
+    mem_free(c.stack);
+    if (!good)
+        stroke_set_release(out);
+    return good ? LMN_OK : error_memory(error);
+}
+
+void stroke_set_release(stroke_set *s)
+{
+    mem_free(s->strokes);
+    mem_free(s->points);
+    memset(s, 0, sizeof *s);
+}
+
+lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+                       lmn_error *error)
+{
+    view_lines lines;
+    visibility seen;
+    memset(out, 0, sizeof *out);
+    lmn_status status = lines_collect(&lines, v, wishes, parts, progress, user, error);
+    if (status != LMN_OK)
+        return status;
+    status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
+    if (status == LMN_OK)
+        status = chains_make(out, v, &lines, &seen, wishes, error);
+    visibility_release(&seen);
+    lines_release(&lines);
+    return status;
+}

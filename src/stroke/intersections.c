@@ -1,0 +1,334 @@
+/* Where pieces of surface run through each other. Most faces are nowhere near another piece: boxes of pieces that overlap mark the cells of a coarse grid, only faces in
+ * marked cells are sorted into a tree of boxes, and only those whose boxes meet are compared. */
+#include "stroke/stroke_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { MARK_SIDE = 64, TICKS = 65536 };
+
+/* A face that may cross another one. */
+typedef struct near_face {
+    uint32_t item, face, piece; /* piece: of all items */
+} near_face;
+
+typedef struct crossing_search {
+    const stroke_scene *scene;
+    uint32_t           *first_piece; /* per item */
+    box3               *piece_boxes; /* world axes */
+    uint8_t            *piece_meets; /* another one's box */
+    uint32_t            piece_count;
+    box3                region;      /* of all overlaps */
+    uint64_t           *marks;       /* MARK_SIDE² words: cells where boxes overlap */
+    near_face          *faces;
+    box3               *boxes;
+    size_t              face_count, face_capacity, box_capacity;
+    double              same;
+    crossing_list      *out;
+    lmn_progress_fn     progress;
+    void               *user;
+    uint32_t            ticks;
+    bool                failed, cancelled;
+} crossing_search;
+
+static double3 minus(double3 a, double3 b)
+{
+    return (double3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static double3 cross(double3 a, double3 b)
+{
+    return (double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static double dot(double3 a, double3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* --- candidates ---------------------------------------------------------------------------------------------------- */
+
+static lmn_status number_pieces(crossing_search *s, lmn_error *error)
+{
+    const stroke_scene *scene = s->scene;
+    s->first_piece = mem_alloc((scene->item_count + 1) * sizeof *s->first_piece);
+    if (!s->first_piece)
+        return error_memory(error);
+    for (size_t i = 0; i < scene->item_count; i++) {
+        s->first_piece[i] = s->piece_count;
+        s->piece_count += scene->meshes[scene->items[i].mesh].piece_count;
+    }
+    s->piece_boxes = mem_alloc((s->piece_count + 1) * sizeof *s->piece_boxes);
+    s->piece_meets = mem_calloc(s->piece_count + 1, 1);
+    s->marks = mem_calloc(MARK_SIDE * MARK_SIDE, sizeof *s->marks);
+    if (!s->piece_boxes || !s->piece_meets || !s->marks)
+        return error_memory(error);
+    for (size_t i = 0; i < scene->item_count; i++) {
+        const edge_mesh *m = &scene->meshes[scene->items[i].mesh];
+        for (uint32_t k = 0; k < m->piece_count; k++)
+            s->piece_boxes[s->first_piece[i] + k] = box3_transform(m->boxes[k], &scene->items[i].world);
+    }
+    return LMN_OK;
+}
+
+static bool widen_region(void *user, uint32_t a, uint32_t b)
+{
+    crossing_search *s = user;
+    const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
+    s->piece_meets[a] = s->piece_meets[b] = 1;
+    box3 both = {{fmaxf(p->min.x, q->min.x), fmaxf(p->min.y, q->min.y), fmaxf(p->min.z, q->min.z)},
+                 {fminf(p->max.x, q->max.x), fminf(p->max.y, q->max.y), fminf(p->max.z, q->max.z)}};
+    s->region = box3_union(s->region, both);
+    return true;
+}
+
+static int mark_of(float at, float low, float high)
+{
+    float step = high > low ? (at - low) / (high - low) * MARK_SIDE : 0;
+    return step > 0 ? step < MARK_SIDE - 1 ? (int)step : MARK_SIDE - 1 : 0;
+}
+
+typedef struct mark_range {
+    int low[3], high[3];
+} mark_range;
+
+static mark_range marks_of(const crossing_search *s, const box3 *b)
+{
+    const box3 *r = &s->region;
+    return (mark_range){{mark_of(b->min.x, r->min.x, r->max.x), mark_of(b->min.y, r->min.y, r->max.y), mark_of(b->min.z, r->min.z, r->max.z)},
+                        {mark_of(b->max.x, r->min.x, r->max.x), mark_of(b->max.y, r->min.y, r->max.y), mark_of(b->max.z, r->min.z, r->max.z)}};
+}
+
+static uint64_t bits_between(int low, int high)
+{
+    uint64_t upto = high >= 63 ? UINT64_MAX : (UINT64_C(1) << (high + 1)) - 1;
+    return upto & ~((UINT64_C(1) << low) - 1);
+}
+
+static bool mark_region(void *user, uint32_t a, uint32_t b)
+{
+    crossing_search *s = user;
+    const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
+    box3 both = {{fmaxf(p->min.x, q->min.x), fmaxf(p->min.y, q->min.y), fmaxf(p->min.z, q->min.z)},
+                 {fminf(p->max.x, q->max.x), fminf(p->max.y, q->max.y), fminf(p->max.z, q->max.z)}};
+    mark_range r = marks_of(s, &both);
+    for (int z = r.low[2]; z <= r.high[2]; z++)
+        for (int y = r.low[1]; y <= r.high[1]; y++)
+            s->marks[z * MARK_SIDE + y] |= bits_between(r.low[0], r.high[0]);
+    return true;
+}
+
+static bool is_marked(const crossing_search *s, const box3 *b)
+{
+    const box3 *r = &s->region;
+    if (b->min.x > r->max.x || b->max.x < r->min.x || b->min.y > r->max.y || b->max.y < r->min.y || b->min.z > r->max.z || b->max.z < r->min.z)
+        return false;
+    mark_range m = marks_of(s, b);
+    uint64_t bits = bits_between(m.low[0], m.high[0]);
+    for (int z = m.low[2]; z <= m.high[2]; z++)
+        for (int y = m.low[1]; y <= m.high[1]; y++)
+            if (s->marks[z * MARK_SIDE + y] & bits)
+                return true;
+    return false;
+}
+
+static bool is_identity(const mat4 *m)
+{
+    mat4 identity = mat4_identity();
+    return memcmp(m, &identity, sizeof *m) == 0;
+}
+
+static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, uint32_t face)
+{
+    box3 box = box3_empty();
+    for (int k = 0; k < 3; k++) {
+        vec3 p = m->places[m->faces[face][k]];
+        box = box3_with_point(box, still ? p : mat4_transform_point(&item->world, p));
+    }
+    return box;
+}
+
+static lmn_status gather_faces(crossing_search *s, lmn_error *error)
+{
+    for (uint32_t i = 0; i < s->scene->item_count; i++) {
+        const stroke_item *item = &s->scene->items[i];
+        const edge_mesh *m = &s->scene->meshes[item->mesh];
+        bool still = is_identity(&item->world);
+        for (uint32_t f = 0; f < m->face_count; f++) {
+            uint32_t piece = s->first_piece[i] + m->pieces[f];
+            if (!s->piece_meets[piece])
+                continue;
+            box3 box = face_box(m, item, still, f);
+            if (!is_marked(s, &box))
+                continue;
+            if (!mem_grow((void **)&s->faces, &s->face_capacity, s->face_count + 1, sizeof *s->faces) ||
+                !mem_grow((void **)&s->boxes, &s->box_capacity, s->face_count + 1, sizeof *s->boxes))
+                return error_memory(error);
+            s->faces[s->face_count] = (near_face){i, f, piece};
+            s->boxes[s->face_count++] = box;
+        }
+    }
+    return LMN_OK;
+}
+
+/* --- two faces ----------------------------------------------------------------------------------------------------- */
+
+typedef struct world_face {
+    double3  p[3], normal; /* unit */
+    uint32_t vertices[3];
+    double   heights[3];   /* over the other one's plane */
+} world_face;
+
+static world_face load_face(const crossing_search *s, const near_face *n)
+{
+    const stroke_item *item = &s->scene->items[n->item];
+    const edge_mesh *m = &s->scene->meshes[item->mesh];
+    world_face out = {.vertices = {m->faces[n->face][0], m->faces[n->face][1], m->faces[n->face][2]}};
+    for (int k = 0; k < 3; k++)
+        out.p[k] = item_place(item, m->places[out.vertices[k]]);
+    double3 normal = cross(minus(out.p[1], out.p[0]), minus(out.p[2], out.p[0]));
+    double length = sqrt(dot(normal, normal));
+    out.normal = length > 0 ? (double3){normal.x / length, normal.y / length, normal.z / length} : (double3){0, 0, 0};
+    return out;
+}
+
+/* Heights of a's corners over b's plane; what is as good as on it is on it. False when a lies on one side. */
+static bool find_heights(const crossing_search *s, world_face *a, const world_face *b)
+{
+    bool above = false, below = false;
+    for (int k = 0; k < 3; k++) {
+        double height = dot(minus(a->p[k], b->p[0]), b->normal);
+        a->heights[k] = fabs(height) <= s->same ? 0 : height;
+        above = above || a->heights[k] > 0;
+        below = below || a->heights[k] < 0;
+    }
+    return above && below;
+}
+
+/* Where an edge passes the other face's plane: the same number for both faces of the edge. */
+static double3 edge_at_plane(const world_face *f, int from, int to)
+{
+    if (f->vertices[from] > f->vertices[to]) {
+        int other = from;
+        from = to;
+        to = other;
+    }
+    if (f->heights[from] == 0)
+        return f->p[from];
+    if (f->heights[to] == 0)
+        return f->p[to];
+    double share = f->heights[from] / (f->heights[from] - f->heights[to]);
+    double3 p = f->p[from], q = f->p[to];
+    return (double3){p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)};
+}
+
+/* The two places where a face's rim passes the other one's plane. */
+static void rim_at_plane(const world_face *f, double3 out[2])
+{
+    int found = 0;
+    for (int k = 0; k < 3 && found < 2; k++) {
+        int next = k == 2 ? 0 : k + 1;
+        if ((f->heights[k] > 0 && f->heights[next] < 0) || (f->heights[k] < 0 && f->heights[next] > 0))
+            out[found++] = edge_at_plane(f, k, next);
+        else if (f->heights[k] == 0)
+            out[found++] = f->p[k];
+    }
+}
+
+static bool cross_faces(void *user, uint32_t first, uint32_t second)
+{
+    crossing_search *s = user;
+    if (s->progress && ++s->ticks % TICKS == 0 && !s->progress(0.5, "finding intersections", s->user)) {
+        s->cancelled = true;
+        return false;
+    }
+    if (s->faces[first].piece == s->faces[second].piece)
+        return true;
+    if (first > second) {
+        uint32_t other = first;
+        first = second;
+        second = other;
+    }
+    const near_face *n = &s->faces[first], *m = &s->faces[second];
+    world_face a = load_face(s, n), b = load_face(s, m);
+    if (!find_heights(s, &a, &b) || !find_heights(s, &b, &a))
+        return true;
+    double3 along = cross(a.normal, b.normal), p[2], q[2];
+    rim_at_plane(&a, p);
+    rim_at_plane(&b, q);
+    int p0 = dot(along, p[0]) <= dot(along, p[1]) ? 0 : 1, q0 = dot(along, q[0]) <= dot(along, q[1]) ? 0 : 1;
+    double3 begin = dot(along, p[p0]) >= dot(along, q[q0]) ? p[p0] : q[q0], end = dot(along, p[1 - p0]) <= dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
+    double3 length = minus(end, begin);
+    if (dot(along, length) <= 0 || dot(length, length) <= s->same * s->same)
+        return true;
+    if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
+        s->failed = true;
+        return false;
+    }
+    s->out->crossings[s->out->count++] = (face_crossing){{begin, end}, {n->item, m->item}, {n->face, m->face}};
+    return true;
+}
+
+/* --- all ----------------------------------------------------------------------------------------------------------- */
+
+static lmn_status search(crossing_search *s, lmn_error *error)
+{
+    hierarchy tree;
+    lmn_status status = number_pieces(s, error);
+    if (status == LMN_OK)
+        status = hierarchy_build(&tree, s->piece_boxes, s->piece_count, error);
+    if (status != LMN_OK)
+        return status;
+    hierarchy_pairs(&tree, s->piece_boxes, widen_region, s);
+    if (!box3_is_empty(s->region))
+        hierarchy_pairs(&tree, s->piece_boxes, mark_region, s);
+    hierarchy_release(&tree);
+    if (box3_is_empty(s->region))
+        return LMN_OK;
+    status = gather_faces(s, error);
+    if (status == LMN_OK)
+        status = hierarchy_build(&tree, s->boxes, (uint32_t)s->face_count, error);
+    if (status != LMN_OK)
+        return status;
+    hierarchy_pairs(&tree, s->boxes, cross_faces, s);
+    hierarchy_release(&tree);
+    if (s->cancelled)
+        return error_set(error, LMN_CANCELLED, "cancelled while intersections were found");
+    return s->failed ? error_memory(error) : LMN_OK;
+}
+
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    crossing_search s = {.scene = scene, .out = out, .region = box3_empty(), .progress = progress, .user = user,
+                         .same = SAME_PLACE * fmax(scene->reach, scene->extent)};
+    lmn_status status = search(&s, error);
+    mem_free(s.first_piece);
+    mem_free(s.piece_boxes);
+    mem_free(s.piece_meets);
+    mem_free(s.marks);
+    mem_free(s.faces);
+    mem_free(s.boxes);
+    if (status != LMN_OK) {
+        mem_free(out->crossings);
+        memset(out, 0, sizeof *out);
+    }
+    return status;
+}
+
+lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error)
+{
+    if (s->crossings)
+        return LMN_OK;
+    s->crossings = mem_calloc(1, sizeof *s->crossings);
+    if (!s->crossings)
+        return error_memory(error);
+    lmn_status status = crossings_find(s->crossings, s, progress, user, error);
+    if (status != LMN_OK) {
+        mem_free(s->crossings);
+        s->crossings = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,220 @@
+/* The lines of one view: edges that are always drawn, edges where front and back meet, and where pieces run through each other. Seed 001, section 7.1.3; rows OE-03, OE-05. */
+#include "stroke/stroke_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static const char *const class_names[STROKE_CLASS_COUNT] = {"contour", "border", "crease", "intersection", "material", "suggestive", "ridge", "valley", "apparent"};
+
+const char *stroke_class_name(stroke_class c)
+{
+    return (unsigned)c < STROKE_CLASS_COUNT ? class_names[c] : "";
+}
+
+typedef struct collector {
+    view_lines          *out;
+    const stroke_view   *v;
+    const stroke_wishes *wishes;
+    const bool          *parts;
+    double3             *places;  /* of the ends that only lines have, from v->vertex_count on */
+    uint32_t            *slots;   /* hash table of them; NO_VERTEX when empty */
+    size_t               place_count, place_capacity, slot_mask;
+} collector;
+
+/* Numbers that differ for different lines and stay from view to view. */
+static uint64_t mix(uint64_t a, uint64_t b)
+{
+    uint64_t h = a * UINT64_C(0x9E3779B97F4A7C15) + b;
+    h = (h ^ h >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
+    h = (h ^ h >> 27) * UINT64_C(0x94D049BB133111EB);
+    return h ^ h >> 31;
+}
+
+static bool put_line(collector *c, view_line line, window_segment segment)
+{
+    view_lines *out = c->out;
+    if (!mem_grow((void **)&out->lines, &out->capacity, out->count + 1, sizeof *out->lines) ||
+        !mem_grow((void **)&out->segments, &out->segment_capacity, out->count + 1, sizeof *out->segments))
+        return false;
+    out->lines[out->count] = line;
+    out->segments[out->count++] = segment;
+    return true;
+}
+
+/* Does the segment touch the page? By its box. */
+static bool is_near_page(const stroke_view *v, window_point a, window_point b)
+{
+    double x = 0.5 * v->camera.width * v->units, y = 0.5 * v->camera.height * v->units;
+    return !((a.x < -x && b.x < -x) || (a.x > x && b.x > x) || (a.y < -y && b.y < -y) || (a.y > y && b.y > y));
+}
+
+static double3 between(double3 a, double3 b, double share)
+{
+    return (double3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
+/* A line of the world that may reach beyond the window: what is left of it. Ends that are cut off get numbers of their own. */
+static bool put_world_line(collector *c, view_line line, double3 a, double3 b, const uint32_t faces[2])
+{
+    const stroke_view *v = c->v;
+    double cut[2];
+    if (!view_clip_line(v, a, b, cut))
+        return true;
+    window_segment s = {.ends = {NO_VERTEX, NO_VERTEX}, .faces = {faces[0], faces[1]}};
+    for (int k = 0; k < 2; k++) {
+        bool whole = cut[k] == k; /* nothing is cut off at this end */
+        double share = whole ? k : cut[k] + (k ? -1e-9 : 1e-9); /* a little inside, where rounding cannot put it outside again */
+        if (!view_place(v, between(a, b, share), k ? &s.b : &s.a))
+            return true;
+        if (!whole)
+            line.ends[k] = c->out->end_count++;
+    }
+    return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
+}
+
+/* --- edges --------------------------------------------------------------------------------------------------------- */
+
+/* What the edge is in this view; STROKE_CLASS_COUNT: no line. */
+static stroke_class class_of(const collector *c, const mesh_edge *e, uint32_t first_face)
+{
+    const stroke_wishes *w = c->wishes;
+    if (e->flags & EDGE_BORDER)
+        return w->borders ? STROKE_BORDER : STROKE_CLASS_COUNT;
+    bool differ = view_is_front(c->v, first_face + e->face[0]) != view_is_front(c->v, first_face + e->face[1]);
+    bool turns = differ != ((e->flags & EDGE_TWISTED) != 0);
+    if (turns && w->contours != CONTOURS_NONE && (w->contours == CONTOURS_EDGES || (e->flags & EDGE_CREASE)) &&
+        (e->flags & (EDGE_CREASE | EDGE_CANDIDATE)))
+        return STROKE_CONTOUR;
+    if ((e->flags & EDGE_CREASE) && w->creases)
+        return STROKE_CREASE;
+    if ((e->flags & EDGE_MATERIAL) && w->materials)
+        return STROKE_MATERIAL;
+    return STROKE_CLASS_COUNT;
+}
+
+static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t id, stroke_class kind)
+{
+    const stroke_view *v = c->v;
+    const stroke_item *item = &v->scene->items[index];
+    const edge_mesh *m = &v->scene->meshes[item->mesh];
+    const view_item *at = &v->items[index];
+    uint32_t a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
+    const uint32_t faces[2] = {at->first_face + e->face[0], e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
+    view_line line = {kind, index, {a, b}, id, 1};
+    if (v->outside[a] & v->outside[b])
+        return true;
+    if (v->outside[a] | v->outside[b])
+        return put_world_line(c, line, item_place(item, m->places[e->vertex[0]]), item_place(item, m->places[e->vertex[1]]), faces);
+    window_segment s = {v->points[a], v->points[b], {a, b}, {faces[0], faces[1]}};
+    return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
+}
+
+static bool collect_edges(collector *c, uint32_t index)
+{
+    const stroke_item *item = &c->v->scene->items[index];
+    const edge_mesh *m = &c->v->scene->meshes[item->mesh];
+    uint32_t first_face = c->v->items[index].first_face;
+    for (uint32_t i = 0; i < m->edge_count; i++) {
+        stroke_class kind = class_of(c, &m->edges[i], first_face);
+        if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], mix((uint64_t)index << 32 | item->part_index, i), kind))
+            return false;
+    }
+    return true;
+}
+
+/* --- intersections ------------------------------------------------------------------------------------------------- */
+
+/* The number of a place; equal places have one. */
+static bool number_place(collector *c, double3 p, uint32_t *out)
+{
+    uint64_t bits[3];
+    memcpy(bits, &p, sizeof bits);
+    size_t slot = mix(mix(bits[0], bits[1]), bits[2]) & c->slot_mask;
+    while (c->slots[slot] != NO_VERTEX) {
+        if (memcmp(&c->places[c->slots[slot]], &p, sizeof p) == 0) {
+            *out = c->v->vertex_count + c->slots[slot];
+            return true;
+        }
+        slot = (slot + 1) & c->slot_mask;
+    }
+    if (!mem_grow((void **)&c->places, &c->place_capacity, c->place_count + 1, sizeof *c->places))
+        return false;
+    c->slots[slot] = (uint32_t)c->place_count;
+    *out = c->v->vertex_count + (uint32_t)c->place_count;
+    c->places[c->place_count++] = p;
+    return true;
+}
+
+static bool make_slots(collector *c, size_t count)
+{
+    size_t slots = 64;
+    while (slots < 4 * count)
+        slots *= 2;
+    c->slots = mem_alloc(slots * sizeof *c->slots);
+    if (c->slots)
+        memset(c->slots, 0xFF, slots * sizeof *c->slots);
+    c->slot_mask = slots - 1;
+    return c->slots != NULL;
+}
+
+static bool collect_crossings(collector *c, const crossing_list *crossings)
+{
+    const stroke_view *v = c->v;
+    if (!make_slots(c, crossings->count))
+        return false;
+    uint32_t (*numbers)[2] = mem_alloc((crossings->count + 1) * sizeof *numbers);
+    bool good = numbers != NULL;
+    for (size_t i = 0; i < crossings->count && good; i++)
+        good = number_place(c, crossings->crossings[i].ends[0], &numbers[i][0]) && number_place(c, crossings->crossings[i].ends[1], &numbers[i][1]);
+    c->out->end_count = v->vertex_count + (uint32_t)c->place_count;
+    for (size_t i = 0; i < crossings->count && good; i++) {
+        const face_crossing *x = &crossings->crossings[i];
+        const stroke_item *item = &v->scene->items[x->items[0]];
+        if (c->parts && !c->parts[item->part_index] && !c->parts[v->scene->items[x->items[1]].part_index])
+            continue;
+        const uint32_t faces[2] = {v->items[x->items[0]].first_face + x->faces[0], v->items[x->items[1]].first_face + x->faces[1]};
+        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, mix((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), 1};
+        good = numbers[i][0] == numbers[i][1] || put_world_line(c, line, x->ends[0], x->ends[1], faces);
+    }
+    mem_free(numbers);
+    return good;
+}
+
+/* --- all ----------------------------------------------------------------------------------------------------------- */
+
+static lmn_status collect_intersections(collector *c, lmn_progress_fn progress, void *user, lmn_error *error)
+{
+    crossing_list own = {NULL, 0, 0};
+    const crossing_list *crossings = c->v->scene->crossings;
+    lmn_status status = crossings ? LMN_OK : crossings_find(&own, c->v->scene, progress, user, error);
+    if (status == LMN_OK && !collect_crossings(c, crossings ? crossings : &own))
+        status = error_memory(error);
+    mem_free(own.crossings);
+    return status;
+}
+
+lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+                         lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    collector c = {.out = out, .v = v, .wishes = wishes, .parts = parts};
+    out->end_count = v->vertex_count;
+    lmn_status status = wishes->intersections ? collect_intersections(&c, progress, user, error) : LMN_OK;
+    for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++)
+        if ((!parts || parts[v->scene->items[i].part_index]) && !collect_edges(&c, i))
+            status = error_memory(error);
+    mem_free(c.places);
+    mem_free(c.slots);
+    if (status != LMN_OK)
+        lines_release(out);
+    return status;
+}
+
+void lines_release(view_lines *l)
+{
+    mem_free(l->lines);
+    mem_free(l->segments);
+    memset(l, 0, sizeof *l);
+}

@@ -1,0 +1,377 @@
+/* How many surfaces lie in front of each stretch of a line: every triangle that crosses it in the window covers it from one crossing to the other, as far as it is nearer.
+ *
+ * What makes this hold together where triangles meet: on which side of the line a corner lies is exact, and a corner on the line counts as being on the positive side, as if the
+ * line were shifted a little to the other one. So a line that runs along the edge between two triangles is covered by one of them, not by both or neither, and where
+ * a line leaves one triangle for the next the two numbers are the same, because both come from the edge that they share. */
+#include "stroke/stroke_private.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/threads.h"
+
+/* Stretches shorter than this are not told apart, pixels. */
+#define CRUMB 0.02
+enum { BLOCK = 512, FEW_EVENTS = 64 };
+
+typedef struct cover {
+    double from, to;
+} cover;
+
+typedef struct event {
+    double  at;
+    int32_t step;
+} event;
+
+/* Spans of the segments of a block, which is what a thread takes at a time. */
+typedef struct span_block {
+    visibility_span *spans;
+    size_t           count, capacity;
+    uint64_t         pairs;
+} span_block;
+
+typedef struct span_job {
+    const stroke_view    *v;
+    const window_segment *segments;
+    size_t                count;
+    span_block           *blocks;
+    uint32_t             *lengths; /* spans per segment */
+    atomic_bool           failed;
+} span_job;
+
+/* One thread's work on one segment. */
+typedef struct worker {
+    const stroke_view    *v;
+    const window_segment *segment;
+    double                far_z;     /* of the segment: what begins behind is no cover */
+    int32_t               low_x, low_y, high_x, high_y;
+    uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
+    uint32_t              stamp;
+    cover                *covers;
+    size_t                cover_count, cover_capacity;
+    event                *events;
+    size_t                event_capacity;
+    uint64_t              pairs;
+    bool                  failed;
+} worker;
+
+/* Where the segment crosses an edge of a triangle: share of the segment and depth. `from`, `to`: sides of the edge's ends of the segment's line. */
+static double cross_edge(const worker *w, window_point p, window_point q, double from, double to, double *z)
+{
+    double a = window_side(p, q, w->segment->a), b = window_side(p, q, w->segment->b);
+    *z = p.z + from / (from - to) * (q.z - p.z);
+    return a / (a - b);
+}
+
+/* By how much z changes over one unit of the window: places are rounded to units. */
+static double slope_of(const window_point p[3])
+{
+    double side = window_side(p[0], p[1], p[2]), b = p[1].z - p[0].z, c = p[2].z - p[0].z;
+    double x = b * ((double)p[2].y - p[0].y) - c * ((double)p[1].y - p[0].y), y = c * ((double)p[1].x - p[0].x) - b * ((double)p[2].x - p[0].x);
+    return (fabs(x) + fabs(y)) / fabs(side);
+}
+
+static bool has_corner(const window_triangle *t, uint32_t point)
+{
+    return point != NO_VERTEX && (t->v[0] == point || t->v[1] == point || t->v[2] == point);
+}
+
+static void put_cover(worker *w, double from, double to)
+{
+    if (!mem_grow((void **)&w->covers, &w->cover_capacity, w->cover_count + 1, sizeof *w->covers)) {
+        w->failed = true;
+        return;
+    }
+    w->covers[w->cover_count++] = (cover){from, to};
+}
+
+/* Between two places of the segment the triangle lies nearer by before … after; what differs by less than `same` is the same. */
+static void cover_nearer(worker *w, double from, double to, double before, double after, double same)
+{
+    bool begins = before > same, ends = after > same;
+    if (!begins && !ends)
+        return;
+    if (begins && after < -same)
+        to = from + (to - from) * (before / (before - after));
+    else if (ends && before < -same)
+        from = from + (to - from) * (before / (before - after));
+    put_cover(w, from, to);
+}
+
+static void compare(worker *w, uint32_t number)
+{
+    const stroke_view *v = w->v;
+    const window_box *box = &v->boxes[number];
+    if (box->low_x > w->high_x || box->high_x < w->low_x || box->low_y > w->high_y || box->high_y < w->low_y || box->near_z > w->far_z)
+        return;
+    const window_triangle *t = &v->triangles[number];
+    const window_segment *s = w->segment;
+    w->pairs++;
+    const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
+    double sides[3];
+    bool low[3];
+    for (int k = 0; k < 3; k++) {
+        sides[k] = window_side(s->a, s->b, p[k]);
+        low[k] = sides[k] < 0;
+    }
+    if ((low[0] == low[1] && low[1] == low[2]) || t->face == s->faces[0] || t->face == s->faces[1])
+        return;
+    int alone = low[0] == low[1] ? 2 : low[0] == low[2] ? 1 : 0, next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
+    double z0, z1;
+    double t0 = cross_edge(w, p[alone], p[next], sides[alone], sides[next], &z0);
+    double t1 = cross_edge(w, p[last], p[alone], sides[last], sides[alone], &z1);
+    if (t0 > t1) {
+        double other = t0;
+        t0 = t1;
+        t1 = other;
+        other = z0;
+        z0 = z1;
+        z1 = other;
+    }
+    if (!(t0 < 1) || !(t1 > 0) || !(t0 < t1))
+        return;
+    double from = t0 > 0 ? t0 : 0, to = t1 < 1 ? t1 : 1, rise = (z1 - z0) / (t1 - t0), run = s->b.z - s->a.z;
+    double before = s->a.z + from * run - (z0 + (from - t0) * rise), after = s->a.z + to * run - (z0 + (to - t0) * rise);
+    if (from == 0 && has_corner(t, s->ends[0]))
+        before = 0;
+    if (to == 1 && has_corner(t, s->ends[1]))
+        after = 0;
+    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + slope_of(p));
+}
+
+static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
+{
+    worker *w = user;
+    for (size_t i = 0; i < count; i++) {
+        if (!alone) {
+            if (w->stamps[entries[i]] == w->stamp)
+                continue;
+            w->stamps[entries[i]] = w->stamp;
+        }
+        compare(w, entries[i]);
+    }
+}
+
+static bool sort_events(worker *w)
+{
+    size_t count = 2 * w->cover_count;
+    if (!mem_grow((void **)&w->events, &w->event_capacity, count, sizeof *w->events))
+        return false;
+    for (size_t i = 0; i < w->cover_count; i++) {
+        w->events[2 * i] = (event){w->covers[i].from, 1};
+        w->events[2 * i + 1] = (event){w->covers[i].to, -1};
+    }
+    size_t gap = 1;
+    while (count > FEW_EVENTS && gap < count / 3)
+        gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) /* by insertion with gaps: most segments have a handful */
+        for (size_t i = gap; i < count; i++) {
+            event moved = w->events[i];
+            size_t k = i;
+            for (; k >= gap && w->events[k - gap].at > moved.at; k -= gap)
+                w->events[k] = w->events[k - gap];
+            w->events[k] = moved;
+        }
+    return true;
+}
+
+static bool put_span(span_block *block, double from, int64_t count, size_t first)
+{
+    uint32_t number = count > 0 ? (uint32_t)count : 0;
+    if (block->count > first && block->spans[block->count - 1].count == number)
+        return true;
+    if (!mem_grow((void **)&block->spans, &block->capacity, block->count + 1, sizeof *block->spans))
+        return false;
+    block->spans[block->count++] = (visibility_span){(float)from, number};
+    return true;
+}
+
+/* Adds up what covers the segment. Events closer together than a crumb are one. */
+static bool put_spans(worker *w, span_block *block)
+{
+    size_t first = block->count, events = 2 * w->cover_count;
+    const window_segment *s = w->segment;
+    double length = hypot((double)s->b.x - s->a.x, (double)s->b.y - s->a.y) / w->v->units, crumb = CRUMB / fmax(length, CRUMB);
+    if (crumb > 0.4) { /* no more than a speck: as it is in its middle */
+        int64_t count = 0;
+        for (size_t i = 0; i < w->cover_count; i++)
+            count += w->covers[i].from <= 0.5 && w->covers[i].to > 0.5;
+        return put_span(block, 0, count, first);
+    }
+    if (!sort_events(w))
+        return false;
+    int64_t count = 0;
+    double at = 0;
+    for (size_t i = 0; i < events;) {
+        double until = w->events[i].at;
+        if (until > at + crumb) {
+            if (!put_span(block, at, count, first))
+                return false;
+            at = until;
+        }
+        while (i < events && w->events[i].at <= at + crumb)
+            count += w->events[i++].step;
+    }
+    return at >= 1 - crumb && block->count > first ? true : put_span(block, at, count, first);
+}
+
+static void find_spans(worker *w, span_block *block, const window_segment *s)
+{
+    w->segment = s;
+    w->stamp++;
+    w->cover_count = 0;
+    w->low_x = s->a.x < s->b.x ? s->a.x : s->b.x;
+    w->high_x = s->a.x < s->b.x ? s->b.x : s->a.x;
+    w->low_y = s->a.y < s->b.y ? s->a.y : s->b.y;
+    w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
+    w->far_z = s->a.z > s->b.z ? s->a.z : s->b.z;
+    grid_walk(&w->v->grid, s->a, s->b, visit, w);
+    if (!w->failed)
+        w->failed = !put_spans(w, block);
+}
+
+static void find_blocks(size_t begin, size_t end, void *user)
+{
+    span_job *job = user;
+    worker w = {.v = job->v, .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
+    w.failed = !w.stamps;
+    for (size_t b = begin; b < end && !w.failed; b++) {
+        span_block *block = &job->blocks[b];
+        size_t last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
+        for (size_t i = b * BLOCK; i < last && !w.failed; i++) {
+            size_t before = block->count;
+            find_spans(&w, block, &job->segments[i]);
+            job->lengths[i] = (uint32_t)(block->count - before);
+        }
+        block->pairs = w.pairs;
+        w.pairs = 0;
+    }
+    if (w.failed)
+        atomic_store(&job->failed, true);
+    mem_free(w.stamps);
+    mem_free(w.covers);
+    mem_free(w.events);
+}
+
+/* The blocks' spans one after the other. */
+static lmn_status join_blocks(visibility *out, const span_job *job, size_t block_count, lmn_error *error)
+{
+    size_t total = 0;
+    for (size_t b = 0; b < block_count; b++)
+        total += job->blocks[b].count;
+    out->spans = mem_alloc((total + 1) * sizeof *out->spans);
+    out->starts = mem_alloc((job->count + 1) * sizeof *out->starts);
+    if (!out->spans || !out->starts)
+        return error_memory(error);
+    size_t at = 0;
+    for (size_t b = 0; b < block_count; b++) {
+        if (job->blocks[b].count)
+            memcpy(out->spans + at, job->blocks[b].spans, job->blocks[b].count * sizeof *out->spans);
+        at += job->blocks[b].count;
+        out->pairs += job->blocks[b].pairs;
+    }
+    out->starts[0] = 0;
+    for (size_t i = 0; i < job->count; i++)
+        out->starts[i + 1] = out->starts[i] + job->lengths[i];
+    return LMN_OK;
+}
+
+lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count, lmn_progress_fn progress, void *user,
+                           lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    size_t block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
+    span_job job = {.v = v, .segments = segments, .count = count};
+    job.blocks = mem_calloc(block_count + 1, sizeof *job.blocks);
+    job.lengths = mem_alloc((count + 1) * sizeof *job.lengths);
+    lmn_status status = job.blocks && job.lengths ? LMN_OK : error_memory(error);
+    span_job part = job;
+    for (size_t b = 0; b < block_count && status == LMN_OK; b += portion) {
+        if (progress && !progress((double)b / (double)block_count, "finding what is hidden", user)) {
+            status = error_set(error, LMN_CANCELLED, "cancelled while hidden lines were found");
+            break;
+        }
+        size_t blocks = block_count - b < portion || !progress ? block_count - b : portion;
+        part.blocks = job.blocks + b;
+        part.segments = segments + b * BLOCK;
+        part.lengths = job.lengths + b * BLOCK;
+        part.count = count - b * BLOCK;
+        threads_for(blocks, 1, find_blocks, &part);
+        if (atomic_load(&part.failed))
+            status = error_memory(error);
+        if (!progress)
+            break;
+    }
+    if (status == LMN_OK)
+        status = join_blocks(out, &job, block_count, error);
+    for (size_t b = 0; b < block_count && job.blocks; b++)
+        mem_free(job.blocks[b].spans);
+    mem_free(job.blocks);
+    mem_free(job.lengths);
+    if (status != LMN_OK)
+        visibility_release(out);
+    return status;
+}
+
+void visibility_release(visibility *out)
+{
+    mem_free(out->spans);
+    mem_free(out->starts);
+    memset(out, 0, sizeof *out);
+}
+
+/* --- single places ------------------------------------------------------------------------------------------------- */
+
+typedef struct place_count {
+    const stroke_view *v;
+    window_point       at;
+    uint32_t           count;
+} place_count;
+
+/* A place on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of two. */
+static bool is_inside(const window_point p[3], window_point at)
+{
+    double sign = window_side(p[0], p[1], p[2]) < 0 ? -1 : 1;
+    for (int k = 0; k < 3; k++) {
+        window_point from = p[k], to = p[k == 2 ? 0 : k + 1];
+        double side = sign * window_side(from, to, at);
+        double up = sign * ((double)from.y - to.y), right = sign * ((double)to.x - from.x);
+        if (side < 0 || (side == 0 && !(up > 0 || (up == 0 && right > 0))))
+            return false;
+    }
+    return true;
+}
+
+static void count_nearer(void *user, const uint32_t *entries, size_t count, bool alone)
+{
+    (void)alone;
+    place_count *c = user;
+    const stroke_view *v = c->v;
+    for (size_t i = 0; i < count; i++) {
+        const window_box *box = &v->boxes[entries[i]];
+        if (box->low_x > c->at.x || box->high_x < c->at.x || box->low_y > c->at.y || box->high_y < c->at.y || box->near_z > c->at.z)
+            continue;
+        const window_triangle *t = &v->triangles[entries[i]];
+        const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
+        if (!is_inside(p, c->at))
+            continue;
+        double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole, b = window_side(p[2], p[0], c->at) / whole;
+        double z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
+        c->count += c->at.z - z > view_tolerance(v, z) + slope_of(p);
+    }
+}
+
+void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t count, uint32_t *out)
+{
+    double half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
+    for (size_t i = 0; i < count; i++) {
+        place_count c = {.v = v};
+        out[i] = UINT32_MAX;
+        if (!view_place(v, (double3){places[i][0], places[i][1], places[i][2]}, &c.at) || fabs((double)c.at.x) > half_x || fabs((double)c.at.y) > half_y)
+            continue;
+        grid_walk(&v->grid, c.at, c.at, count_nearer, &c);
+        out[i] = c.count;
+    }
+}
