@@ -30,12 +30,8 @@ vec4 place_edge(int line)
     float half_width = line == PROFILE ? u_half_widths.x : u_half_widths.y;
     v_begin = vec4(on_page(begin), half_width);
     v_end = vec4(on_page(end), half_width);
-    bool is_short = distance(v_begin.xy, v_end.xy) <= SHORT;
-    v_look = vec4(1.0, 1.0, float(line), is_short ? SEEN : 0.0);
-    vec4 corner = corner_of(v_begin, v_end);
-    for (int once = is_short ? 0 : 1; once < 1; once++)
-        corner = is_visible(0.5 * (v_begin.xyz + v_end.xyz)) ? corner : NOWHERE;
-    return corner;
+    v_look = vec4(1.0, 1.0, float(line), distance(v_begin.xy, v_end.xy) <= SHORT ? SEEN : 0.0);
+    return corner_of(v_begin, v_end);
 }
 
 void main()
@@ -43,7 +39,9 @@ void main()
     int line = line_of_edge();
     gl_Position = NOWHERE;
     v_begin = v_end = v_look = vec4(0.0);
-    /* A loop instead of a branch: software drivers skip it where no edge is a line. */
-    for (int once = line == NO_LINE ? 1 : 0; once < 1; once++)
+    if (line != NO_LINE)
         gl_Position = place_edge(line);
+    bool is_short = v_look.w == SEEN;
+    if (!is_visible(0.5 * (v_begin.xyz + v_end.xyz), is_short) && is_short)
+        gl_Position = NOWHERE;
 }

@@ -14,9 +14,8 @@ void main()
 {
     piece_place p = place_in_piece();
 #ifdef SAMPLED
-    for (int once = p.share > 0.0 && v_look.w == 0.0 ? 0 : 1; once < 1; once++)
-        p.share = is_visible(p.axis.xyz) ? p.share : 0.0;
-    float ink = p.share;
+    bool open = p.share > 0.0 && v_look.w == 0.0;
+    float ink = is_visible(p.axis.xyz, open) || !open ? p.share : 0.0;
 #else
     float ink = brush_ink(p) * mix(v_look.x, v_look.y, p.at);
 #endif
