@@ -51,6 +51,7 @@ typedef struct stroke_set {
     stroke       *strokes;
     stroke_point *points;
     size_t        stroke_count, point_count, chain_count;
+    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
     uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
