@@ -99,22 +99,23 @@ static stroke_store *find_store(frame *f, const figure *fig)
 
 /* --- programs ------------------------------------------------------------------------------------------------------ */
 
-static gpu_texture *open_edges(frame *f, figure_state *s)
+/* Gives the figure an empty edge map, and a depth for lines beyond its surfaces, and draws into them from now on. */
+static void open_maps(frame *f, figure_state *s)
 {
-    gpu_texture *written = frame_acquire(f, TARGET_EDGE);
-    gpu_pass target = {.colours = {written}, .colour_count = 1, .clear = true, .clear_values = {{1, 1, 1, 1}}};
+    static const target written[] = {TARGET_EDGE, TARGET_STROKES};
+    for (int i = 0; i < 2; i++) {
+        gpu_target_release(f->g, s->targets[written[i]]);
+        s->targets[written[i]] = frame_acquire(f, written[i]);
+    }
+    gpu_pass target = {.colours = {s->targets[TARGET_EDGE]}, .colour_count = 1, .depth = s->targets[TARGET_STROKES], .clear = true, .clear_values = {{1, 1, 1, 1}}};
     memcpy(target.clear_box, s->around, sizeof target.clear_box);
     memcpy(target.scissor, s->pixels, sizeof target.scissor);
-    if (written)
+    if (!gpu_failed(f->g))
         gpu_pass_begin(f->g, &target);
-    return written;
 }
 
-static void keep_target(frame *f, figure_state *s, target t, gpu_texture *picture)
-{
-    gpu_target_release(f->g, s->targets[t]);
-    s->targets[t] = picture;
-}
+/* The darkest ink stays, and the depth of what was drawn last: any line there will do. */
+static const gpu_state drawn = {.depth_write = true, .blend = GPU_BLEND_MIN};
 
 /* --- sampled ------------------------------------------------------------------------------------------------------- */
 
@@ -187,12 +188,10 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     for (size_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
             edges_of(f, store, store->scene.items[i].mesh);
-    gpu_texture *written = open_edges(f, s);
-    if (!program || !written || gpu_failed(f->g)) {
-        keep_target(f, s, TARGET_EDGE, written);
+    open_maps(f, s);
+    if (!program || gpu_failed(f->g))
         return;
-    }
-    gpu_use(f->g, program, (gpu_state){.blend = GPU_BLEND_MIN});
+    gpu_use(f->g, program, drawn);
     frame_set_common(f, s);
     reads_set(f, s, p, NULL);
     gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
@@ -202,7 +201,6 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     for (size_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
             draw_item_edges(f, store, &store->scene.items[i]);
-    keep_target(f, s, TARGET_EDGE, written);
 }
 
 /* --- exact --------------------------------------------------------------------------------------------------------- */
@@ -287,38 +285,18 @@ static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_sta
     return marks;
 }
 
-/* Where strokes lie, so that those beyond the figure's surfaces have a depth too. */
-static gpu_texture *draw_depth(frame *f, figure_state *s, gpu_marks *marks)
-{
-    text prelude = {0};
-    gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/depth.frag", &prelude);
-    gpu_texture *depth = frame_acquire(f, TARGET_STROKES);
-    gpu_pass target = {.depth = depth, .clear = true};
-    memcpy(target.clear_box, s->around, sizeof target.clear_box);
-    memcpy(target.scissor, s->pixels, sizeof target.scissor);
-    if (!program || !depth)
-        return depth;
-    gpu_pass_begin(f->g, &target);
-    gpu_use(f->g, program, (gpu_state){.depth_test = true, .depth_write = true});
-    frame_set_common(f, s);
-    gpu_draw_marks(f->g, marks);
-    return depth;
-}
-
 static void draw_exact(frame *f, figure_state *s, stroke_store *store, const strokes_values *v)
 {
     text prelude = {0};
     gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/stroke.frag", &prelude);
     gpu_marks *marks = upload_ribbons(f, store, s, v);
-    gpu_texture *written = open_edges(f, s);
-    if (program && written && !gpu_failed(f->g)) {
-        gpu_use(f->g, program, (gpu_state){.blend = GPU_BLEND_MIN});
+    open_maps(f, s);
+    if (program && !gpu_failed(f->g)) {
+        gpu_use(f->g, program, drawn);
         frame_set_common(f, s);
         gpu_set_float(f->g, "u_pixel", (float)f->samples);
         gpu_draw_marks(f->g, marks);
-        keep_target(f, s, TARGET_STROKES, draw_depth(f, s, marks));
     }
-    keep_target(f, s, TARGET_EDGE, written);
     if (marks)
         gpu_marks_destroy(f->g, &marks);
 }

@@ -31,7 +31,7 @@ typedef enum target {
     TARGET_OUTLINES,   /* RGBA16F: r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
-    TARGET_STROKES,    /* depth of strokes where they were worked out exactly */
+    TARGET_STROKES,    /* depth of what strokes were drawn, 1 elsewhere */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_ENLARGED,   /* RGBA32F: the figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty) */
     TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */

@@ -19,6 +19,9 @@ void main()
 #else
     float ink = brush_ink(p) * mix(v_look.x, v_look.y, p.at);
 #endif
+    if (ink <= 0.0)
+        discard;
+    gl_FragDepth = p.axis.z;
     int channel = int(v_look.z);
     float paper = 1.0 - ink;
     out_edge = vec4(channel == PROFILE ? paper : 1.0, channel == INNER ? paper : 1.0, channel == ID ? 1.0 : paper, channel == ID ? paper : 1.0);
