@@ -4,7 +4,7 @@
 uniform vec2 u_far_corner; /* the last pixel */
 
 /* What surfaces and lines may differ by on the same plane: rounding, and a share of how steep the surface is in a pixel. */
-const float ROUNDING = 4e-6, SLOPE = 0.25;
+const float ROUNDING = 2e-6, SLOPE = 0.05;
 
 float depth_at(vec2 pixel)
 {
