@@ -246,8 +246,8 @@ static double measure(chainer *c)
 {
     double arc = 0;
     for (size_t i = 0; i < c->point_count; i++) {
-        if (i > 0)
-            arc += hypot(c->points[i].x - c->points[i - 1].x, c->points[i].y - c->points[i - 1].y);
+        double x = i ? c->points[i].x - c->points[i - 1].x : 0, y = i ? c->points[i].y - c->points[i - 1].y : 0;
+        arc += sqrt(x * x + y * y);
         c->points[i].arc = arc;
     }
     return arc;
@@ -305,7 +305,8 @@ static double distance_from(const chain_point *p, const chain_point *a, const ch
     double x = b->x - a->x, y = b->y - a->y, length = x * x + y * y;
     double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
     share = share < 0 ? 0 : share > 1 ? 1 : share;
-    return hypot(p->x - a->x - share * x, p->y - a->y - share * y);
+    double away_x = p->x - a->x - share * x, away_y = p->y - a->y - share * y;
+    return sqrt(away_x * away_x + away_y * away_y);
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */

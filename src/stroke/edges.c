@@ -118,6 +118,14 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
     }
 }
 
+static uint32_t *count_up(uint32_t count)
+{
+    uint32_t *out = mem_alloc(count * sizeof *out);
+    for (uint32_t i = 0; i < count && out; i++)
+        out[i] = i;
+    return out;
+}
+
 static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_error *error)
 {
     edge_mesh *out = b->mesh;
@@ -126,7 +134,9 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     if (!count_mesh(m, &vertices, &corners, &said))
         return error_set(error, LMN_LIMIT, "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices, corners);
     out->places = gather_places(m, posed, vertices);
-    uint32_t *ids = out->places ? mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places}) : NULL;
+    bool welded = m->primitive_count == 1 && m->primitives[0].welded && !posed;
+    uint32_t *ids = !out->places ? NULL : welded ? count_up((uint32_t)vertices)
+                                        : mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places});
     out->faces = mem_alloc(corners * sizeof **out->faces);
     out->normals = mem_alloc(corners / 3 * sizeof *out->normals);
     bool mixed = false;
@@ -226,6 +236,12 @@ static double volume_of(const edge_mesh *m, uint32_t f, vec3 from)
            (double)p.z * ((double)q.x * r.y - (double)q.y * r.x);
 }
 
+static void widen(box3 *box, vec3 p)
+{
+    box->min = (vec3){p.x < box->min.x ? p.x : box->min.x, p.y < box->min.y ? p.y : box->min.y, p.z < box->min.z ? p.z : box->min.z};
+    box->max = (vec3){p.x > box->max.x ? p.x : box->max.x, p.y > box->max.y ? p.y : box->max.y, p.z > box->max.z ? p.z : box->max.z};
+}
+
 /* Numbers the pieces; boxes, and volumes by their first corner, which says which way round they are. */
 static double *number_pieces(builder *b)
 {
@@ -237,9 +253,10 @@ static double *number_pieces(builder *b)
     b->pieces = NULL;
     m->boxes = mem_alloc(((size_t)m->piece_count + 1) * sizeof *m->boxes);
     m->closed = mem_alloc((size_t)m->piece_count + 1);
+    m->inward = mem_alloc((size_t)m->piece_count + 1);
     double *volumes = mem_calloc((size_t)m->piece_count + 1, sizeof *volumes);
     vec3 *origins = mem_alloc(((size_t)m->piece_count + 1) * sizeof *origins);
-    if (!m->boxes || !m->closed || !volumes || !origins) {
+    if (!m->boxes || !m->closed || !m->inward || !volumes || !origins) {
         mem_free(origins);
         mem_free(volumes);
         return NULL;
@@ -257,7 +274,7 @@ static double *number_pieces(builder *b)
         uint32_t piece = m->pieces[f];
         volumes[piece] += volume_of(m, f, origins[piece]);
         for (int k = 0; k < 3; k++)
-            m->boxes[piece] = box3_with_point(m->boxes[piece], m->places[m->faces[f][k]]);
+            widen(&m->boxes[piece], m->places[m->faces[f][k]]);
     }
     mem_free(origins);
     return volumes;
@@ -423,11 +440,13 @@ static void find_closed(builder *b)
 /* Concave edges of closed pieces never are outlines. Which way round a piece is says its volume. */
 static void drop_concave(edge_mesh *m, const double *volumes)
 {
+    for (uint32_t i = 0; i < m->piece_count; i++)
+        m->inward[i] = volumes[i] < 0;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < m->edge_count; i++) {
         mesh_edge e = m->edges[i];
         uint32_t piece = m->pieces[e.face[0]];
-        bool convex = ((e.flags & CONVEX) != 0) == (volumes[piece] >= 0);
+        bool convex = ((e.flags & CONVEX) != 0) != m->inward[piece];
         if (m->closed[piece] && !convex)
             e.flags &= ~(uint32_t)EDGE_CANDIDATE;
         e.flags &= ~(uint32_t)CONVEX;
@@ -497,6 +516,7 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->edges);
     mem_free(m->pieces);
     mem_free(m->closed);
+    mem_free(m->inward);
     mem_free(m->boxes);
     memset(m, 0, sizeof *m);
 }

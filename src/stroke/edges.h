@@ -34,6 +34,7 @@ typedef struct edge_mesh {
     mesh_edge *edges;     /* those with flags, in a fixed order */
     uint32_t  *pieces;    /* per face: what hangs together over edges, numbered from 0 */
     bool      *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
+    bool      *inward;    /* per closed piece: its faces look inwards */
     box3      *boxes;     /* per piece */
     uint32_t   all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;

@@ -1,11 +1,15 @@
 /* Triangles sorted into cells of the page. One size of cells would either hold crowds of small triangles or be filled over and over by large ones, so there are several
- * levels, each twice as coarse as the one below; a triangle lies in the finest one in which it spans few cells. */
+ * levels, each twice as coarse as the one below; a triangle lies in the finest one in which it spans few cells. Where small triangles crowd all the same, a cell has a finer
+ * grid of its own. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
+
+/* A cell with more triangles than this gets a finer grid with about so many a cell. */
+enum { CROWD = 256, FEW = 8, SUB_SIDE_MAX = 24 };
 
 /* Cells that a box touches: first and last column and row. */
 typedef struct cell_range {
@@ -14,20 +18,20 @@ typedef struct cell_range {
 
 static int32_t cell_of(int32_t at, int32_t low, int32_t cell, int32_t count)
 {
-    int64_t offset = (int64_t)at - low;
+    int32_t offset = at - low; /* window coordinates are far from the limits of 32 bits */
     if (offset < 0)
         return -1;
-    int64_t number = offset / cell;
-    return number < count ? (int32_t)number : count;
+    int32_t number = offset / cell;
+    return number < count ? number : count;
 }
 
 /* False when the box lies outside the grid. */
-static bool range_of(const window_grid *g, const grid_level *l, int32_t low_x, int32_t low_y, int32_t high_x, int32_t high_y, cell_range *out)
+static bool range_of(const grid_level *l, int32_t low_x, int32_t low_y, int32_t high_x, int32_t high_y, cell_range *out)
 {
-    out->c0 = cell_of(low_x, g->low_x, l->cell, l->columns);
-    out->r0 = cell_of(low_y, g->low_y, l->cell, l->rows);
-    out->c1 = cell_of(high_x, g->low_x, l->cell, l->columns);
-    out->r1 = cell_of(high_y, g->low_y, l->cell, l->rows);
+    out->c0 = cell_of(low_x, l->low_x, l->cell, l->columns);
+    out->r0 = cell_of(low_y, l->low_y, l->cell, l->rows);
+    out->c1 = cell_of(high_x, l->low_x, l->cell, l->columns);
+    out->r1 = cell_of(high_y, l->low_y, l->cell, l->rows);
     if (out->c1 < 0 || out->r1 < 0 || out->c0 >= l->columns || out->r0 >= l->rows)
         return false;
     out->c0 = out->c0 < 0 ? 0 : out->c0;
@@ -39,9 +43,9 @@ static bool range_of(const window_grid *g, const grid_level *l, int32_t low_x, i
 
 static int level_of(const window_grid *g, const window_box *box)
 {
-    int64_t width = (int64_t)box->high_x - box->low_x, height = (int64_t)box->high_y - box->low_y, side = width > height ? width : height;
+    int32_t width = box->high_x - box->low_x, height = box->high_y - box->low_y, side = width > height ? width : height;
     int level = 0;
-    while (level + 1 < GRID_LEVELS && side > (int64_t)GRID_SPAN * g->levels[level].cell)
+    while (level + 1 < GRID_LEVELS && side > GRID_SPAN * g->levels[level].cell)
         level++;
     return level;
 }
@@ -66,22 +70,21 @@ static inside_test test_of(const stroke_view *v, const window_triangle *t)
 }
 
 /* May the triangle touch the cell? The corner that lies deepest inside decides, for each side. */
-static bool touches(const window_grid *g, const grid_level *l, const inside_test *t, int32_t column, int32_t row)
+static bool touches(const grid_level *l, const inside_test *t, int32_t column, int32_t row)
 {
-    double x = (double)g->low_x + (double)column * l->cell, y = (double)g->low_y + (double)row * l->cell;
+    double x = (double)l->low_x + (double)column * l->cell, y = (double)l->low_y + (double)row * l->cell;
     for (int k = 0; k < 3; k++)
         if (t->a[k] * (t->a[k] > 0 ? x + l->cell : x) + t->b[k] * (t->b[k] > 0 ? y + l->cell : y) + t->c[k] < 0)
             return false;
     return true;
 }
 
-/* Counts a triangle into its cells (fill: puts it there; starts have been counted). */
-static void enter(window_grid *g, const stroke_view *v, uint32_t number, bool fill)
+/* Counts a triangle into its cells; with entries, puts it there: starts have been counted then. */
+static void enter(const grid_level *l, const stroke_view *v, uint32_t number, uint32_t *entries)
 {
     const window_box *box = &v->boxes[number];
-    grid_level *l = &g->levels[level_of(g, box)];
     cell_range range;
-    if (!range_of(g, l, box->low_x, box->low_y, box->high_x, box->high_y, &range))
+    if (!range_of(l, box->low_x, box->low_y, box->high_x, box->high_y, &range))
         return;
     bool few = range.c0 == range.c1 || range.r0 == range.r1;
     inside_test test = {{0}, {0}, {0}};
@@ -89,33 +92,96 @@ static void enter(window_grid *g, const stroke_view *v, uint32_t number, bool fi
         test = test_of(v, &v->triangles[number]);
     for (int32_t r = range.r0; r <= range.r1; r++)
         for (int32_t c = range.c0; c <= range.c1; c++) {
-            if (!few && !touches(g, l, &test, c, r))
+            if (!few && !touches(l, &test, c, r))
                 continue;
             uint32_t *start = &l->starts[(size_t)r * (size_t)l->columns + (size_t)c];
-            if (fill)
-                g->entries[start[1]++] = number;
+            if (entries)
+                entries[start[1]++] = number;
             else
                 start[2]++;
         }
 }
 
+/* Makes each count where the cell's entries begin, one place on: filling moves it to their end. Returns where those of the next grid begin. */
+static uint32_t add_up(const grid_level *l, uint32_t total)
+{
+    size_t cells = (size_t)l->columns * (size_t)l->rows;
+    l->starts[0] = l->starts[1] = total;
+    for (size_t c = 0; c < cells; c++) {
+        uint32_t count = l->starts[c + 2];
+        if (c + 1 < cells)
+            l->starts[c + 2] = total + count;
+        total += count;
+    }
+    l->starts[cells + 1] = total;
+    return total;
+}
+
 static bool make_levels(window_grid *g, const stroke_view *v)
 {
     double width = v->camera.width * v->units, height = v->camera.height * v->units;
-    double wanted = sqrt(width * height / ((double)v->triangle_count / 3 + 256));
-    double finest = fmax(width, height) / 1024;
-    int32_t cell = (int32_t)fmax(fmax(wanted, finest), 16);
-    g->low_x = (int32_t)(-width / 2);
-    g->low_y = (int32_t)(-height / 2);
+    double wanted = sqrt(width * height / ((double)v->triangle_count / 2 + 256)), finest = fmax(width, height) / 1024;
+    int32_t cell = (int32_t)fmax(fmax(wanted, finest), 64);
     for (int k = 0; k < GRID_LEVELS; k++) {
         grid_level *l = &g->levels[k];
-        l->cell = cell;
-        l->columns = (int32_t)(width / cell) + 1;
-        l->rows = (int32_t)(height / cell) + 1;
+        *l = (grid_level){(int32_t)(-width / 2), (int32_t)(-height / 2), cell, (int32_t)(width / cell) + 1, (int32_t)(height / cell) + 1, NULL, NULL};
         l->starts = mem_calloc((size_t)l->columns * (size_t)l->rows + 2, sizeof *l->starts);
         if (!l->starts)
             return false;
-        cell = cell > INT32_MAX / 4 ? cell : cell * 2;
+        cell = cell > INT32_MAX / 64 ? cell : cell * 2;
+    }
+    return true;
+}
+
+/* A finer grid for the triangles of a crowded cell. Starts are numbers in sub_starts until all are made. */
+static bool divide_cell(window_grid *g, const stroke_view *v, grid_level *l, int32_t column, int32_t row)
+{
+    size_t number = (size_t)row * (size_t)l->columns + (size_t)column;
+    uint32_t begin = l->starts[number], count = l->starts[number + 1] - begin;
+    int32_t side = (int32_t)sqrt((double)count / FEW);
+    side = side < SUB_SIDE_MAX ? side : SUB_SIDE_MAX;
+    size_t cells = (size_t)side * (size_t)side;
+    if (!mem_grow((void **)&g->subs, &g->sub_capacity, g->sub_count + 1, sizeof *g->subs) ||
+        !mem_grow((void **)&g->sub_starts, &g->sub_start_capacity, g->sub_start_count + cells + 2, sizeof *g->sub_starts))
+        return false;
+    grid_level sub = {l->low_x + column * l->cell, l->low_y + row * l->cell, (l->cell + side - 1) / side, side, side, g->sub_starts + g->sub_start_count, NULL};
+    memset(sub.starts, 0, (cells + 2) * sizeof *sub.starts);
+    for (uint32_t i = 0; i < count; i++)
+        enter(&sub, v, g->entries[begin + i], NULL);
+    uint32_t total = add_up(&sub, (uint32_t)g->sub_entry_count);
+    if (!mem_grow((void **)&g->sub_entries, &g->sub_entry_capacity, (size_t)total + 1, sizeof *g->sub_entries))
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        enter(&sub, v, g->entries[begin + i], g->sub_entries);
+    g->sub_entry_count = total;
+    g->sub_start_count += cells + 2;
+    sub.starts = NULL;
+    g->subs[g->sub_count++] = sub;
+    l->subs[number] = (uint32_t)g->sub_count;
+    return true;
+}
+
+static bool divide_crowds(window_grid *g, const stroke_view *v)
+{
+    for (int k = 0; k < GRID_LEVELS; k++) {
+        grid_level *l = &g->levels[k];
+        size_t cells = (size_t)l->columns * (size_t)l->rows;
+        if (l->starts[cells] == l->starts[0])
+            continue;
+        l->subs = mem_calloc(cells, sizeof *l->subs);
+        if (!l->subs)
+            return false;
+        for (int32_t r = 0; r < l->rows; r++)
+            for (int32_t c = 0; c < l->columns; c++) {
+                const uint32_t *start = &l->starts[(size_t)r * (size_t)l->columns + (size_t)c];
+                if (start[1] - start[0] > CROWD && l->cell > SUB_SIDE_MAX && !divide_cell(g, v, l, c, r))
+                    return false;
+            }
+    }
+    size_t at = 0;
+    for (size_t i = 0; i < g->sub_count; i++) { /* now that they do not move any longer */
+        g->subs[i].starts = g->sub_starts + at;
+        at += (size_t)g->subs[i].columns * (size_t)g->subs[i].rows + 2;
     }
     return true;
 }
@@ -126,77 +192,86 @@ lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
     if (!make_levels(out, v))
         return error_memory(error);
     for (uint32_t i = 0; i < v->triangle_count; i++)
-        enter(out, v, i, false);
+        enter(&out->levels[level_of(out, &v->boxes[i])], v, i, NULL);
     uint32_t total = 0;
-    for (int k = 0; k < GRID_LEVELS; k++) { /* each count becomes where the cell's entries begin, one place on: filling moves it to its end */
-        grid_level *l = &out->levels[k];
-        size_t cells = (size_t)l->columns * (size_t)l->rows;
-        l->starts[0] = l->starts[1] = total;
-        for (size_t c = 0; c < cells; c++) {
-            uint32_t count = l->starts[c + 2];
-            if (c + 1 < cells)
-                l->starts[c + 2] = total + count;
-            total += count;
-        }
-        l->starts[cells + 1] = total;
-    }
+    for (int k = 0; k < GRID_LEVELS; k++)
+        total = add_up(&out->levels[k], total);
     out->entries = mem_alloc(((size_t)total + 1) * sizeof *out->entries);
     if (!out->entries)
         return error_memory(error);
     for (uint32_t i = 0; i < v->triangle_count; i++)
-        enter(out, v, i, true);
-    return LMN_OK;
+        enter(&out->levels[level_of(out, &v->boxes[i])], v, i, out->entries);
+    return divide_crowds(out, v) ? LMN_OK : error_memory(error);
 }
 
 void grid_release(window_grid *g)
 {
-    for (int k = 0; k < GRID_LEVELS; k++)
+    for (int k = 0; k < GRID_LEVELS; k++) {
         mem_free(g->levels[k].starts);
+        mem_free(g->levels[k].subs);
+    }
+    mem_free(g->subs);
+    mem_free(g->sub_starts);
     mem_free(g->entries);
+    mem_free(g->sub_entries);
     memset(g, 0, sizeof *g);
 }
 
 /* --- walking ------------------------------------------------------------------------------------------------------- */
 
-/* The columns of a row that a segment touches; the segment goes down or is level (a.y ≤ b.y). */
-static void columns_of(const window_grid *g, const grid_level *l, window_point a, window_point b, int32_t row, cell_range *range)
+typedef struct walk {
+    const window_grid *g;
+    window_point       a, b; /* goes down or is level: a.y ≤ b.y */
+    int32_t            low_x, high_x;
+    grid_visit         visit;
+    void              *user;
+} walk;
+
+/* The columns of a row that a segment touches. */
+static void columns_of(const walk *w, const grid_level *l, int32_t row, cell_range *range)
 {
-    double top = (double)g->low_y + (double)row * l->cell, bottom = top + l->cell, height = (double)b.y - a.y, width = (double)b.x - a.x;
-    double from = a.x, to = b.x;
-    if (a.y < top)
-        from = a.x + width * ((top - a.y) / height);
-    if (b.y > bottom)
-        to = a.x + width * ((bottom - a.y) / height);
+    double top = (double)l->low_y + (double)row * l->cell, bottom = top + l->cell, height = (double)w->b.y - w->a.y, width = (double)w->b.x - w->a.x;
+    double from = w->a.x, to = w->b.x;
+    if (w->a.y < top)
+        from = w->a.x + width * ((top - w->a.y) / height);
+    if (w->b.y > bottom)
+        to = w->a.x + width * ((bottom - w->a.y) / height);
     double low = (from < to ? from : to) - 1, high = (from < to ? to : from) + 1;
-    int32_t c0 = cell_of((int32_t)low, g->low_x, l->cell, l->columns), c1 = cell_of((int32_t)high, g->low_x, l->cell, l->columns);
-    range->c0 = c0 < 0 ? 0 : c0;
-    range->c1 = c1 < l->columns ? c1 : l->columns - 1;
+    int32_t c0 = cell_of((int32_t)low, l->low_x, l->cell, l->columns), c1 = cell_of((int32_t)high, l->low_x, l->cell, l->columns);
+    range->c0 = c0 < range->c0 ? range->c0 : c0;
+    range->c1 = c1 > range->c1 ? range->c1 : c1;
+}
+
+static void walk_level(const walk *w, const grid_level *l, const uint32_t *entries, bool alone)
+{
+    cell_range range;
+    if (!range_of(l, w->low_x, w->a.y, w->high_x, w->b.y, &range))
+        return;
+    alone = alone && range.c0 == range.c1 && range.r0 == range.r1;
+    for (int32_t r = range.r0; r <= range.r1; r++) {
+        cell_range row = range;
+        if (range.r0 != range.r1 && range.c0 != range.c1)
+            columns_of(w, l, r, &row);
+        for (int32_t c = row.c0; c <= row.c1; c++) {
+            size_t number = (size_t)r * (size_t)l->columns + (size_t)c;
+            uint32_t begin = l->starts[number], end = l->starts[number + 1];
+            if (begin == end)
+                continue;
+            if (l->subs && l->subs[number])
+                walk_level(w, &w->g->subs[l->subs[number] - 1], w->g->sub_entries, alone);
+            else
+                w->visit(w->user, entries + begin, end - begin, alone);
+        }
+    }
 }
 
 void grid_walk(const window_grid *g, window_point a, window_point b, grid_visit visit, void *user)
 {
-    if (a.y > b.y) {
-        window_point other = a;
-        a = b;
-        b = other;
-    }
-    int32_t low_x = a.x < b.x ? a.x : b.x, high_x = a.x < b.x ? b.x : a.x;
+    bool down = a.y <= b.y;
+    walk w = {g, down ? a : b, down ? b : a, a.x < b.x ? a.x : b.x, a.x < b.x ? b.x : a.x, visit, user};
     for (int k = 0; k < GRID_LEVELS; k++) {
         const grid_level *l = &g->levels[k];
-        size_t cells = (size_t)l->columns * (size_t)l->rows;
-        cell_range range;
-        if (l->starts[cells] == l->starts[0] || !range_of(g, l, low_x, a.y, high_x, b.y, &range))
-            continue;
-        bool alone = range.c0 == range.c1 && range.r0 == range.r1;
-        for (int32_t r = range.r0; r <= range.r1; r++) {
-            cell_range row = range;
-            if (range.r0 != range.r1 && range.c0 != range.c1)
-                columns_of(g, l, a, b, r, &row);
-            for (int32_t c = row.c0; c <= row.c1; c++) {
-                const uint32_t *start = &l->starts[(size_t)r * (size_t)l->columns + (size_t)c];
-                if (start[1] > start[0])
-                    visit(user, g->entries + start[0], start[1] - start[0], alone);
-            }
-        }
+        if (l->starts[(size_t)l->columns * (size_t)l->rows] != l->starts[0])
+            walk_level(&w, l, g->entries, true);
     }
 }

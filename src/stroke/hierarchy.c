@@ -87,29 +87,37 @@ static void make_nodes(hierarchy *h, const curve_key *keys)
     while (depth > 0) {
         run r = stack[--depth];
         if (r.end - r.begin <= LEAF || depth + 2 > DEPTH_MAX) {
-            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin};
+            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, KIN_MIXED};
             continue;
         }
         uint32_t split = split_of(keys, r.begin, r.end), left = h->node_count;
         h->node_count += 2;
-        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0};
+        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, KIN_MIXED};
         stack[depth++] = (run){left + 1, split, r.end};
         stack[depth++] = (run){left, r.begin, split};
     }
 }
 
-static void make_boxes(hierarchy *h, const box3 *boxes)
+static void make_boxes(hierarchy *h, const box3 *boxes, const uint32_t *kin)
 {
     for (uint32_t i = h->node_count; i-- > 0;) {
         hierarchy_node *n = &h->nodes[i];
-        if (n->count == 0)
-            n->box = box3_union(h->nodes[n->first].box, h->nodes[n->first + 1].box);
-        for (uint32_t k = 0; k < n->count; k++)
-            n->box = box3_union(n->box, boxes[h->members[n->first + k]]);
+        if (n->count == 0) {
+            const hierarchy_node *left = &h->nodes[n->first], *right = left + 1;
+            n->box = box3_union(left->box, right->box);
+            n->kin = left->kin == right->kin ? left->kin : KIN_MIXED;
+            continue;
+        }
+        n->kin = kin ? kin[h->members[n->first]] : KIN_MIXED;
+        for (uint32_t k = 0; k < n->count; k++) {
+            uint32_t member = h->members[n->first + k];
+            n->box = box3_union(n->box, boxes[member]);
+            n->kin = kin && kin[member] == n->kin ? n->kin : KIN_MIXED;
+        }
     }
 }
 
-lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, uint32_t count, lmn_error *error)
+lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *kin, uint32_t count, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     if (count == 0)
@@ -125,7 +133,7 @@ lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, uint32_t count, lm
             out->members[i] = keys[i].member;
         out->member_count = count;
         make_nodes(out, keys);
-        make_boxes(out, boxes);
+        make_boxes(out, boxes, kin);
     } else {
         hierarchy_release(out);
         status = error_memory(error);
@@ -151,6 +159,7 @@ static bool meet(const box3 *a, const box3 *b)
 typedef struct pair_search {
     const hierarchy *h;
     const box3      *boxes;
+    const uint32_t  *kin;
     hierarchy_pair   pair;
     void            *user;
 } pair_search;
@@ -160,7 +169,7 @@ static bool pairs_of_leaves(const pair_search *s, const hierarchy_node *a, const
     for (uint32_t i = 0; i < a->count; i++)
         for (uint32_t k = a == b ? i + 1 : 0; k < b->count; k++) {
             uint32_t p = s->h->members[a->first + i], q = s->h->members[b->first + k];
-            if (meet(&s->boxes[p], &s->boxes[q]) && !s->pair(s->user, p, q))
+            if ((!s->kin || s->kin[p] != s->kin[q]) && meet(&s->boxes[p], &s->boxes[q]) && !s->pair(s->user, p, q))
                 return false;
         }
     return true;
@@ -169,7 +178,7 @@ static bool pairs_of_leaves(const pair_search *s, const hierarchy_node *a, const
 static bool pairs_between(const pair_search *s, uint32_t first, uint32_t second)
 {
     const hierarchy_node *a = &s->h->nodes[first], *b = &s->h->nodes[second];
-    if (!meet(&a->box, &b->box))
+    if ((a->kin == b->kin && a->kin != KIN_MIXED) || !meet(&a->box, &b->box))
         return true;
     if (a->count && b->count)
         return pairs_of_leaves(s, a, b);
@@ -178,11 +187,13 @@ static bool pairs_between(const pair_search *s, uint32_t first, uint32_t second)
     return pairs_between(s, first, b->first) && pairs_between(s, first, b->first + 1);
 }
 
-bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, hierarchy_pair pair, void *user)
+bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin, hierarchy_pair pair, void *user)
 {
-    pair_search s = {h, boxes, pair, user};
+    pair_search s = {h, boxes, kin, pair, user};
     for (uint32_t i = 0; i < h->node_count; i++) {
         const hierarchy_node *n = &h->nodes[i];
+        if (n->kin != KIN_MIXED)
+            continue;
         if (n->count ? !pairs_of_leaves(&s, n, n) : !pairs_between(&s, n->first, n->first + 1))
             return false;
     }

@@ -11,12 +11,13 @@ enum { MARK_SIDE = 64, TICKS = 65536 };
 
 /* A face that may cross another one. */
 typedef struct near_face {
-    uint32_t item, face, piece; /* piece: of all items */
+    uint32_t item, face;
 } near_face;
 
 typedef struct crossing_search {
     const stroke_scene *scene;
     uint32_t           *first_piece; /* per item */
+    bool               *still;       /* per item: the world's axes are its own */
     box3               *piece_boxes; /* world axes */
     uint8_t            *piece_meets; /* another one's box */
     uint32_t            piece_count;
@@ -24,7 +25,8 @@ typedef struct crossing_search {
     uint64_t           *marks;       /* MARK_SIDE² words: cells where boxes overlap */
     near_face          *faces;
     box3               *boxes;
-    size_t              face_count, face_capacity, box_capacity;
+    uint32_t           *pieces;      /* per near face, of all items */
+    size_t              face_count, face_capacity, box_capacity, kin_capacity;
     double              same;
     crossing_list      *out;
     lmn_progress_fn     progress;
@@ -32,6 +34,17 @@ typedef struct crossing_search {
     uint32_t            ticks;
     bool                failed, cancelled;
 } crossing_search;
+
+/* fminf and fmaxf are calls. */
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
 
 static double3 minus(double3 a, double3 b)
 {
@@ -50,14 +63,22 @@ static double dot(double3 a, double3 b)
 
 /* --- candidates ---------------------------------------------------------------------------------------------------- */
 
+static bool is_identity(const mat4 *m)
+{
+    mat4 identity = mat4_identity();
+    return memcmp(m, &identity, sizeof *m) == 0;
+}
+
 static lmn_status number_pieces(crossing_search *s, lmn_error *error)
 {
     const stroke_scene *scene = s->scene;
     s->first_piece = mem_alloc((scene->item_count + 1) * sizeof *s->first_piece);
-    if (!s->first_piece)
+    s->still = mem_alloc(scene->item_count + 1);
+    if (!s->first_piece || !s->still)
         return error_memory(error);
     for (size_t i = 0; i < scene->item_count; i++) {
         s->first_piece[i] = s->piece_count;
+        s->still[i] = is_identity(&scene->items[i].world);
         s->piece_count += scene->meshes[scene->items[i].mesh].piece_count;
     }
     s->piece_boxes = mem_alloc((s->piece_count + 1) * sizeof *s->piece_boxes);
@@ -78,8 +99,8 @@ static bool widen_region(void *user, uint32_t a, uint32_t b)
     crossing_search *s = user;
     const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
     s->piece_meets[a] = s->piece_meets[b] = 1;
-    box3 both = {{fmaxf(p->min.x, q->min.x), fmaxf(p->min.y, q->min.y), fmaxf(p->min.z, q->min.z)},
-                 {fminf(p->max.x, q->max.x), fminf(p->max.y, q->max.y), fminf(p->max.z, q->max.z)}};
+    box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
+                 {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
     s->region = box3_union(s->region, both);
     return true;
 }
@@ -111,8 +132,8 @@ static bool mark_region(void *user, uint32_t a, uint32_t b)
 {
     crossing_search *s = user;
     const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
-    box3 both = {{fmaxf(p->min.x, q->min.x), fmaxf(p->min.y, q->min.y), fmaxf(p->min.z, q->min.z)},
-                 {fminf(p->max.x, q->max.x), fminf(p->max.y, q->max.y), fminf(p->max.z, q->max.z)}};
+    box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
+                 {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
     mark_range r = marks_of(s, &both);
     for (int z = r.low[2]; z <= r.high[2]; z++)
         for (int y = r.low[1]; y <= r.high[1]; y++)
@@ -134,20 +155,15 @@ static bool is_marked(const crossing_search *s, const box3 *b)
     return false;
 }
 
-static bool is_identity(const mat4 *m)
-{
-    mat4 identity = mat4_identity();
-    return memcmp(m, &identity, sizeof *m) == 0;
-}
-
 static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, uint32_t face)
 {
-    box3 box = box3_empty();
+    vec3 p[3];
     for (int k = 0; k < 3; k++) {
-        vec3 p = m->places[m->faces[face][k]];
-        box = box3_with_point(box, still ? p : mat4_transform_point(&item->world, p));
+        p[k] = m->places[m->faces[face][k]];
+        p[k] = still ? p[k] : mat4_transform_point(&item->world, p[k]);
     }
-    return box;
+    return (box3){{smaller(p[0].x, smaller(p[1].x, p[2].x)), smaller(p[0].y, smaller(p[1].y, p[2].y)), smaller(p[0].z, smaller(p[1].z, p[2].z))},
+                  {larger(p[0].x, larger(p[1].x, p[2].x)), larger(p[0].y, larger(p[1].y, p[2].y)), larger(p[0].z, larger(p[1].z, p[2].z))}};
 }
 
 static lmn_status gather_faces(crossing_search *s, lmn_error *error)
@@ -155,7 +171,7 @@ static lmn_status gather_faces(crossing_search *s, lmn_error *error)
     for (uint32_t i = 0; i < s->scene->item_count; i++) {
         const stroke_item *item = &s->scene->items[i];
         const edge_mesh *m = &s->scene->meshes[item->mesh];
-        bool still = is_identity(&item->world);
+        bool still = s->still[i];
         for (uint32_t f = 0; f < m->face_count; f++) {
             uint32_t piece = s->first_piece[i] + m->pieces[f];
             if (!s->piece_meets[piece])
@@ -164,9 +180,11 @@ static lmn_status gather_faces(crossing_search *s, lmn_error *error)
             if (!is_marked(s, &box))
                 continue;
             if (!mem_grow((void **)&s->faces, &s->face_capacity, s->face_count + 1, sizeof *s->faces) ||
-                !mem_grow((void **)&s->boxes, &s->box_capacity, s->face_count + 1, sizeof *s->boxes))
+                !mem_grow((void **)&s->boxes, &s->box_capacity, s->face_count + 1, sizeof *s->boxes) ||
+                !mem_grow((void **)&s->pieces, &s->kin_capacity, s->face_count + 1, sizeof *s->pieces))
                 return error_memory(error);
-            s->faces[s->face_count] = (near_face){i, f, piece};
+            s->faces[s->face_count] = (near_face){i, f};
+            s->pieces[s->face_count] = piece;
             s->boxes[s->face_count++] = box;
         }
     }
@@ -186,8 +204,14 @@ static world_face load_face(const crossing_search *s, const near_face *n)
     const stroke_item *item = &s->scene->items[n->item];
     const edge_mesh *m = &s->scene->meshes[item->mesh];
     world_face out = {.vertices = {m->faces[n->face][0], m->faces[n->face][1], m->faces[n->face][2]}};
-    for (int k = 0; k < 3; k++)
-        out.p[k] = item_place(item, m->places[out.vertices[k]]);
+    for (int k = 0; k < 3; k++) {
+        vec3 p = m->places[out.vertices[k]];
+        out.p[k] = s->still[n->item] ? (double3){p.x, p.y, p.z} : item_place(item, p);
+    }
+    if (s->still[n->item]) { /* rounded, but the same each time */
+        out.normal = (double3){m->normals[n->face].x, m->normals[n->face].y, m->normals[n->face].z};
+        return out;
+    }
     double3 normal = cross(minus(out.p[1], out.p[0]), minus(out.p[2], out.p[0]));
     double length = sqrt(dot(normal, normal));
     out.normal = length > 0 ? (double3){normal.x / length, normal.y / length, normal.z / length} : (double3){0, 0, 0};
@@ -237,6 +261,20 @@ static void rim_at_plane(const world_face *f, double3 out[2])
     }
 }
 
+/* Does one face lie clear of the other one's plane? A first look for faces of one mesh that is not moved, with less arithmetic. */
+static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face, uint32_t plane)
+{
+    vec3 normal = m->normals[plane], origin = m->places[m->faces[plane][0]];
+    float least = INFINITY, most = -INFINITY, room = (float)(4 * s->same);
+    for (int k = 0; k < 3; k++) {
+        vec3 p = m->places[m->faces[face][k]];
+        float height = (p.x - origin.x) * normal.x + (p.y - origin.y) * normal.y + (p.z - origin.z) * normal.z;
+        least = smaller(least, height);
+        most = larger(most, height);
+    }
+    return least > room || most < -room;
+}
+
 static bool cross_faces(void *user, uint32_t first, uint32_t second)
 {
     crossing_search *s = user;
@@ -244,14 +282,17 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
         s->cancelled = true;
         return false;
     }
-    if (s->faces[first].piece == s->faces[second].piece)
-        return true;
     if (first > second) {
         uint32_t other = first;
         first = second;
         second = other;
     }
     const near_face *n = &s->faces[first], *m = &s->faces[second];
+    if (n->item == m->item && s->still[n->item]) {
+        const edge_mesh *own = &s->scene->meshes[s->scene->items[n->item].mesh];
+        if (is_clear(s, own, n->face, m->face) || is_clear(s, own, m->face, n->face))
+            return true;
+    }
     world_face a = load_face(s, n), b = load_face(s, m);
     if (!find_heights(s, &a, &b) || !find_heights(s, &b, &a))
         return true;
@@ -278,21 +319,21 @@ static lmn_status search(crossing_search *s, lmn_error *error)
     hierarchy tree;
     lmn_status status = number_pieces(s, error);
     if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->piece_boxes, s->piece_count, error);
+        status = hierarchy_build(&tree, s->piece_boxes, NULL, s->piece_count, error);
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->piece_boxes, widen_region, s);
+    hierarchy_pairs(&tree, s->piece_boxes, NULL, widen_region, s);
     if (!box3_is_empty(s->region))
-        hierarchy_pairs(&tree, s->piece_boxes, mark_region, s);
+        hierarchy_pairs(&tree, s->piece_boxes, NULL, mark_region, s);
     hierarchy_release(&tree);
     if (box3_is_empty(s->region))
         return LMN_OK;
     status = gather_faces(s, error);
     if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->boxes, (uint32_t)s->face_count, error);
+        status = hierarchy_build(&tree, s->boxes, s->pieces, (uint32_t)s->face_count, error);
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->boxes, cross_faces, s);
+    hierarchy_pairs(&tree, s->boxes, s->pieces, cross_faces, s);
     hierarchy_release(&tree);
     if (s->cancelled)
         return error_set(error, LMN_CANCELLED, "cancelled while intersections were found");
@@ -306,11 +347,13 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
                          .same = SAME_PLACE * fmax(scene->reach, scene->extent)};
     lmn_status status = search(&s, error);
     mem_free(s.first_piece);
+    mem_free(s.still);
     mem_free(s.piece_boxes);
     mem_free(s.piece_meets);
     mem_free(s.marks);
     mem_free(s.faces);
     mem_free(s.boxes);
+    mem_free(s.pieces);
     if (status != LMN_OK) {
         mem_free(out->crossings);
         memset(out, 0, sizeof *out);

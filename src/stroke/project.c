@@ -188,7 +188,38 @@ static bool faces_eye(const clip_point p[3])
     return p[0].x * (p[1].y * p[2].w - p[2].y * p[1].w) - p[0].y * (p[1].x * p[2].w - p[2].x * p[1].w) + p[0].w * (p[1].x * p[2].y - p[2].x * p[1].y) > 0;
 }
 
-static bool put_faces(stroke_view *v, size_t index)
+/* Where the eye is, in the world: the view matrix turns and moves. */
+static vec3 eye_of(const stroke_view *v)
+{
+    const double *m = v->camera.view.m;
+    double e[3];
+    for (int k = 0; k < 3; k++)
+        e[k] = -(m[4 * k] * m[12] + m[4 * k + 1] * m[13] + m[4 * k + 2] * m[14]);
+    return (vec3){(float)e[0], (float)e[1], (float)e[2]};
+}
+
+/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye outside, what faces away lies behind what faces
+ * the eye, so that it need not be counted. */
+static uint8_t *find_unseen(const stroke_view *v, size_t index)
+{
+    const stroke_item *item = &v->scene->items[index];
+    const edge_mesh *m = &v->scene->meshes[item->mesh];
+    uint8_t *out = mem_calloc((size_t)m->piece_count + 1, 1);
+    double cofactors[9];
+    bool mirrored = mat4_cofactors(&item->world, cofactors) < 0;
+    vec3 eye = eye_of(v);
+    for (uint32_t i = 0; i < m->piece_count && out; i++) {
+        box3 box = box3_transform(m->boxes[i], &item->world);
+        float room = (float)(v->camera.near + v->same);
+        bool inside = !v->camera.orthographic && eye.x >= box.min.x - room && eye.x <= box.max.x + room && eye.y >= box.min.y - room &&
+                      eye.y <= box.max.y + room && eye.z >= box.min.z - room && eye.z <= box.max.z + room;
+        if (m->closed[i] && !inside)
+            out[i] = m->inward[i] == mirrored ? 1 : 2;
+    }
+    return out;
+}
+
+static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
 {
     const stroke_item *item = &v->scene->items[index];
     const edge_mesh *m = &v->scene->meshes[item->mesh];
@@ -202,17 +233,24 @@ static bool put_faces(stroke_view *v, size_t index)
             for (int k = 0; k < 3; k++)
                 p[k] = place_in_clip_space(v, item_place(item, m->places[corners[k]]));
             front = faces_eye(p);
-            if (!(v->outside[a] & v->outside[b] & v->outside[c]) && !put_clipped(v, p, face))
+            if (unseen[m->pieces[f]] != (front ? 2 : 1) && !(v->outside[a] & v->outside[b] & v->outside[c]) && !put_clipped(v, p, face))
                 return false;
         } else {
             double side = window_side(v->points[a], v->points[b], v->points[c]);
             front = side < 0;
-            if (side != 0 && !put_triangle(v, a, b, c, face))
+            if (side != 0 && unseen[m->pieces[f]] != (front ? 2 : 1) && !put_triangle(v, a, b, c, face))
                 return false;
         }
         v->fronts[face >> 3] = (uint8_t)(v->fronts[face >> 3] | (unsigned)front << (face & 7));
     }
     return true;
+}
+
+static float slope_of(window_point a, window_point b, window_point c)
+{
+    double rise_b = b.z - a.z, rise_c = c.z - a.z;
+    double x = rise_b * ((double)c.y - a.y) - rise_c * ((double)b.y - a.y), y = rise_c * ((double)b.x - a.x) - rise_b * ((double)c.x - a.x);
+    return (float)((fabs(x) + fabs(y)) / fabs(window_side(a, b, c)));
 }
 
 static void box_triangles(size_t begin, size_t end, void *user)
@@ -225,7 +263,8 @@ static void box_triangles(size_t begin, size_t end, void *user)
         box->low_y = a.y < b.y ? (a.y < c.y ? a.y : c.y) : (b.y < c.y ? b.y : c.y);
         box->high_x = a.x > b.x ? (a.x > c.x ? a.x : c.x) : (b.x > c.x ? b.x : c.x);
         box->high_y = a.y > b.y ? (a.y > c.y ? a.y : c.y) : (b.y > c.y ? b.y : c.y);
-        box->near_z = a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z);
+        box->near_z = nextafterf((float)(a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z)), -INFINITY);
+        box->slope = slope_of(a, b, c);
     }
 }
 
@@ -274,8 +313,12 @@ static lmn_status fill_view(stroke_view *v, lmn_progress_fn progress, void *user
         threads_for(s->meshes[s->items[i].mesh].vertex_count, 16384, project_points, &(point_job){v, i});
         if (progress && (i & 63) == 0 && !progress((double)i / (double)s->item_count, "projecting", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while the model was projected");
-        else if (!put_faces(v, i))
-            status = error_memory(error);
+        else {
+            uint8_t *unseen = find_unseen(v, i);
+            if (!unseen || !put_faces(v, i, unseen))
+                status = error_memory(error);
+            mem_free(unseen);
+        }
     }
     v->boxes = status == LMN_OK ? mem_alloc(v->triangle_count * sizeof *v->boxes) : NULL;
     if (status == LMN_OK && !v->boxes)

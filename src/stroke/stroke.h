@@ -38,7 +38,7 @@ typedef struct stroke_point {
 typedef struct stroke {
     stroke_class kind;
     uint32_t     part;        /* id */
-    uint32_t     hidden_by;   /* surfaces in front; 0: visible */
+    uint32_t     hidden_by;   /* surfaces in front, of closed bodies those that face the eye; 0: visible */
     uint32_t     chain;       /* number of the chain, from 0 */
     uint64_t     id;          /* of the chain: the same as long as its most lasting edge is in it, from frame to frame */
     uint32_t     first, count; /* points; neighbours in a chain both have the point between them */
@@ -99,7 +99,7 @@ lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, cons
                               lmn_error *error);
 void       stroke_view_destroy(stroke_view **v);
 
-/* How many surfaces lie in front of each of these places (world axes), UINT32_MAX for those outside the page. What a place lies on does not count. Any thread. */
+/* How many surfaces lie in front of each of these places (world axes), of closed bodies those that face the eye, UINT32_MAX for those outside the page. What a place lies on does not count. Any thread. */
 void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t count, uint32_t *out);
 
 typedef enum contour_kind {

@@ -32,20 +32,26 @@ typedef struct window_triangle {
 /* Where it lies, for a first look. */
 typedef struct window_box {
     int32_t low_x, low_y, high_x, high_y;
-    double  near_z;
+    float   near_z; /* or a little less */
+    float   slope;  /* by how much z changes at most over one unit: places are rounded to units */
 } window_box;
 
-/* A grid of cells at several sizes. Each triangle lies in one level, in all cells that it touches there. */
-enum { GRID_LEVELS = 12, GRID_SPAN = 6 };
+/* A grid of cells. */
 typedef struct grid_level {
+    int32_t   low_x, low_y;        /* its corner, window units */
     int32_t   cell, columns, rows; /* side of a cell, window units */
-    uint32_t *starts;              /* per cell, and one more, in the grid's entries; NULL: the level is empty */
+    uint32_t *starts;              /* per cell, and one more, in the grid's entries */
+    uint32_t *subs;                /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
 } grid_level;
 
+/* Grids of several sizes. Each triangle lies in one of the levels, in all cells that it touches there; crowded cells have a finer grid in them. */
+enum { GRID_LEVELS = 10, GRID_SPAN = 16 };
 typedef struct window_grid {
-    grid_level levels[GRID_LEVELS];
-    int32_t    low_x, low_y;       /* of the grid: its corner */
-    uint32_t  *entries;            /* triangles */
+    grid_level  levels[GRID_LEVELS];
+    grid_level *subs;              /* their starts are parts of sub_starts */
+    uint32_t   *sub_starts;
+    uint32_t   *entries, *sub_entries; /* triangles */
+    size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_entry_count, sub_entry_capacity;
 } window_grid;
 
 typedef struct view_item {
@@ -124,20 +130,22 @@ void       visibility_release(visibility *out);
 typedef struct hierarchy_node {
     box3     box;
     uint32_t first, count; /* leaf: members; else count 0, and `first` is the left child, the right one behind it */
+    uint32_t kin;          /* what all its members are of; KIN_MIXED: of several */
 } hierarchy_node;
+#define KIN_MIXED UINT32_MAX
 
 typedef struct hierarchy {
     hierarchy_node *nodes;
     uint32_t       *members;
     uint32_t        node_count, member_count;
 } hierarchy;
-/* Sorts boxes into a tree with a few of them a leaf. */
-lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, uint32_t count, lmn_error *error);
+/* Sorts boxes into a tree with a few of them a leaf. `kin` (NULL: all differ) says what each is of. */
+lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *kin, uint32_t count, lmn_error *error);
 void       hierarchy_release(hierarchy *h);
 
-/* Calls `pair` for all pairs of members whose boxes overlap, each once; false from it ends the search. */
+/* Calls `pair` for all pairs of members of different kin whose boxes overlap, each once; false from it ends the search. */
 typedef bool (*hierarchy_pair)(void *user, uint32_t a, uint32_t b);
-bool       hierarchy_pairs(const hierarchy *h, const box3 *boxes, hierarchy_pair pair, void *user);
+bool       hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin, hierarchy_pair pair, void *user);
 
 /* --- intersections.c --- */
 /* A straight line in which two faces of different pieces cross. */

@@ -14,16 +14,7 @@
 
 /* Stretches shorter than this are not told apart, pixels. */
 #define CRUMB 0.02
-enum { BLOCK = 512, FEW_EVENTS = 64 };
-
-typedef struct cover {
-    double from, to;
-} cover;
-
-typedef struct event {
-    double  at;
-    int32_t step;
-} event;
+enum { BLOCK = 512 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
 typedef struct span_block {
@@ -41,18 +32,33 @@ typedef struct span_job {
     atomic_bool           failed;
 } span_job;
 
+/* A place of the segment and by how many surfaces its cover grows there. Most places are edges between two triangles, where one cover ends and another one begins at the
+ * very same number, so that nothing is left of them. */
+typedef struct place_step {
+    double  at;
+    int32_t step;
+} place_step;
+
+typedef struct place_slot {
+    double   at;
+    int32_t  step;
+    uint32_t stamp; /* the segment that it was filled for */
+} place_slot;
+
 /* One thread's work on one segment. */
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
-    double                far_z;     /* of the segment: what begins behind is no cover */
+    float                 far_z;     /* of the segment, or a little more: what begins behind is no cover */
     int32_t               low_x, low_y, high_x, high_y;
     uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
-    cover                *covers;
-    size_t                cover_count, cover_capacity;
-    event                *events;
-    size_t                event_capacity;
+    place_slot           *table;     /* of places where covers begin or end, found by their bits */
+    size_t                table_size;
+    uint32_t             *filled;    /* slots of this segment */
+    size_t                filled_count, filled_capacity;
+    place_step           *steps;
+    size_t                step_capacity;
     uint64_t              pairs;
     bool                  failed;
 } worker;
@@ -65,26 +71,54 @@ static double cross_edge(const worker *w, window_point p, window_point q, double
     return a / (a - b);
 }
 
-/* By how much z changes over one unit of the window: places are rounded to units. */
-static double slope_of(const window_point p[3])
-{
-    double side = window_side(p[0], p[1], p[2]), b = p[1].z - p[0].z, c = p[2].z - p[0].z;
-    double x = b * ((double)p[2].y - p[0].y) - c * ((double)p[1].y - p[0].y), y = c * ((double)p[1].x - p[0].x) - b * ((double)p[2].x - p[0].x);
-    return (fabs(x) + fabs(y)) / fabs(side);
-}
-
 static bool has_corner(const window_triangle *t, uint32_t point)
 {
     return point != NO_VERTEX && (t->v[0] == point || t->v[1] == point || t->v[2] == point);
 }
 
-static void put_cover(worker *w, double from, double to)
+static size_t slot_of(const worker *w, double at)
 {
-    if (!mem_grow((void **)&w->covers, &w->cover_capacity, w->cover_count + 1, sizeof *w->covers)) {
+    uint64_t bits;
+    memcpy(&bits, &at, sizeof bits);
+    size_t slot = (bits * UINT64_C(0x9E3779B97F4A7C15)) >> 32 & (w->table_size - 1);
+    while (w->table[slot].stamp == w->stamp && w->table[slot].at != at)
+        slot = (slot + 1) & (w->table_size - 1);
+    return slot;
+}
+
+static bool grow_table(worker *w)
+{
+    size_t size = w->table_size ? 4 * w->table_size : 1024;
+    worker bigger = *w;
+    bigger.table_size = size;
+    bigger.table = mem_calloc(size, sizeof *bigger.table);
+    if (!bigger.table)
+        return false;
+    for (size_t i = 0; i < w->filled_count; i++) {
+        place_slot *from = &w->table[w->filled[i]];
+        size_t slot = slot_of(&bigger, from->at);
+        bigger.table[slot] = *from;
+        w->filled[i] = (uint32_t)slot;
+    }
+    mem_free(w->table);
+    w->table = bigger.table;
+    w->table_size = size;
+    return true;
+}
+
+static void put_step(worker *w, double at, int32_t step)
+{
+    if ((2 * w->filled_count >= w->table_size && !grow_table(w)) ||
+        !mem_grow((void **)&w->filled, &w->filled_capacity, w->filled_count + 1, sizeof *w->filled)) {
         w->failed = true;
         return;
     }
-    w->covers[w->cover_count++] = (cover){from, to};
+    place_slot *slot = &w->table[slot_of(w, at)];
+    if (slot->stamp != w->stamp) {
+        *slot = (place_slot){at, 0, w->stamp};
+        w->filled[w->filled_count++] = (uint32_t)(slot - w->table);
+    }
+    slot->step += step;
 }
 
 /* Between two places of the segment the triangle lies nearer by before … after; what differs by less than `same` is the same. */
@@ -97,31 +131,31 @@ static void cover_nearer(worker *w, double from, double to, double before, doubl
         to = from + (to - from) * (before / (before - after));
     else if (ends && before < -same)
         from = from + (to - from) * (before / (before - after));
-    put_cover(w, from, to);
+    put_step(w, from, 1);
+    put_step(w, to, -1);
 }
 
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
     const window_box *box = &v->boxes[number];
-    if (box->low_x > w->high_x || box->high_x < w->low_x || box->low_y > w->high_y || box->high_y < w->low_y || box->near_z > w->far_z)
+    /* Without short cuts: which of these fails cannot be foretold. */
+    if ((box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) | (box->near_z > w->far_z))
         return;
     const window_triangle *t = &v->triangles[number];
     const window_segment *s = w->segment;
     w->pairs++;
     const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
-    double sides[3];
-    bool low[3];
-    for (int k = 0; k < 3; k++) {
-        sides[k] = window_side(s->a, s->b, p[k]);
-        low[k] = sides[k] < 0;
-    }
-    if ((low[0] == low[1] && low[1] == low[2]) || t->face == s->faces[0] || t->face == s->faces[1])
+    int64_t sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
+    for (int k = 0; k < 3; k++)
+        sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
+    bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
+    if (((low[0] == low[1]) & (low[1] == low[2])) | (t->face == s->faces[0]) | (t->face == s->faces[1]))
         return;
     int alone = low[0] == low[1] ? 2 : low[0] == low[2] ? 1 : 0, next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
     double z0, z1;
-    double t0 = cross_edge(w, p[alone], p[next], sides[alone], sides[next], &z0);
-    double t1 = cross_edge(w, p[last], p[alone], sides[last], sides[alone], &z1);
+    double t0 = cross_edge(w, p[alone], p[next], (double)sides[alone], (double)sides[next], &z0);
+    double t1 = cross_edge(w, p[last], p[alone], (double)sides[last], (double)sides[alone], &z1);
     if (t0 > t1) {
         double other = t0;
         t0 = t1;
@@ -138,7 +172,7 @@ static void compare(worker *w, uint32_t number)
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
         after = 0;
-    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + slope_of(p));
+    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + box->slope);
 }
 
 static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
@@ -154,26 +188,34 @@ static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
     }
 }
 
-static bool sort_events(worker *w)
+/* By insertion with gaps: few are left where the segment is short. */
+static void sort_steps(place_step *steps, size_t count)
 {
-    size_t count = 2 * w->cover_count;
-    if (!mem_grow((void **)&w->events, &w->event_capacity, count, sizeof *w->events))
-        return false;
-    for (size_t i = 0; i < w->cover_count; i++) {
-        w->events[2 * i] = (event){w->covers[i].from, 1};
-        w->events[2 * i + 1] = (event){w->covers[i].to, -1};
-    }
     size_t gap = 1;
-    while (count > FEW_EVENTS && gap < count / 3)
+    while (gap < count / 6)
         gap = 3 * gap + 1;
-    for (; gap > 0; gap /= 3) /* by insertion with gaps: most segments have a handful */
+    for (; gap > 0; gap /= 3)
         for (size_t i = gap; i < count; i++) {
-            event moved = w->events[i];
+            place_step moved = steps[i];
             size_t k = i;
-            for (; k >= gap && w->events[k - gap].at > moved.at; k -= gap)
-                w->events[k] = w->events[k - gap];
-            w->events[k] = moved;
+            for (; k >= gap && steps[k - gap].at > moved.at; k -= gap)
+                steps[k] = steps[k - gap];
+            steps[k] = moved;
         }
+}
+
+/* What is left of the table, in order. */
+static bool gather_steps(worker *w, size_t *count)
+{
+    *count = 0;
+    if (!mem_grow((void **)&w->steps, &w->step_capacity, w->filled_count + 1, sizeof *w->steps))
+        return false;
+    for (size_t i = 0; i < w->filled_count; i++) {
+        const place_slot *slot = &w->table[w->filled[i]];
+        if (slot->step != 0)
+            w->steps[(*count)++] = (place_step){slot->at, slot->step};
+    }
+    sort_steps(w->steps, *count);
     return true;
 }
 
@@ -188,45 +230,38 @@ static bool put_span(span_block *block, double from, int64_t count, size_t first
     return true;
 }
 
-/* Adds up what covers the segment. Events closer together than a crumb are one. */
+/* Adds up what covers the segment. Places closer together than a crumb are one; a segment that is no more than a speck is as it is in its middle. */
 static bool put_spans(worker *w, span_block *block)
 {
-    size_t first = block->count, events = 2 * w->cover_count;
+    size_t first = block->count, steps, next = 0;
     const window_segment *s = w->segment;
-    double length = hypot((double)s->b.x - s->a.x, (double)s->b.y - s->a.y) / w->v->units, crumb = CRUMB / fmax(length, CRUMB);
-    if (crumb > 0.4) { /* no more than a speck: as it is in its middle */
-        int64_t count = 0;
-        for (size_t i = 0; i < w->cover_count; i++)
-            count += w->covers[i].from <= 0.5 && w->covers[i].to > 0.5;
-        return put_span(block, 0, count, first);
-    }
-    if (!sort_events(w))
-        return false;
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y, length = sqrt(x * x + y * y) / w->v->units, crumb = CRUMB / fmax(length, CRUMB), at = 0;
     int64_t count = 0;
-    double at = 0;
-    for (size_t i = 0; i < events;) {
-        double until = w->events[i].at;
-        if (until > at + crumb) {
-            if (!put_span(block, at, count, first))
-                return false;
-            at = until;
-        }
-        while (i < events && w->events[i].at <= at + crumb)
-            count += w->events[i++].step;
+    if (!gather_steps(w, &steps))
+        return false;
+    if (crumb > 0.4)
+        crumb = 0.5;
+    for (;;) {
+        while (next < steps && w->steps[next].at <= at + crumb)
+            count += w->steps[next++].step;
+        if (!put_span(block, at, count, first))
+            return false;
+        if (next == steps || crumb == 0.5 || w->steps[next].at >= 1 - crumb)
+            return true;
+        at = w->steps[next].at;
     }
-    return at >= 1 - crumb && block->count > first ? true : put_span(block, at, count, first);
 }
 
 static void find_spans(worker *w, span_block *block, const window_segment *s)
 {
     w->segment = s;
     w->stamp++;
-    w->cover_count = 0;
+    w->filled_count = 0;
     w->low_x = s->a.x < s->b.x ? s->a.x : s->b.x;
     w->high_x = s->a.x < s->b.x ? s->b.x : s->a.x;
     w->low_y = s->a.y < s->b.y ? s->a.y : s->b.y;
     w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
-    w->far_z = s->a.z > s->b.z ? s->a.z : s->b.z;
+    w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
     if (!w->failed)
         w->failed = !put_spans(w, block);
@@ -251,8 +286,9 @@ static void find_blocks(size_t begin, size_t end, void *user)
     if (w.failed)
         atomic_store(&job->failed, true);
     mem_free(w.stamps);
-    mem_free(w.covers);
-    mem_free(w.events);
+    mem_free(w.table);
+    mem_free(w.filled);
+    mem_free(w.steps);
 }
 
 /* The blocks' spans one after the other. */
@@ -324,11 +360,11 @@ void visibility_release(visibility *out)
 
 /* --- single places ------------------------------------------------------------------------------------------------- */
 
-typedef struct place_count {
+typedef struct surface_count {
     const stroke_view *v;
     window_point       at;
     uint32_t           count;
-} place_count;
+} surface_count;
 
 /* A place on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of two. */
 static bool is_inside(const window_point p[3], window_point at)
@@ -347,7 +383,7 @@ static bool is_inside(const window_point p[3], window_point at)
 static void count_nearer(void *user, const uint32_t *entries, size_t count, bool alone)
 {
     (void)alone;
-    place_count *c = user;
+    surface_count *c = user;
     const stroke_view *v = c->v;
     for (size_t i = 0; i < count; i++) {
         const window_box *box = &v->boxes[entries[i]];
@@ -359,7 +395,7 @@ static void count_nearer(void *user, const uint32_t *entries, size_t count, bool
             continue;
         double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole, b = window_side(p[2], p[0], c->at) / whole;
         double z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
-        c->count += c->at.z - z > view_tolerance(v, z) + slope_of(p);
+        c->count += c->at.z - z > view_tolerance(v, z) + box->slope;
     }
 }
 
@@ -367,7 +403,7 @@ void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t c
 {
     double half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
     for (size_t i = 0; i < count; i++) {
-        place_count c = {.v = v};
+        surface_count c = {.v = v};
         out[i] = UINT32_MAX;
         if (!view_place(v, (double3){places[i][0], places[i][1], places[i][2]}, &c.at) || fabs((double)c.at.x) > half_x || fabs((double)c.at.y) > half_y)
             continue;
