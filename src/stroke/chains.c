@@ -25,6 +25,7 @@ typedef struct chainer {
     const view_lines    *lines;
     const visibility    *seen;
     const stroke_wishes *wishes;
+    double               focal;  /* pixels to a unit of length, at depth 1 in perspective */
     uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
     uint32_t            *nexts; /* per half-line: another one at the same end */
     uint8_t             *used;  /* per line */
@@ -300,13 +301,18 @@ static void calm(chainer *c)
 
 /* --- simplifying --------------------------------------------------------------------------------------------------- */
 
-static double distance_from(const chain_point *p, const chain_point *a, const chain_point *b)
+/* Depth may be off by this many times as much as the place on the page. */
+#define DEPTH_SHARE 0.1
+
+/* By how much a point lies off a straight piece, pixels. */
+static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
 {
     double x = b->x - a->x, y = b->y - a->y, length = x * x + y * y;
     double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
     share = share < 0 ? 0 : share > 1 ? 1 : share;
     double away_x = p->x - a->x - share * x, away_y = p->y - a->y - share * y;
-    return sqrt(away_x * away_x + away_y * away_y);
+    double depth = (p->z - a->z - share * (b->z - a->z)) * (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_SHARE;
+    return sqrt(away_x * away_x + away_y * away_y + depth * depth);
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */
@@ -325,7 +331,7 @@ static bool simplify(chainer *c, size_t begin, size_t end)
         size_t last = c->stack[--depth], first = c->stack[--depth], worst = 0;
         double most = limit;
         for (size_t i = first + 1; i < last; i++) {
-            double away = distance_from(&c->points[i], &c->points[first], &c->points[last]);
+            double away = distance_from(c, &c->points[i], &c->points[first], &c->points[last]);
             if (away > most) {
                 most = away;
                 worst = i;
@@ -403,7 +409,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 {
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
-    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes};
+    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
     bool good = link_ends(&c);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)

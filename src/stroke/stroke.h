@@ -126,10 +126,12 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
 
 /* What `stroke_verify` found. */
 typedef struct stroke_check {
-    uint64_t samples, wrong;
+    uint64_t samples;
+    uint64_t wrong;      /* visible where it should be hidden, or the other way round */
+    uint64_t miscounted; /* the same or a wrong number of surfaces in front */
 } stroke_check;
-/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample
- * counts as wrong when no place within half a pixel along the stroke has the count that the stroke claims (hidden or not, when `visible_only`). Errors: LMN_MEMORY, LMN_CANCELLED. */
+/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample is wrong when no
+ * place within half a pixel is as the stroke says. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 
