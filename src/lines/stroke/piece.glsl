@@ -9,7 +9,7 @@ const int BUTT_BEGIN = 1, BUTT_END = 2, BRUSH_SHIFT = 2;
 struct piece_place {
     float at;      /* 0 … 1 along the piece */
     vec4  axis;    /* pixels, window depth, half the width */
-    float aside;   /* distance from it, pixels; left is above 0 */
+    float aside;   /* distance from the line on which the axis lies, pixels; left is above 0 */
     float share;   /* of the pixel */
 };
 
@@ -27,7 +27,7 @@ piece_place place_in_piece()
     p.at = size > 0.0 ? clamp(ahead / size, 0.0, 1.0) : 0.0;
     p.axis = mix(v_begin, v_end, p.at);
     float distance = length(gl_FragCoord.xy - p.axis.xy);
-    p.aside = along.x * from.y - along.y * from.x < 0.0 ? -distance : distance;
+    p.aside = size > 0.0 ? (along.x * from.y - along.y * from.x) / size : 0.0;
     p.share = share_of(distance, p.axis.w);
 #ifndef SAMPLED
     int bits = int(v_look.w);

@@ -77,7 +77,7 @@ static const pass passes[] = {
 
 const technique lines_strokes = {
     .name = "strokes", .doc = "Lines with geometry: outlines, creases and borders of the mesh itself, drawn as strokes.",
-    .example = "{\"lines\": {\"operator\": \"strokes\"}, \"surface\": \"flat\"}",
+    .example = "{\"lines\": {\"operator\": \"strokes\", \"visibility\": \"exact\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(strokes_values), .passes = passes, .pass_count = PARAM_COUNT(passes),
     .own_ink = true,
 };
