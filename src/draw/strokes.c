@@ -17,6 +17,7 @@ struct stroke_store {
     size_t         part_count;
     stroke_scene   scene;
     gpu_marks    **edges; /* per mesh of the scene; NULL: not made yet */
+    gpu_marks    **crossings; /* per item, the same */
     stroke_view   *view;  /* of the last camera; NULL: none */
     stroke_camera  camera;
 };
@@ -36,8 +37,11 @@ void stroke_store_destroy(stroke_store **store, gpu *g)
     release_view(s);
     for (size_t i = 0; i < s->scene.mesh_count && s->edges; i++)
         gpu_marks_destroy(g, &s->edges[i]);
+    for (size_t i = 0; i < s->scene.item_count && s->crossings; i++)
+        gpu_marks_destroy(g, &s->crossings[i]);
     stroke_scene_release(&s->scene);
     mem_free(s->edges);
+    mem_free(s->crossings);
     mem_free(s->parts);
     mem_free(s);
     *store = NULL;
@@ -71,12 +75,22 @@ static lmn_status fill_store(stroke_store *s, const frame *f, const figure *fig,
     if (status != LMN_OK)
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
-    return s->edges ? LMN_OK : error_memory(error);
+    s->crossings = mem_calloc(s->scene.item_count, sizeof(gpu_marks *));
+    return s->edges && s->crossings ? LMN_OK : error_memory(error);
 }
 
 static void fail(frame *f, lmn_status status, const lmn_error *error)
 {
     gpu_fail(f->g, status, "%s", error->message);
+}
+
+/* Where surfaces cross does not depend on the view: it is found once. */
+static void bring_crossings(frame *f, stroke_store *store, const strokes_values *v)
+{
+    lmn_error error = {0};
+    lmn_status status = v->wishes.intersections ? stroke_scene_cross(&store->scene, NULL, NULL, &error) : LMN_OK;
+    if (status != LMN_OK)
+        fail(f, status, &error);
 }
 
 /* The figure's; NULL after an error. */
@@ -136,31 +150,52 @@ static void find_viewer(const frame *f, const mat4 *world, float out[4])
     out[3] = f->camera.orthographic ? 0 : 1;
 }
 
-static gpu_marks *edges_of(frame *f, stroke_store *store, uint32_t mesh)
+/* Takes over the records; the GPU fails when there are none. */
+static gpu_marks *upload_records(frame *f, float *records, size_t count)
 {
-    gpu_marks **slot = &store->edges[mesh];
-    if (*slot || gpu_failed(f->g))
-        return *slot;
-    float *records = strokes_edge_records(&store->scene.meshes[mesh]);
+    gpu_marks *marks = NULL;
     if (records)
-        *slot = gpu_marks_create(f->g, EDGE_RECORD_VECTORS, records, store->scene.meshes[mesh].edge_count);
+        marks = gpu_marks_create(f->g, EDGE_RECORD_VECTORS, records, count);
     else
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(records);
-    return *slot;
+    return marks;
 }
 
-static void draw_item_edges(frame *f, stroke_store *store, const stroke_item *item)
+/* Makes what the item's lines are drawn from, unless it is there. */
+static void bring_item(frame *f, stroke_store *store, uint32_t index, bool crossings)
 {
-    gpu_marks *marks = edges_of(f, store, item->mesh);
-    mat4 both = mat4_multiply(&f->camera.view, &item->world), whole = mat4_multiply(&f->camera.projection, &both);
+    uint32_t mesh = store->scene.items[index].mesh;
+    if (!store->edges[mesh] && !gpu_failed(f->g))
+        store->edges[mesh] = upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]), store->scene.meshes[mesh].edge_count);
+    if (!crossings || store->crossings[index] || gpu_failed(f->g))
+        return;
+    size_t count;
+    float *records = strokes_crossing_records(&store->scene, index, &count);
+    store->crossings[index] = upload_records(f, records, count);
+}
+
+static void draw_records(frame *f, gpu_marks *marks, const mat4 *world)
+{
+    if (gpu_marks_count(marks) == 0)
+        return;
+    mat4 both = mat4_multiply(&f->camera.view, world), whole = mat4_multiply(&f->camera.projection, &both);
     float clip[16], viewer[4];
     for (int i = 0; i < 16; i++)
         clip[i] = (float)whole.m[i];
-    find_viewer(f, &item->world, viewer);
+    find_viewer(f, world, viewer);
     gpu_set_mat4(f->g, "u_clip", clip);
     gpu_set_vec4(f->g, "u_viewer", viewer);
     gpu_draw_marks(f->g, marks);
+}
+
+static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool crossings)
+{
+    const stroke_item *item = &store->scene.items[index];
+    const mat4 still = mat4_identity();
+    draw_records(f, store->edges[item->mesh], &item->world);
+    if (crossings)
+        draw_records(f, store->crossings[index], &still);
 }
 
 /* Is the near plane before all parts, so that closed ones are seen from outside? */
@@ -175,7 +210,7 @@ static int wanted_bits(const stroke_wishes *w)
 {
     enum { WANT_CONTOUR = 32 };
     return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) | (w->creases ? RECORD_CREASE : 0) |
-           (w->materials ? RECORD_MATERIAL : 0);
+           (w->materials ? RECORD_MATERIAL : 0) | (w->intersections ? RECORD_CROSSING : 0);
 }
 
 static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const pass *p, const strokes_values *v)
@@ -185,9 +220,9 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     text_append(&prelude, "#define SAMPLED\n");
     gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/edges.vert", "lines/stroke/stroke.frag", &prelude);
     /* Before the pass begins: making records takes the place of what is bound. */
-    for (size_t i = 0; i < store->scene.item_count; i++)
+    for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
-            edges_of(f, store, store->scene.items[i].mesh);
+            bring_item(f, store, i, v->wishes.intersections);
     open_maps(f, s);
     if (!program || gpu_failed(f->g))
         return;
@@ -198,9 +233,9 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     gpu_set_vec2(f->g, "u_half_widths", v->common.width / 2, v->common.width * v->style.crease_width / 2);
     gpu_set_int(f->g, "u_wanted", wanted_bits(&v->wishes));
     gpu_set_int(f->g, "u_inside", !eye_is_outside(f));
-    for (size_t i = 0; i < store->scene.item_count; i++)
+    for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
-            draw_item_edges(f, store, &store->scene.items[i]);
+            draw_lines_of(f, store, i, v->wishes.intersections);
 }
 
 /* --- exact --------------------------------------------------------------------------------------------------------- */
@@ -307,6 +342,8 @@ void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *
     bool exact = v->visibility == VISIBILITY_EXACT || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
     stopwatch w = watch_start(f);
     stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure);
+    if (store)
+        bring_crossings(f, store, v);
     if (store && exact)
         draw_exact(f, s, store, v);
     else if (store)

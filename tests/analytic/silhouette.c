@@ -10,7 +10,7 @@
 #include "scenes.h"
 #include "shape.h"
 
-enum { SIDE = 512, EDGES_MAX = SIDE / 2 * (SIDE / 2), VIEWS = 260, WANT_CONTOUR = 32, ALL = 63 };
+enum { SIDE = 512, EDGES_MAX = SIDE / 2 * (SIDE / 2), VIEWS = 260, WANT_CONTOUR = 32, ALL = 127 };
 
 static const char vertex_stage[] =
     "#include \"lines/stroke/decide.glsl\"\n"

@@ -9,7 +9,7 @@ uniform vec4 u_viewer; /* in the mesh's axes: place of the eye, 1; or the direct
 uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */
 
-const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32;
+const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64;
 const int NO_LINE = -1, PROFILE = 0, INNER = 1, ID = 3;
 
 /* The edge map's channel that the edge is drawn into, or NO_LINE. */
@@ -23,5 +23,5 @@ int line_of_edge()
     bool outline = (bits & RECORD_PAIR) != 0 && first != second && (u_wanted & WANT_CONTOUR) != 0;
     if (outline || (wanted & RECORD_BORDER) != 0)
         return PROFILE;
-    return (wanted & RECORD_CREASE) != 0 ? INNER : (wanted & RECORD_MATERIAL) != 0 ? ID : NO_LINE;
+    return (wanted & RECORD_CREASE) != 0 ? INNER : (wanted & (RECORD_CROSSING | RECORD_MATERIAL)) != 0 ? ID : NO_LINE;
 }

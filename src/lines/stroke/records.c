@@ -68,6 +68,27 @@ float *strokes_edge_records(const edge_mesh *m)
     return records;
 }
 
+float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *count)
+{
+    size_t all = stroke_scene_crossing_count(s), own = 0;
+    double ends[2][3];
+    for (size_t i = 0; i < all; i++)
+        own += stroke_scene_crossing(s, i, ends) == item;
+    float *records = mem_calloc(own + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
+    for (size_t i = 0; i < all && records; i++) {
+        if (stroke_scene_crossing(s, i, ends) != item)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            at[k] = (float)ends[0][k];
+            at[4 + k] = (float)ends[1][k];
+        }
+        at[3] = RECORD_CROSSING;
+        at += EDGE_RECORD_FLOATS;
+    }
+    *count = own;
+    return records;
+}
+
 /* --- ribbons ------------------------------------------------------------------------------------------------------- */
 
 int strokes_channel(stroke_class c)

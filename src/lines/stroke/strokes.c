@@ -22,7 +22,7 @@ static const param params[] = {
     FLAG("borders", wishes.borders, .def = 1, .doc = "Lines where a surface ends."),
     FLAG("materials", wishes.materials, .def = 1, .doc = "Lines where a part's material changes."),
     FLAG("intersections", wishes.intersections, .def = 1,
-         .doc = "Lines where surfaces run through each other; where visibility is sampled there are none."),
+         .doc = "Lines where surfaces run through each other."),
     NUMBER("suggestive", wishes.suggestive, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Suggestive contours: lines where an outline would appear if the eye moved a little; 1 draws the strongest, less draws more, 0 none."),
     NUMBER("ridges", wishes.ridges, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,

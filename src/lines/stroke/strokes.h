@@ -30,11 +30,14 @@ enum { EDGE_RECORD_VECTORS = 4, EDGE_RECORD_FLOATS = 4 * EDGE_RECORD_VECTORS };
 typedef enum record_bit {
     RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4,
     RECORD_PAIR   = 8,  /* two faces, so that it may be an outline */
-    RECORD_CLOSED = 16  /* of a closed piece: seen from behind, it is hidden */
+    RECORD_CLOSED = 16, /* of a closed piece: seen from behind, it is hidden */
+    RECORD_CROSSING = 64
 } record_bit;
 
 /* One record an edge: x, y, z, bits; x, y, z, 0; the normals of both faces, outward where the piece is closed. NULL when memory is gone; the caller frees it. */
 float *strokes_edge_records(const edge_mesh *m);
+/* The same for the lines in which surfaces of an item cross others, in world axes. Sets *count. */
+float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *count);
 
 /* --- records of ribbons --------------------------------------------------------------------------------------------- */
 
