@@ -7,10 +7,11 @@
 #include "base/memory.h"
 
 /* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
-#define FLICKER 0.25
-/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. */
+#define FLICKER 0.9
+/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
-enum { OUTSIDE = -1 }; /* of the page */
+#define TURNS_BACK -0.7
+enum { OUTSIDE = -1, MEETING_MAX = 24 }; /* of the page; lines at one end that are looked at */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
 typedef struct chain_point {
@@ -28,6 +29,7 @@ typedef struct chainer {
     double               focal;  /* pixels to a unit of length, at depth 1 in perspective */
     uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
     uint32_t            *nexts; /* per half-line: another one at the same end */
+    uint32_t            *partners; /* per half-line: the one that goes on where it begins, NO_VERTEX: none */
     uint8_t             *used;  /* per line */
     uint32_t            *path;  /* half-lines of the chain, by the end that they begin at */
     size_t               path_count, path_capacity;
@@ -67,41 +69,62 @@ static bool ends_at_corners(stroke_class kind)
     return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL;
 }
 
-/* The other half-lines of one's kind at one's end: how many, and the one that goes on straightest. */
-static size_t straightest(const chainer *c, uint32_t half, uint32_t *best)
+/* Is the line visible where this half-line begins? */
+static bool begins_visible(const chainer *c, uint32_t half)
 {
-    stroke_class kind = c->lines->lines[half / 2].kind;
-    size_t others = 0;
-    double most = -2;
-    *best = NO_VERTEX;
-    for (uint32_t h = c->heads[end_number(c, half)]; h != NO_VERTEX; h = c->nexts[h]) {
-        if (h / 2 == half / 2 || c->lines->lines[h / 2].kind != kind)
-            continue;
-        double turn = turn_between(c, half, h);
-        others++;
-        if (turn > most || (turn == most && h < *best)) {
-            most = turn;
-            *best = h;
-        }
-    }
-    if (others > 1 && most < STRAIGHT_ON)
-        *best = NO_VERTEX;
-    return others;
+    uint32_t first = c->seen->starts[half / 2], last = c->seen->starts[half / 2 + 1] - 1;
+    return c->seen->spans[half & 1 ? last : first].count == 0;
 }
 
-/* The half-line with which a chain goes on beyond this half-line's own end, NO_VERTEX: it ends there. */
-static uint32_t partner_of(const chainer *c, uint32_t half)
+/* How well one line goes on as another one: what is visible goes on as what is visible, then what turns least. Below 0: not at all. */
+static double fit(const chainer *c, uint32_t in, uint32_t out)
 {
-    uint32_t best, back;
-    size_t others = straightest(c, half, &best);
-    if (best == NO_VERTEX || (others > 1 && ends_at_corners(c->lines->lines[half / 2].kind)))
-        return NO_VERTEX;
-    if (others > 1) { /* both must want each other */
-        straightest(c, best, &back);
-        if (back != half)
-            return NO_VERTEX;
+    double turn = turn_between(c, in, out);
+    bool alike = begins_visible(c, in) == begins_visible(c, out);
+    return turn < (alike ? TURNS_BACK : STRAIGHT_ON) ? -1 : turn + (alike ? 4 : 1);
+}
+
+/* Pairs the half-lines of one kind at one end, best fit first. Sharp lines end at corners. */
+static void pair_lines(chainer *c, const uint32_t *halves, size_t count)
+{
+    if (count == 2) {
+        c->partners[halves[0]] = halves[1];
+        c->partners[halves[1]] = halves[0];
     }
-    return best;
+    if (count <= 2 || ends_at_corners(c->lines->lines[halves[0] / 2].kind))
+        return;
+    for (;;) {
+        double most = 0;
+        uint32_t p = 0, q = 0;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = i + 1; k < count; k++) {
+                bool free = c->partners[halves[i]] == NO_VERTEX && c->partners[halves[k]] == NO_VERTEX && halves[i] / 2 != halves[k] / 2;
+                double own = free ? fit(c, halves[i], halves[k]) : -1;
+                if (own > most) {
+                    most = own;
+                    p = halves[i];
+                    q = halves[k];
+                }
+            }
+        if (most <= 0)
+            return;
+        c->partners[p] = q;
+        c->partners[q] = p;
+    }
+}
+
+static void pair_ends(chainer *c)
+{
+    for (uint32_t end = 0; end < c->lines->end_count; end++)
+        for (int kind = 0; kind < STROKE_CLASS_COUNT && c->heads[end] != NO_VERTEX; kind++) {
+            uint32_t halves[MEETING_MAX];
+            size_t count = 0;
+            for (uint32_t h = c->heads[end]; h != NO_VERTEX && count < MEETING_MAX; h = c->nexts[h])
+                if ((int)c->lines->lines[h / 2].kind == kind)
+                    halves[count++] = h;
+            if (count > 1)
+                pair_lines(c, halves, count);
+        }
 }
 
 static bool link_ends(chainer *c)
@@ -110,14 +133,17 @@ static bool link_ends(chainer *c)
     c->heads = mem_alloc(((size_t)l->end_count + 1) * sizeof *c->heads);
     c->nexts = mem_alloc((2 * l->count + 1) * sizeof *c->nexts);
     c->used = mem_calloc(l->count + 1, 1);
-    if (!c->heads || !c->nexts || !c->used)
+    c->partners = mem_alloc((2 * l->count + 1) * sizeof *c->partners);
+    if (!c->heads || !c->nexts || !c->used || !c->partners)
         return false;
+    memset(c->partners, 0xFF, 2 * l->count * sizeof *c->partners);
     memset(c->heads, 0xFF, ((size_t)l->end_count + 1) * sizeof *c->heads);
     for (size_t h = 2 * l->count; h-- > 0;) {
         uint32_t end = end_number(c, (uint32_t)h);
         c->nexts[h] = c->heads[end];
         c->heads[end] = (uint32_t)h;
     }
+    pair_ends(c);
     return true;
 }
 
@@ -130,7 +156,7 @@ static bool follow(chainer *c, uint32_t half, bool *closed)
             return false;
         c->path[c->path_count++] = h;
         c->used[h / 2] = 1;
-        uint32_t next = partner_of(c, h ^ 1);
+        uint32_t next = c->partners[h ^ 1];
         *closed = next == half && c->path_count > 1;
         if (next == NO_VERTEX || c->used[next / 2])
             return true;
@@ -143,7 +169,7 @@ static uint32_t first_of(const chainer *c, uint32_t line)
 {
     uint32_t start = 2 * line, h = start;
     for (size_t steps = 0; steps <= c->lines->count; steps++) {
-        uint32_t before = partner_of(c, h);
+        uint32_t before = c->partners[h];
         if (before == NO_VERTEX || (before ^ 1) == start || c->used[before / 2])
             return h;
         h = before ^ 1;
@@ -417,6 +443,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                 good = make_chain(&c, i);
     mem_free(c.heads);
     mem_free(c.nexts);
+    mem_free(c.partners);
     mem_free(c.used);
     mem_free(c.path);
     mem_free(c.points);
@@ -447,6 +474,10 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
     status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, wishes, error);
+    if (status == LMN_OK)
+        status = strokes_join(out, v, error);
+    if (status != LMN_OK)
+        stroke_set_release(out);
     visibility_release(&seen);
     lines_release(&lines);
     return status;

@@ -187,4 +187,8 @@ void       lines_release(view_lines *l);
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
                        lmn_error *error);
 
+/* --- join.c --- */
+/* Joins strokes of one kind whose ends almost touch. */
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
+
 #endif
