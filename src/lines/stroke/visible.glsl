@@ -32,7 +32,7 @@ bool is_visible(vec3 axis, bool wanted)
         seen = here >= 1.0 || nearer <= ROUNDING + SLOPE * (abs(slope.x) + abs(slope.y));
         /* What lies farther behind than any of these reach is hidden. */
         float far = max(max(max(left, right), max(below, above)), here), near = min(min(min(left, right), min(below, above)), here);
-        bool hidden = axis.z > 2.0 * far - near + ROUNDING;
+        bool hidden = axis.z > far + 4.0 * (far - near) + ROUNDING;
         turns = seen || hidden ? 0 : turns;
         beside = next;
         next = vec2(sign(next.x - next.y), sign(next.x + next.y));
