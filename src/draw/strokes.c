@@ -49,10 +49,10 @@ void stroke_store_destroy(stroke_store **store, gpu *g)
 
 /* --- the scene ----------------------------------------------------------------------------------------------------- */
 
-/* Parts that may hide the figure's lines: what is not seen through, and its own. */
+/* Parts that may hide the figure's lines: what is not seen through, for layers all. */
 static bool hides(const frame *f, const figure *fig, size_t part)
 {
-    return !(f->mirror && f->mirror->designated[part]) && (fig->designated[part] || f->plan->opaque[part]);
+    return !(f->mirror && f->mirror->designated[part]) && (fig->layered ? f->plan->selected[part] : f->plan->opaque[part]);
 }
 
 static bool has_parts(const stroke_store *s, const frame *f, const figure *fig)
@@ -96,14 +96,15 @@ static void bring_crossings(frame *f, stroke_store *store, const strokes_values 
 /* The figure's; NULL after an error. */
 static stroke_store *find_store(frame *f, const figure *fig)
 {
-    if (f->up->strokes && has_parts(f->up->strokes, f, fig))
-        return f->up->strokes;
-    stroke_store_destroy(&f->up->strokes, f->g);
+    stroke_store **slot = &f->up->strokes[fig->layered];
+    if (*slot && has_parts(*slot, f, fig))
+        return *slot;
+    stroke_store_destroy(slot, f->g);
     lmn_error error = {0};
     stroke_store *s = mem_calloc(1, sizeof *s);
     lmn_status status = s ? fill_store(s, f, fig, &error) : error_memory(&error);
     if (status == LMN_OK) {
-        f->up->strokes = s;
+        *slot = s;
         return s;
     }
     stroke_store_destroy(&s, f->g);

@@ -108,7 +108,7 @@ typedef struct upload {
     gpu_texture  *part_frames; /* NULL: not asked for yet */
     float        *part_frame_values; /* what is in it */
     double        frame_origin[3];
-    stroke_store *strokes; /* NULL: not asked for yet */
+    stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not asked for yet */
     uint64_t      triangles; /* drawn, instances counted */
 } upload;
 
