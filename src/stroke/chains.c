@@ -546,7 +546,7 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
     if (status == LMN_OK)
         status = strokes_join(out, v, error);
     if (status == LMN_OK)
-        status = strokes_thin(out, wishes->crowd, error);
+        status = strokes_thin(out, wishes->crowd, v->camera.width, v->camera.height, error);
     out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)
         stroke_set_release(out);
