@@ -86,6 +86,8 @@ static void test_structure(void **state)
     sheet_add_path(&s, &(sheet_path){.filled = true}, line, 3);
     sheet_add_item(&s, SHEET_DOTS, view, black, 0);
     sheet_add_path(&s, &(sheet_path){.width = 2}, line, 2);
+    sheet_add_item(&s, SHEET_PATH, view, black, 0x2F);
+    sheet_add_path(&s, &(sheet_path){.width = 1, .closed = true}, line, 2);
     sheet_add_text(&s, view, black, "a < b & c\x02\xFF", 1, 2, 3, 0);
     export_bytes bytes = bytes_of(&s, export_svg), twice = bytes_of(&s, export_svg);
     assert_int_equal(bytes.size, twice.size);
@@ -103,6 +105,8 @@ static void test_structure(void **state)
     assert_int_equal(count_of(document, "//s:text[.='a < b & c \xEF\xBF\xBD']"), 1);
     assert_non_null(strstr((const char *)bytes.data, "stroke-dasharray:2,1;stroke-dashoffset:.5"));
     assert_non_null(strstr((const char *)bytes.data, "stroke:#ff0000;stroke-width:.25;stroke-opacity:.5"));
+    assert_non_null(strstr((const char *)bytes.data, "stroke-opacity:.5;stroke-linecap:butt"));
+    assert_int_equal(count_of(document, "//s:path[@data-line='2f'][@d='M1 2l2.5 2z']"), 1);
     assert_null(strstr((const char *)bytes.data, "nan"));
     xmlFreeDoc(document);
     mem_free(bytes.data);
@@ -110,6 +114,10 @@ static void test_structure(void **state)
     export_bytes pdf = bytes_of(&s, export_pdf), pdf_twice = bytes_of(&s, export_pdf);
     assert_int_equal(pdf.size, pdf_twice.size);
     assert_memory_equal(pdf.data, pdf_twice.data, pdf.size);
+    int dates = 0; /* the time of day is not in it */
+    for (size_t i = 0; i + 15 <= pdf.size; i++)
+        dates += memcmp(pdf.data + i, "20000101000000Z", 15) == 0;
+    assert_int_equal(dates, 2);
     mem_free(pdf.data);
     mem_free(pdf_twice.data);
     sheet_release(&s);
