@@ -185,7 +185,12 @@ static void make_ribbons(ribbon_set *set, ribbon *ribbons, ribbon_point *points)
             float share = (float)k / (float)(count - 1), angle = turn + share * (closed ? 6.2831853f : corner ? 3.5f : 2.5f);
             if (closed && k + 1 == count)
                 angle = turn;
-            points[i * POINTS + k] = (ribbon_point){x + radius * cosf(angle), y + radius * sinf(angle), 1, share * radius, even ? half : half * (0.4f + 0.6f * sinf(share * 3.1f)), 1};
+            if (corner && !closed) { /* a sharp one */
+                angle = turn + 0.5f * (float)k;
+                radius = k == 1 ? 0 : 40;
+                half = 4;
+            }
+            points[i * POINTS + k] = (ribbon_point){x + radius * cosf(angle), y + radius * sinf(angle), 1, share * radius, even || corner ? half : half * (0.4f + 0.6f * sinf(share * 3.1f)), 1};
         }
     }
 }
