@@ -91,6 +91,9 @@ lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const 
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
+/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. */
+size_t   stroke_scene_crossing_count(const stroke_scene *s);
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3]);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
@@ -119,13 +122,14 @@ typedef enum contour_kind {
 /* Which lines are wanted. */
 typedef struct stroke_wishes {
     int32_t contours; /* contour_kind */
-    int32_t creases, borders, materials, intersections; /* bool */
+    bool    creases, borders, materials, intersections;
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
-    int32_t hidden;    /* bool: stretches behind surfaces too */
+    bool    hidden;    /* stretches behind surfaces too */
     float   simplify;  /* by how much points may be moved, pixels */
     float   shortest;  /* chains shorter than this are left out, pixels */
+    float   crowd;     /* strokes that run all their length this close to more important ones are left out, pixels */
 } stroke_wishes;
-#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f}
+#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f}
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
