@@ -7,11 +7,8 @@
 #include "finish/finish.h"
 #include "layer/layer.h"
 #include "lines/lines.h"
-#include "surface/surface.h"
-#if __has_include("lines/stroke/strokes.h")
 #include "lines/stroke/strokes.h"
-#define LIMNER_HAVE_STROKES
-#endif
+#include "surface/surface.h"
 
 /* What a picture's lines do not say. */
 static const float inner_share = 0.75f;  /* width of creases beside outlines, as draughtsmen have it */
@@ -114,7 +111,6 @@ static void take_hand(stroke_style *style, const rule *r)
         style->taper = style->width * taper_share;
 }
 
-#ifdef LIMNER_HAVE_STROKES
 /* The technique whose lines are strokes anyway. */
 static const strokes_values *own_strokes(const rule *r)
 {
@@ -123,11 +119,9 @@ static const strokes_values *own_strokes(const rule *r)
             return r->uses[KIND_LINES][i].values;
     return NULL;
 }
-#endif
 
 bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *style)
 {
-#ifdef LIMNER_HAVE_STROKES
     const strokes_values *own = own_strokes(r);
     if (own) {
         *wishes = strokes_wishes_of(own);
@@ -136,7 +130,6 @@ bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *sty
             take_hand(style, r);
         return true;
     }
-#endif
     *wishes = (stroke_wishes)STROKE_WISHES_INIT;
     *style = (stroke_style){.width = 2, .crease_width = 1, .wobble_length = 60, .repeats = 1, .gap = 4, .hidden = HIDDEN_NONE, .hidden_fade = 1, .hidden_gap = 4};
     if (r->use_counts[KIND_LINES] == 0)
