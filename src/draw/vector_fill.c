@@ -138,7 +138,7 @@ static lmn_status fill_part(lmn_sheet *s, fill_job *j, size_t part_index, uint32
 }
 
 lmn_status vector_put_fills(lmn_sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules, const mat4 *worlds,
-                            lmn_error *error)
+                            lmn_progress_fn progress, void *user, lmn_error *error)
 {
     fill_job     j = {.ink = ink, .view = view, .strokes = strokes, .both = mat4_multiply(&view->camera.projection, &view->camera.view)};
     size_t       count = 0;
@@ -156,8 +156,12 @@ lmn_status vector_put_fills(lmn_sheet *s, const vector_ink *ink, const vector_vi
         qsort(parts, count, sizeof *parts, compare_depths);
     uint32_t group = sheet_add_group(&s->page, (int32_t)ink->group, "fills", "fills", 0);
     sheet_clip_group(&s->page, group, view->box[0], view->box[1], view->box[2], view->box[3]);
-    for (size_t i = 0; i < count && status == LMN_OK; i++)
-        status = fill_part(s, &j, parts[i].part_index, group, rules[parts[i].part_index], error);
+    for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        if (progress && !progress(0, "filling", user))
+            status = error_set(error, LMN_CANCELLED, "cancelled");
+        else
+            status = fill_part(s, &j, parts[i].part_index, group, rules[parts[i].part_index], error);
+    }
     mem_free(parts);
     mem_free(j.triangles);
     mem_free(j.contours);

@@ -12,7 +12,7 @@
 
 /* What a picture's lines do not say. */
 static const float inner_share = 0.75f;  /* width of creases beside outlines, as draughtsmen have it */
-static const float hidden_apart = 5;     /* hidden lines nearer than this turn into grey, pixels */
+static const float hidden_apart = 3;     /* hidden lines nearer than this turn into grey, pixels */
 static const float hidden_share = 0.6f;  /* width of hidden lines that have none of their own */
 static const float sway_share = 0.4f;    /* of a sketch's amount; most places move by much less than the most */
 static const float taper_share = 8;      /* how many widths a sketched line takes to thin out */
