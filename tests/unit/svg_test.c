@@ -306,10 +306,51 @@ static void test_pdf_picture(void **state)
     check_picture(export_pdf, "pdftoppm", "pdftoppm -singlefile -png -scale-to-x 600 -scale-to-y 600 %s/sheet %s/sheet", false);
 }
 
+/* Letters stand where they should: the words are read back, and are as wide as the font has them. */
+static void test_pdf_words(void **state)
+{
+    char         folder[] = "/tmp/limner-svg-XXXXXX", path[64], command[160], line[256] = "";
+    sheet        s;
+    lmn_error    error = {0};
+    double       box[4] = {0}, low = INFINITY, high = -INFINITY;
+    (void)state;
+    if (!has_program("pdftotext")) {
+        print_message("pdftotext is not installed: texts are not read back\n");
+        skip();
+    }
+    sheet_begin(&s, 210, 100, 4);
+    sheet_add_text(&s, sheet_add_group(&s, -1, "words", NULL, 0), black, "Wide mill", 20, 50, 4.5, -1);
+    export_bytes bytes = bytes_of(&s, export_pdf);
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/sheet", folder);
+    assert_int_equal(file_store(path, bytes.data, bytes.size, &error), LMN_OK);
+    snprintf(command, sizeof command, "pdftotext -bbox %s -", path);
+    FILE *words = popen(command, "r");
+    int   count = 0;
+    while (words && fgets(line, sizeof line, words))
+        if (sscanf(line, " <word xMin=\"%lf\" yMin=\"%lf\" xMax=\"%lf\" yMax=\"%lf\">", &box[0], &box[1], &box[2], &box[3]) == 4) {
+            assert_non_null(strstr(line, count == 0 ? ">Wide<" : ">mill<"));
+            low = fmin(low, box[0]);
+            high = fmax(high, box[2]);
+            count++;
+        }
+    pclose(words);
+    unlink(path);
+    rmdir(folder);
+    mem_free(bytes.data);
+    sheet_release(&s);
+    /* Liberation Sans, as Arial: W i d e _ m i l l in thousandths of its size. */
+    double wanted = (944 + 222 + 556 + 556 + 278 + 833 + 222 + 222 + 222) * 4.5 / 1000, got = (high - low) * 25.4 / 72;
+    print_message("%.3f mm wide, wanted %.3f mm\n", got, wanted);
+    assert_int_equal(count, 2);
+    assert_true(fabs(got - wanted) < 0.02 * wanted);
+    assert_true(fabs(low * 25.4 / 72 - 20) < 0.1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure), cmocka_unit_test(test_hostile), cmocka_unit_test(test_svg_picture), cmocka_unit_test(test_pdf_picture),
+        cmocka_unit_test(test_structure), cmocka_unit_test(test_hostile), cmocka_unit_test(test_svg_picture), cmocka_unit_test(test_pdf_picture), cmocka_unit_test(test_pdf_words),
     };
     int failed = cmocka_run_group_tests_name("svg", tests, NULL, NULL);
     xmlCleanupParser();
