@@ -1,14 +1,16 @@
-/* Areas of parts: the union of their triangles on the page, in one colour each, the farthest part first. What is seen of a part that reaches both before and behind another one is not told
- * apart: parts lie over each other as wholes. */
+/* Areas of parts: their triangles on the page, in one colour each, the farthest part first. What is seen of a part that reaches both before and behind another one is not told apart: parts
+ * lie over each other as wholes.
+ *
+ * The triangles are not united. With all of them anticlockwise, edges that two triangles pass in opposite directions drop out; what is left runs in loops, and how often these run around a
+ * place is how many triangles cover it. An area is what is run around at all, so the loops are its border. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "construct/construct.h"
 #include "draw/vector_private.h"
 
-static const double smallest_area = 1e-6; /* of a triangle, square mm */
+static const double smallest_area = 1e-9; /* of a triangle, square mm */
 
 /* A part as it lies on the page. */
 typedef struct filled_part {
@@ -16,16 +18,25 @@ typedef struct filled_part {
     double depth; /* of the middle of its box */
 } filled_part;
 
+/* A triangle's edge, by its ends in order; `turned` where it runs from the higher one. */
+typedef struct border_edge {
+    uint32_t low, high;
+    bool     turned;
+} border_edge;
+
 typedef struct fill_job {
     const vector_ink   *ink;
     const vector_view  *view;
     const stroke_scene *strokes;
-    mat4                both; /* projection · view */
-    region             *triangles;
-    size_t              count, capacity;
-    point2             *corners;
-    contour            *contours;
-    size_t              corner_capacity, contour_capacity;
+    mat4                both;   /* projection · view */
+    float             (*places)[2]; /* of the item's vertices on the page, NaN behind the eye */
+    size_t              place_capacity;
+    border_edge        *edges;
+    size_t              edge_count, edge_capacity;
+    uint32_t           *next, *heads; /* edges that leave a vertex, + 1 */
+    size_t              next_capacity, head_capacity;
+    float             (*loop)[2];
+    size_t              loop_count, loop_capacity;
 } fill_job;
 
 static int compare_depths(const void *a, const void *b)
@@ -36,108 +47,138 @@ static int compare_depths(const void *a, const void *b)
     return one->part_index < other->part_index ? -1 : one->part_index > other->part_index;
 }
 
-/* A place on the page, y up so that regions are as they should; false behind the eye. */
-static bool project(const fill_job *j, const mat4 *world, vec3 place, point2 *out)
-{
-    double from[4] = {(double)place.x, (double)place.y, (double)place.z, 1}, at[4], clip[4];
-    for (int k = 0; k < 4; k++)
-        at[k] = world->m[k] * from[0] + world->m[4 + k] * from[1] + world->m[8 + k] * from[2] + world->m[12 + k];
-    for (int k = 0; k < 4; k++)
-        clip[k] = j->both.m[k] * at[0] + j->both.m[4 + k] * at[1] + j->both.m[8 + k] * at[2] + j->both.m[12 + k] * at[3];
-    if (!(clip[3] > 1e-12))
-        return false;
-    out->x = j->ink->origin[0] + (clip[0] / clip[3] + 1) / 2 * j->view->box[2];
-    out->y = -(j->ink->origin[1] + (1 - clip[1] / clip[3]) / 2 * j->view->box[3]);
-    return isfinite(out->x) && isfinite(out->y);
-}
-
-/* Faces of closed pieces that look away lie below those that do not. */
-static bool is_needed(const edge_mesh *m, uint32_t face, double area, bool mirrored)
-{
-    return !m->closed[m->pieces[face]] || (area > 0) != mirrored;
-}
-
-static bool add_triangles(fill_job *j, const stroke_item *item, size_t most)
+/* Places of an item's vertices on the page; NaN for those behind the eye. */
+static bool project(fill_job *j, const stroke_item *item)
 {
     const edge_mesh *m = &j->strokes->meshes[item->mesh];
-    double           normal_matrix[9];
-    bool             mirrored = mat4_cofactors(&item->world, normal_matrix) < 0;
-    for (uint32_t f = 0; f < m->face_count && j->count < most; f++) {
-        point2 p[3];
-        bool   there = true;
-        for (int k = 0; k < 3; k++)
-            there = there && project(j, &item->world, m->places[m->faces[f][k]], &p[k]);
-        double area = there ? ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y)) / 2 : 0;
-        if (!(fabs(area) > smallest_area) || !is_needed(m, f, area, mirrored))
-            continue;
-        if (!mem_grow((void **)&j->corners, &j->corner_capacity, 3 * (j->count + 1), sizeof *j->corners))
-            return false;
-        j->corners[3 * j->count] = p[0];
-        j->corners[3 * j->count + 1] = area > 0 ? p[1] : p[2];
-        j->corners[3 * j->count + 2] = area > 0 ? p[2] : p[1];
-        j->count++;
+    mat4             all = mat4_multiply(&j->both, &item->world);
+    if (!mem_grow((void **)&j->places, &j->place_capacity, m->vertex_count, sizeof *j->places))
+        return false;
+    for (uint32_t i = 0; i < m->vertex_count; i++) {
+        const double from[4] = {(double)m->places[i].x, (double)m->places[i].y, (double)m->places[i].z, 1};
+        double       clip[4] = {0};
+        for (int k = 0; k < 4; k++)
+            for (int n = 0; n < 4; n++)
+                clip[k] += all.m[4 * n + k] * from[n];
+        bool there = clip[3] > 1e-12;
+        j->places[i][0] = there ? (float)(j->ink->origin[0] + (clip[0] / clip[3] + 1) / 2 * j->view->box[2]) : NAN;
+        j->places[i][1] = there ? (float)(j->ink->origin[1] + (1 - clip[1] / clip[3]) / 2 * j->view->box[3]) : NAN;
     }
     return true;
 }
 
-/* The union of the triangles that were gathered. */
-static lmn_status unite(fill_job *j, region *out, lmn_error *error)
+static void add_edge(fill_job *j, uint32_t from, uint32_t to)
 {
-    if (!mem_grow((void **)&j->contours, &j->contour_capacity, j->count, sizeof *j->contours) ||
-        !mem_grow((void **)&j->triangles, &j->capacity, j->count, sizeof *j->triangles))
-        return error_memory(error);
-    for (size_t i = 0; i < j->count; i++) {
-        j->contours[i] = (contour){&j->corners[3 * i], 3};
-        j->triangles[i] = (region){&j->contours[i], 1};
-    }
-    return region_combine(out, j->triangles, j->count, REGION_UNION, error);
+    j->edges[j->edge_count++] = from < to ? (border_edge){from, to, false} : (border_edge){to, from, true};
 }
 
-static lmn_status put_region(sheet *s, uint32_t group, colour ink, const region *r, lmn_error *error)
+/* The edges of all triangles that are needed: of closed pieces those that face the viewer, which lie over all others. */
+static bool gather(fill_job *j, const stroke_item *item)
 {
-    float (*points)[2] = NULL;
-    size_t capacity = 0;
-    sheet_add_item(s, SHEET_PATH, group, ink, 0);
-    for (size_t i = 0; i < r->count; i++) {
-        const contour *c = &r->contours[i];
-        if (!mem_grow((void **)&points, &capacity, c->count, sizeof *points)) {
-            mem_free(points);
-            return error_memory(error);
-        }
-        for (size_t k = 0; k < c->count; k++) {
-            points[k][0] = (float)c->points[k].x;
-            points[k][1] = (float)-c->points[k].y;
-        }
-        sheet_add_path(s, &(sheet_path){.closed = true, .filled = true}, (const float (*)[2])points, c->count);
+    const edge_mesh *m = &j->strokes->meshes[item->mesh];
+    double           cofactors[9];
+    bool             mirrored = mat4_cofactors(&item->world, cofactors) < 0;
+    j->edge_count = 0;
+    if (!mem_grow((void **)&j->edges, &j->edge_capacity, 3 * (size_t)m->face_count, sizeof *j->edges))
+        return false;
+    for (uint32_t f = 0; f < m->face_count; f++) {
+        const uint32_t *v = m->faces[f];
+        const float    *p = j->places[v[0]], *q = j->places[v[1]], *r = j->places[v[2]];
+        /* Above 0 where the triangle is clockwise as it is seen, since y goes down. */
+        double area = ((double)q[0] - (double)p[0]) * ((double)r[1] - (double)p[1]) - ((double)r[0] - (double)p[0]) * ((double)q[1] - (double)p[1]);
+        if (!(fabs(area) > smallest_area) || (m->closed[m->pieces[f]] && (area > 0) != mirrored))
+            continue;
+        for (int k = 0; k < 3; k++)
+            add_edge(j, v[area < 0 ? k : (k + 1) % 3], v[area < 0 ? (k + 1) % 3 : k]);
     }
-    mem_free(points);
+    return true;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const border_edge *one = a, *other = b;
+    if (one->low != other->low)
+        return one->low < other->low ? -1 : 1;
+    return one->high < other->high ? -1 : one->high > other->high;
+}
+
+/* Leaves of each edge as many copies as it is passed more often one way than the other. */
+static void cancel(fill_job *j)
+{
+    size_t left = 0;
+    if (j->edge_count)
+        qsort(j->edges, j->edge_count, sizeof *j->edges, compare_edges);
+    for (size_t i = 0; i < j->edge_count;) {
+        border_edge edge = j->edges[i];
+        long        more = 0;
+        for (; i < j->edge_count && compare_edges(&edge, &j->edges[i]) == 0; i++)
+            more += j->edges[i].turned ? -1 : 1;
+        edge.turned = more < 0;
+        for (long n = labs(more); n > 0; n--)
+            j->edges[left++] = edge;
+    }
+    j->edge_count = left;
+}
+
+/* Lists of the edges that leave each vertex. */
+static bool link_edges(fill_job *j, uint32_t vertex_count)
+{
+    if (!mem_grow((void **)&j->next, &j->next_capacity, j->edge_count, sizeof *j->next) ||
+        !mem_grow((void **)&j->heads, &j->head_capacity, vertex_count, sizeof *j->heads))
+        return false;
+    memset(j->heads, 0, vertex_count * sizeof *j->heads);
+    for (size_t i = j->edge_count; i-- > 0;) {
+        uint32_t from = j->edges[i].turned ? j->edges[i].high : j->edges[i].low;
+        j->next[i] = j->heads[from];
+        j->heads[from] = (uint32_t)i + 1;
+    }
+    return true;
+}
+
+/* Walks on from a vertex until no edge leaves: as many come to each vertex as leave it, so that this is where the walk began. */
+static bool put_loop(fill_job *j, sheet *s, uint32_t vertex)
+{
+    j->loop_count = 0;
+    while (j->heads[vertex]) {
+        const border_edge *edge = &j->edges[j->heads[vertex] - 1];
+        if (!mem_grow((void **)&j->loop, &j->loop_capacity, j->loop_count + 1, sizeof *j->loop))
+            return false;
+        memcpy(j->loop[j->loop_count++], j->places[vertex], sizeof *j->loop);
+        j->heads[vertex] = j->next[j->heads[vertex] - 1];
+        vertex = edge->turned ? edge->low : edge->high;
+    }
+    sheet_add_path(s, &(sheet_path){.closed = true, .filled = true}, (const float (*)[2])j->loop, j->loop_count);
+    return true;
+}
+
+/* The area of one item into the sheet's last item. */
+static bool put_area(fill_job *j, sheet *s, const stroke_item *item)
+{
+    uint32_t count = j->strokes->meshes[item->mesh].vertex_count;
+    if (!project(j, item) || !gather(j, item))
+        return false;
+    cancel(j);
+    if (!link_edges(j, count))
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        while (j->heads[i])
+            if (!put_loop(j, s, i))
+                return false;
+    return true;
+}
+
+static lmn_status fill_part(sheet *s, fill_job *j, size_t part_index, uint32_t group, const rule *r, lmn_error *error)
+{
+    const lmn_scene *scene = j->ink->scene;
+    uint32_t         own = sheet_add_group(s, (int32_t)group, scene->parts[part_index].name, "part fill", (uint32_t)part_index + 1);
+    sheet_add_item(s, SHEET_PATH, own, vector_fill_colour(r, scene, part_index), 0);
+    for (size_t i = 0; i < j->strokes->item_count; i++)
+        if (j->strokes->items[i].part_index == part_index && !put_area(j, s, &j->strokes->items[i]))
+            return error_memory(error);
     return LMN_OK;
 }
 
-static lmn_status fill_part(lmn_sheet *s, fill_job *j, size_t part_index, uint32_t group, const rule *r, lmn_error *error)
-{
-    const part *p = &j->ink->scene->parts[part_index];
-    region      area = {0};
-    j->count = 0;
-    for (size_t i = 0; i < j->strokes->item_count; i++)
-        if (j->strokes->items[i].part_index == part_index && !add_triangles(j, &j->strokes->items[i], FILL_TRIANGLES_MOST))
-            return error_memory(error);
-    if (j->count == 0)
-        return LMN_OK;
-    if (j->count >= FILL_TRIANGLES_MOST) {
-        warnings_add(&s->warnings, WARNING_NO_STROKES, "areas of parts with %d triangles or more are not filled", FILL_TRIANGLES_MOST);
-        return LMN_OK;
-    }
-    lmn_status status = unite(j, &area, error);
-    if (status == LMN_OK) {
-        uint32_t own = sheet_add_group(&s->page, (int32_t)group, p->name, "part fill", (uint32_t)part_index + 1);
-        status = put_region(&s->page, own, vector_fill_colour(r, j->ink->scene, part_index), &area, error);
-    }
-    region_release(&area);
-    return status;
-}
-
-lmn_status vector_put_fills(lmn_sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules, const mat4 *worlds,
+lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules, const mat4 *worlds,
                             lmn_progress_fn progress, void *user, lmn_error *error)
 {
     fill_job     j = {.ink = ink, .view = view, .strokes = strokes, .both = mat4_multiply(&view->camera.projection, &view->camera.view)};
@@ -154,8 +195,8 @@ lmn_status vector_put_fills(lmn_sheet *s, const vector_ink *ink, const vector_vi
     }
     if (count)
         qsort(parts, count, sizeof *parts, compare_depths);
-    uint32_t group = sheet_add_group(&s->page, (int32_t)ink->group, "fills", "fills", 0);
-    sheet_clip_group(&s->page, group, view->box[0], view->box[1], view->box[2], view->box[3]);
+    uint32_t group = sheet_add_group(s, (int32_t)ink->group, "fills", "fills", 0);
+    sheet_clip_group(s, group, view->box[0], view->box[1], view->box[2], view->box[3]);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
         if (progress && !progress(0, "filling", user))
             status = error_set(error, LMN_CANCELLED, "cancelled");
@@ -163,8 +204,10 @@ lmn_status vector_put_fills(lmn_sheet *s, const vector_ink *ink, const vector_vi
             status = fill_part(s, &j, parts[i].part_index, group, rules[parts[i].part_index], error);
     }
     mem_free(parts);
-    mem_free(j.triangles);
-    mem_free(j.contours);
-    mem_free(j.corners);
+    mem_free(j.places);
+    mem_free(j.edges);
+    mem_free(j.next);
+    mem_free(j.heads);
+    mem_free(j.loop);
     return status;
 }
