@@ -395,7 +395,7 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
     if (j->pixels)
         status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
     if (status == LMN_OK && j->wanted->fill && !j->lines_only)
-        status = vector_put_fills(page, &ink, v, &j->strokes, j->rules, j->worlds, report_part, j, error);
+        status = vector_put_fills(page, &ink, v, &j->strokes, j->rules, report_part, j, error);
     return status == LMN_OK ? draw_lines(j, v, &ink, error) : status;
 }
 

@@ -71,8 +71,8 @@ void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink
 
 /* --- vector_fill.c ---------------------------------------------------------------------------------------------------------- */
 
-/* The areas of parts, the farthest first. Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules,
-                            const mat4 *worlds, lmn_progress_fn progress, void *user, lmn_error *error);
+/* What is seen of each part, as areas. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules, lmn_progress_fn progress,
+                            void *user, lmn_error *error);
 
 #endif
