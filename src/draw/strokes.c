@@ -258,7 +258,8 @@ static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
     return stroke_view_create(&store->view, &store->scene, &camera, NULL, NULL, error);
 }
 
-/* Of several layers each has the lines with as many surfaces in front of them. */
+/* Of several layers each has the lines with as many surfaces in front of them. Bodies count once there, and twice among layers: lines of bodies behind others come a layer early,
+ * which shows in how much they fade. */
 static void keep_layer(stroke_set *set, uint32_t layer)
 {
     size_t kept = 0;
@@ -281,6 +282,7 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, const frame
     lmn_status status = look_at(store, f, error);
     if (status == LMN_OK)
         status = stroke_find(&set, store->view, &wishes, s->figure->designated, NULL, NULL, error);
+    set.perspective = !f->camera.orthographic;
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
     if (status == LMN_OK)

@@ -11,7 +11,7 @@
 /* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK -0.7
-enum { OUTSIDE = -1, MEETING_MAX = 24 }; /* of the page; lines at one end that are looked at */
+enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
 typedef struct chain_point {
@@ -38,7 +38,9 @@ typedef struct chainer {
     uint8_t             *kept;  /* per point */
     uint32_t            *stack;
     size_t               kept_capacity, stack_capacity;
-    size_t               stroke_capacity, out_capacity;
+    size_t               stroke_capacity, out_capacity, mark_capacity;
+    stroke_mark          marks[MARKS_MAX]; /* of the chain, least ids first */
+    size_t               mark_count;
 } chainer;
 
 /* --- joining ------------------------------------------------------------------------------------------------------- */
@@ -269,6 +271,46 @@ static bool put_path(chainer *c)
     return put_point(c, end);
 }
 
+static double line_length(const chainer *c, uint32_t half)
+{
+    const window_segment *s = &c->lines->segments[half / 2];
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    return sqrt(x * x + y * y) / c->v->units;
+}
+
+/* The edges with the least ids, and where on the path they begin. An id is as good as random, so that such an edge is left when others come and go. */
+static void find_marks(chainer *c)
+{
+    double arc = 0;
+    c->mark_count = 0;
+    for (size_t i = 0; i < c->path_count; i++) {
+        stroke_mark own = {c->lines->lines[c->path[i] / 2].id, 0, (float)arc};
+        arc += line_length(c, c->path[i]);
+        if (c->mark_count == MARKS_MAX && own.id >= c->marks[MARKS_MAX - 1].id)
+            continue;
+        size_t at = c->mark_count < MARKS_MAX ? c->mark_count++ : MARKS_MAX - 1;
+        for (; at > 0 && c->marks[at - 1].id > own.id; at--)
+            c->marks[at] = c->marks[at - 1];
+        c->marks[at] = own;
+    }
+}
+
+/* A chain runs the way of its least edge, so that it does not turn round from one frame to the next. */
+static void orient(chainer *c)
+{
+    size_t least = 0;
+    for (size_t i = 1; i < c->path_count; i++)
+        if (c->lines->lines[c->path[i] / 2].id < c->lines->lines[c->path[least] / 2].id)
+            least = i;
+    if (!(c->path[least] & 1))
+        return;
+    for (size_t i = 0, k = c->path_count - 1; i <= k && k < c->path_count; i++, k--) {
+        uint32_t other = c->path[i] ^ 1;
+        c->path[i] = c->path[k] ^ 1;
+        c->path[k] = other;
+    }
+}
+
 static double measure(chainer *c)
 {
     double arc = 0;
@@ -290,6 +332,11 @@ static bool rotate(chainer *c)
         return true;
     if (!mem_grow((void **)&c->rotated, &c->rotated_capacity, c->point_count, sizeof *c->rotated))
         return false;
+    double length = measure(c);
+    for (size_t i = 0; i < c->mark_count; i++) {
+        double arc = c->marks[i].arc - c->points[first].arc;
+        c->marks[i].arc = (float)(arc < 0 ? arc + length : arc);
+    }
     memcpy(c->rotated, c->points + first, (count - first) * sizeof *c->points);
     memcpy(c->rotated + count - first, c->points, first * sizeof *c->points);
     memcpy(c->points, c->rotated, count * sizeof *c->points);
@@ -408,7 +455,15 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
         if (!put_stroke(c, s, begin, end))
             return false;
     }
-    c->out->chain_count += c->out->stroke_count > before;
+    if (c->out->stroke_count == before)
+        return true;
+    if (!mem_grow((void **)&c->out->marks, &c->mark_capacity, c->out->mark_count + c->mark_count, sizeof *c->out->marks))
+        return false;
+    for (size_t i = 0; i < c->mark_count; i++) {
+        c->marks[i].chain = s.chain;
+        c->out->marks[c->out->mark_count++] = c->marks[i];
+    }
+    c->out->chain_count++;
     return true;
 }
 
@@ -416,18 +471,17 @@ static bool make_chain(chainer *c, uint32_t line)
 {
     bool closed;
     c->path_count = 0;
-    if (!follow(c, first_of(c, line), &closed) || !put_path(c) || (closed && !rotate(c)))
+    if (!follow(c, first_of(c, line), &closed))
+        return false;
+    orient(c);
+    find_marks(c);
+    if (!put_path(c) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
     if (length < c->wishes->shortest || length <= 0)
         return true;
     calm(c);
-    uint64_t id = UINT64_MAX;
-    for (size_t i = 0; i < c->path_count; i++) {
-        uint64_t own = c->lines->lines[c->path[i] / 2].id;
-        id = own < id ? own : id;
-    }
-    return put_strokes(c, &c->lines->lines[line], id, closed, length);
+    return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
 }
 
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
@@ -459,6 +513,7 @@ void stroke_set_release(stroke_set *s)
 {
     mem_free(s->strokes);
     mem_free(s->points);
+    mem_free(s->marks);
     memset(s, 0, sizeof *s);
 }
 

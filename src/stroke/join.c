@@ -39,6 +39,7 @@ typedef struct joiner {
     candidate  *candidates;
     size_t      candidate_count, candidate_capacity;
     uint32_t   *partners;      /* per end; NO_VERTEX: none */
+    uint32_t   *first_marks;   /* per chain, and one more */
 } joiner;
 
 static stroke_end end_of(const joiner *j, uint32_t number)
@@ -148,8 +149,39 @@ static bool match_ends(joiner *j)
 typedef struct joined {
     stroke       *strokes;
     stroke_point *points;
-    size_t        stroke_count, point_count;
+    stroke_mark  *marks;
+    size_t        stroke_count, point_count, mark_count, mark_capacity;
+    bool          failed;
 } joined;
+
+/* Where the marks of each chain begin. */
+static bool index_marks(joiner *j)
+{
+    const stroke_set *set = j->set;
+    j->first_marks = mem_calloc(set->chain_count + 2, sizeof *j->first_marks);
+    for (size_t i = 0; i < set->mark_count && j->first_marks; i++)
+        j->first_marks[set->marks[i].chain + 1]++;
+    for (size_t i = 0; i < set->chain_count && j->first_marks; i++)
+        j->first_marks[i + 1] += j->first_marks[i];
+    return j->first_marks != NULL;
+}
+
+/* Marks of a piece that goes into a joined stroke, which it enters at arc `from`. */
+static void put_marks(joined *out, const joiner *j, uint32_t entry, float from, uint32_t chain)
+{
+    const stroke *s = &j->set->strokes[entry / 2];
+    float begin = j->set->points[s->first].arc, end = j->set->points[s->first + s->count - 1].arc;
+    for (uint32_t i = j->first_marks[s->chain]; i < j->first_marks[s->chain + 1]; i++) {
+        stroke_mark m = j->set->marks[i];
+        if (m.arc < begin || m.arc > end)
+            continue;
+        if (!mem_grow((void **)&out->marks, &out->mark_capacity, out->mark_count + 1, sizeof *out->marks)) {
+            out->failed = true;
+            return;
+        }
+        out->marks[out->mark_count++] = (stroke_mark){m.id, chain, from + (entry & 1 ? end - m.arc : m.arc - begin)};
+    }
+}
 
 /* Appends a stroke's points, the last first when it is entered at its last end. The first one is left out where it only repeats the place that has been reached. */
 static void put_points(joined *out, const stroke_set *set, uint32_t entry, bool goes_on)
@@ -176,12 +208,18 @@ static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
 {
     stroke s = j->set->strokes[entry / 2];
     uint32_t first = entry;
+    float arc = 0;
     s.first = (uint32_t)out->point_count;
     bool alone = j->partners[entry ^ 1] == NO_VERTEX;
+    if (!alone)
+        s.chain = (uint32_t)j->set->chain_count++;
     for (uint32_t at = entry;;) {
         const stroke *piece = &j->set->strokes[at / 2];
         s.id = piece->id < s.id ? piece->id : s.id;
         put_points(out, j->set, at, at != first);
+        if (!alone)
+            put_marks(out, j, at, arc, s.chain);
+        arc += j->set->points[piece->first + piece->count - 1].arc - j->set->points[piece->first].arc;
         used[at / 2] = 1;
         uint32_t next = j->partners[at ^ 1];
         s.closed = s.closed || next == first;
@@ -192,20 +230,17 @@ static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
     if (s.closed && !alone)
         out->points[out->point_count - 1] = out->points[s.first];
     s.count = (uint32_t)(out->point_count - s.first);
-    if (!alone) {
-        s.chain = (uint32_t)j->set->chain_count++;
-        s.phase = 0;
+    if (!alone)
         measure(out, &s);
-    }
     out->strokes[out->stroke_count++] = s;
 }
 
 static bool put_all(joiner *j)
 {
     stroke_set *set = j->set;
-    joined out = {mem_alloc((set->stroke_count + 1) * sizeof(stroke)), mem_alloc((set->point_count + 1) * sizeof(stroke_point)), 0, 0};
+    joined out = {mem_alloc((set->stroke_count + 1) * sizeof(stroke)), mem_alloc((set->point_count + 1) * sizeof(stroke_point)), NULL, 0, 0, 0, 0, false};
     uint8_t *used = mem_calloc(set->stroke_count + 1, 1);
-    bool good = out.strokes && out.points && used;
+    bool good = out.strokes && out.points && used && index_marks(j);
     for (int rings = 0; rings < 2 && good; rings++) /* what has an end, then what has come full circle */
         for (uint32_t i = 0; i < set->stroke_count; i++) {
             bool first_free = j->partners[2 * i] == NO_VERTEX, last_free = j->partners[2 * i + 1] == NO_VERTEX;
@@ -213,11 +248,16 @@ static bool put_all(joiner *j)
                 put_joined(&out, j, rings || first_free ? 2 * i : 2 * i + 1, used);
         }
     mem_free(used);
+    good = good && !out.failed && mem_grow((void **)&set->marks, &(size_t){set->mark_count}, set->mark_count + out.mark_count, sizeof *set->marks);
+    if (good && out.mark_count)
+        memcpy(set->marks + set->mark_count, out.marks, out.mark_count * sizeof *out.marks);
+    mem_free(out.marks);
     if (!good) {
         mem_free(out.strokes);
         mem_free(out.points);
         return false;
     }
+    set->mark_count += out.mark_count;
     mem_free(set->strokes);
     mem_free(set->points);
     set->strokes = out.strokes;
@@ -248,5 +288,6 @@ lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error)
     mem_free(j.nexts);
     mem_free(j.candidates);
     mem_free(j.partners);
+    mem_free(j.first_marks);
     return good ? LMN_OK : error_memory(error);
 }

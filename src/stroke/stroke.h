@@ -47,10 +47,18 @@ typedef struct stroke {
     float        chain_length; /* pixels */
 } stroke;
 
+/* Where on a chain one of its lasting edges begins: what a chain of the next frame is recognised by. */
+typedef struct stroke_mark {
+    uint64_t id;
+    uint32_t chain;
+    float    arc;
+} stroke_mark;
+
 typedef struct stroke_set {
     stroke       *strokes;
     stroke_point *points;
-    size_t        stroke_count, point_count, chain_count;
+    stroke_mark  *marks;   /* in the order of the chains */
+    size_t        stroke_count, point_count, chain_count, mark_count;
     bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
     uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
 } stroke_set;
@@ -138,8 +146,9 @@ typedef struct stroke_check {
 lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 
-/* Gives strokes of a new frame the phases of those of the frame before: chains that share their id keep what repeats along them where it was on the
- * model; where chains split or merge, the longest one that is known hands over. Seed: nienhaus; peers.md section 5. */
+/* Gives strokes of a new frame the phases of those of the frame before: chains that share an edge keep what repeats along them where it was on the model; where chains split,
+ * each part goes on, and where they merge, the longest one hands over. Without memory left everything stays as it is. After Kalnins and others 2003 (coherent stylized silhouettes), in the
+ * simplest form: one offset a chain. */
 void stroke_follow(stroke_set *now, const stroke_set *before);
 
 #endif
