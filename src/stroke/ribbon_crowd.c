@@ -12,6 +12,7 @@ static const float samples_apart = 0.5f; /* shares of the distance that is kept 
 static const float own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
 static const float run_apart = 8;        /* what is judged together, in distances */
 static const float run_least = 40;       /* the same at least, pixels */
+static const float run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
 static const float crowded_from = 0.5f;  /* share of crowded samples */
 static const float least_apart = 0.5f; /* pixels */
 static const float longest = 1e6f;    /* of a segment that anybody draws, pixels */
@@ -216,6 +217,10 @@ static void judge_run(gap_list *out, crowd_grid *g, const hidden_run *run, sampl
     float  step = g->apart * samples_apart, stretch = fmaxf(run_apart * g->apart, run_least);
     size_t window = (size_t)(stretch / step) + 1;
     list->count = 0;
+    for (uint32_t i = 0; i < run->count && run->length < run_crumb * g->apart; i++)
+        gap_list_add(out, run->first + i, -INFINITY, INFINITY);
+    if (run->length < run_crumb * g->apart)
+        return;
     for (uint32_t i = 0; i < run->count; i++)
         sample_stroke(list, g->job, run->first + i, step);
     bool   *gone = mem_calloc(list->count, sizeof *gone);

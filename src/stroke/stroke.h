@@ -127,8 +127,9 @@ typedef struct stroke_wishes {
     bool    hidden;    /* stretches behind surfaces too */
     float   simplify;  /* by how much points may be moved, pixels */
     float   shortest;  /* chains shorter than this are left out, pixels */
+    float   crowd;     /* strokes that run all their length this close to more important ones are left out, pixels */
 } stroke_wishes;
-#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f}
+#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f}
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */

@@ -171,6 +171,7 @@ typedef struct view_line {
     uint32_t     ends[2];  /* of view points, or numbers from vertex_count on that only lines have */
     uint64_t     id;
     float        weight;
+    bool         turned;   /* outlines: what is seen from the front lies to its other side */
 } view_line;
 
 typedef struct view_lines {
@@ -190,5 +191,9 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 /* --- join.c --- */
 /* Joins strokes of one kind whose ends almost touch. */
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
+
+/* --- crowd.c --- */
+/* Leaves out strokes that run all their length within this many pixels of more important ones. */
+lmn_status strokes_thin(stroke_set *set, float apart, lmn_error *error);
 
 #endif

@@ -131,10 +131,11 @@ static void test_plain(void **state)
     assert_int_equal(r.ribbon_count, 1);
     ribbon_set_release(&r);
     style.hidden = HIDDEN_SOLID;
-    style.hidden_depth = 1;
-    r = make(&style);
-    assert_int_equal(r.ribbon_count, 1);
-    ribbon_set_release(&r);
+    for (style.hidden_depth = 1; style.hidden_depth < 4; style.hidden_depth++) {
+        r = make(&style);
+        assert_int_equal(r.ribbon_count, style.hidden_depth < 2 ? 1 : 2);
+        ribbon_set_release(&r);
+    }
 }
 
 static void test_colours_and_fading(void **state)
@@ -255,6 +256,7 @@ static void test_halos(void **state)
     add_line(40, 0, 40, 100, 2, 0);  /* passes in front */
     add_line(70, 0, 70, 100, 12, 1); /* passes behind, hidden */
     add_line(90, 20, 90, 48, 1, 0);  /* in front, and does not reach it */
+    add_line(20, 0, 20, 100, 1, 1);  /* nearer, but hidden itself: nobody sees it */
     ribbon_set r = make(&style);
     float ends[4] = {0};
     int   pieces = 0;
@@ -270,8 +272,27 @@ static void test_halos(void **state)
     assert_float_equal(ends[3], 100, 1e-3);
     /* The hidden line stops short of the visible one in front of it, and of nothing else. */
     assert_int_equal(r.ribbons[0].chain, 2);
+    assert_int_equal(r.ribbons[2].chain, 4);
+    assert_float_equal(end_of(&r, 2)->y - point_of(&r, 2, 0)->y, 100, 1e-3);
     assert_float_equal(end_of(&r, 0)->y, 46, 1e-3);
     assert_float_equal(point_of(&r, 1, 0)->y, 54, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* Gaps leave no crumbs between them. */
+static void test_halo_crumbs(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.halo = 3;
+    begin();
+    add_line(0, 50, 100, 50, 9, 0);
+    add_line(40, 0, 40, 100, 2, 0);
+    add_line(49, 0, 49, 100, 2, 0); /* 36 … 44 and 45 … 53 */
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 4);
+    assert_float_equal(end_of(&r, 0)->x, 36, 1e-3);
+    assert_float_equal(point_of(&r, 1, 0)->x, 53, 1e-3);
     ribbon_set_release(&r);
 }
 
@@ -283,15 +304,17 @@ static void test_halos_at_ends(void **state)
     (void)state;
     style.halo = 3;
     begin();
-    add_line(0, 50, 40, 50, 9, 0);
+    add_line(0, 50, 39.2f, 50, 9, 0); /* ends up to a pixel before it */
     add_line(40, 0, 40, 100, 2, 0);
+    add_line(40.8f, 70, 90, 70, 9, 0);
     add(corner, 2, 0, false);
     add(other, 2, 0, false);
     add(third, 2, 0, false);
     ribbon_set r = make(&style);
-    assert_int_equal(r.ribbon_count, 5);
+    assert_int_equal(r.ribbon_count, 6);
     assert_float_equal(end_of(&r, 0)->x, 36, 1e-2);
-    for (size_t i = 1; i < 5; i++)
+    assert_float_equal(point_of(&r, 2, 0)->x, 44, 1e-2);
+    for (size_t i = 1; i < 6; i += i == 1 ? 2 : 1)
         assert_float_equal(end_of(&r, i)->arc - point_of(&r, i, 0)->arc, d.strokes[i].chain_length, 1e-3);
     ribbon_set_release(&r);
 }
@@ -330,13 +353,17 @@ static void test_crowds(void **state)
     add_line(0, 280, 200, 280, 5, 3); /* alone */
     add_line(0, 60, 200, 60, 5, 0);   /* visible: stays, and so nothing is drawn beside it */
     add_line(0, 63, 200, 63, 5, 1);
+    add_line(300, 20, 310, 20, 5, 1); /* a crumb, and what is just more */
+    add_line(300, 40, 314, 40, 5, 1);
     ribbon_set r = make(&style);
     float before = -100;
     int   left = 0;
-    bool  across = false, alone = false;
+    bool  across = false, alone = false, crumb = false, more = false;
     for (size_t i = 0; i < r.ribbon_count; i++) {
         const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
         across = across || (a->x == b->x && b->y - a->y > 100);
+        crumb = crumb || (a->x == 300 && a->y == 20);
+        more = more || (a->x == 300 && a->y == 40);
         alone = alone || (a->y == 280 && b->x - a->x == 200);
         assert_false(r.ribbons[i].hidden_by > 0 && a->y == 63 && b->y == 63);
         if (a->y != b->y || a->y < 90 || a->y > 150)
@@ -348,8 +375,36 @@ static void test_crowds(void **state)
         left++;
     }
     assert_in_range(left, 5, 8);
-    assert_true(across && alone);
+    assert_true(across && alone && more && !crumb);
     ribbon_set_release(&r);
+}
+
+/* A line that is crowded half of the time, in turns as long as what is judged together: whatever is decided, nothing short stays and nothing short goes. */
+static void check_turns(float length)
+{
+    stroke_style style = plain_style();
+    style.hidden_crowd = 5;
+    begin();
+    for (int i = 0; i < 20; i++)
+        add_line(41 * (float)i, 100, 41 * (float)i + length + (float)(i % 3), 100, 5, 0);
+    add_line(0, 102, 820, 102, 5, 1);
+    ribbon_set r = make(&style);
+    float before = 0;
+    for (size_t i = 0; i < r.ribbon_count && r.ribbons[i].hidden_by; i++) {
+        const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
+        assert_true(b->x - a->x > 40 - 2.6f);
+        assert_true(a->x == 0 || a->x - before > 40 - 2.6f);
+        before = b->x;
+    }
+    assert_true(r.ribbon_count > 20);
+    ribbon_set_release(&r);
+}
+
+static void test_crowds_in_turns(void **state)
+{
+    (void)state;
+    check_turns(10);
+    check_turns(12);
 }
 
 /* A spring seen from the side: one chain whose windings crowd each other. */
@@ -429,8 +484,24 @@ static void test_wobble(void **state)
     ribbon_set_release(&whole);
     ribbon_set_release(&other);
     ribbon_set_release(&cut);
+    /* Longer at its beginning by 45, and followed from there: the hand stays where it was. */
+    begin();
+    add_line(-45, 50, 300, 50, 5, 0);
+    d.strokes[0].phase = -45;
+    ribbon_set longer = make(&style);
+    begin();
+    add_line(0, 50, 300, 50, 5, 0);
+    ribbon_set usual = make(&style);
+    for (float arc = 1; arc < 300; arc += 7) {
+        place_at(&usual, 0, arc, &y);
+        place_at(&longer, 0, arc + 45, &other_y);
+        assert_float_equal(y, other_y, 0.15);
+    }
+    ribbon_set_release(&longer);
+    ribbon_set_release(&usual);
     begin();
     add_circle(100, 100, 40, 90, 0);
+    d.strokes[0].phase = -20;
     ribbon_set round = make(&style);
     assert_true(round.ribbons[0].closed);
     const ribbon_point *a = point_of(&round, 0, 0), *b = end_of(&round, 0), *c = b - 1, *after = a + 1;
@@ -611,7 +682,7 @@ int main(void)
         cmocka_unit_test(test_plain),     cmocka_unit_test(test_colours_and_fading),
         cmocka_unit_test(test_dashes),    cmocka_unit_test(test_closed_dashes),
         cmocka_unit_test(test_hidden_dashes), cmocka_unit_test(test_halos),
-        cmocka_unit_test(test_halos_at_ends), cmocka_unit_test(test_halos_in_perspective),
+        cmocka_unit_test(test_halos_at_ends), cmocka_unit_test(test_halo_crumbs), cmocka_unit_test(test_crowds_in_turns), cmocka_unit_test(test_halos_in_perspective),
         cmocka_unit_test(test_crowds),    cmocka_unit_test(test_spring),
         cmocka_unit_test(test_wobble),    cmocka_unit_test(test_overshoot),
         cmocka_unit_test(test_widths),    cmocka_unit_test(test_repeats),
