@@ -271,7 +271,7 @@ static void keep_layer(stroke_set *set, uint32_t layer)
     set->stroke_count = kept;
 }
 
-static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, const frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
+static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
 {
     stroke_wishes wishes = strokes_wishes_of(v);
     stroke_style style = strokes_style_of(v);
@@ -285,6 +285,8 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, const frame
     set.perspective = !f->camera.orthographic;
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
+    for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)
+        f->strokes[set.strokes[i].kind]++;
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, f->seed, error);
     stroke_set_release(&set);
