@@ -223,6 +223,8 @@ void upload_release(upload *u, gpu *g)
         upload_shape_release(&u->shapes[i]);
     mark_sets_release(&u->marks, g);
     gpu_target_release(g, u->part_frames);
+    for (int i = 0; i < 2; i++)
+        stroke_store_destroy(&u->strokes[i], g);
     mem_free(u->part_frame_values);
     gpu_target_release(g, u->operand_table);
     gpu_buffer_release(g, u->program_buffer);

@@ -3,6 +3,7 @@
 #define LIMNER_DRAW_UPLOAD_H
 
 #include "csg/csg.h"
+#include "draw/strokes.h"
 #include "gpu/gpu.h"
 #include "scene/cut.h"
 #include "technique/technique.h"
@@ -112,6 +113,7 @@ typedef struct upload {
     float        *part_frame_values; /* what is in it */
     double        frame_origin[3];
     mark_sets    *marks;      /* NULL: none yet */
+    stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not asked for yet */
     uint64_t      triangles; /* drawn, instances counted */
 } upload;
 

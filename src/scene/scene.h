@@ -40,6 +40,7 @@ typedef struct primitive {
     morph_target   *morphs;
     size_t          morph_count;
     edge_visibility edges;
+    bool            welded;         /* no two vertices lie at one position */
     box3            bounds;         /* of positions; set by scene_finish */
 } primitive;
 

@@ -155,6 +155,7 @@ lmn_status mesh_weld_positions(primitive *p, lmn_error *error)
         mem_free(places);
     }
     p->vertex_count = kept;
+    p->welded = true;
     vec3 *smaller = mem_realloc(p->positions, (size_t)kept * sizeof *smaller);
     if (smaller)
         p->positions = smaller;

@@ -7,10 +7,11 @@
 #include "base/memory.h"
 
 /* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
-#define FLICKER 0.25
-/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. */
+#define FLICKER 0.9
+/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
-enum { OUTSIDE = -1 }; /* of the page */
+#define TURNS_BACK -0.7
+enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
 typedef struct chain_point {
@@ -25,8 +26,10 @@ typedef struct chainer {
     const view_lines    *lines;
     const visibility    *seen;
     const stroke_wishes *wishes;
+    double               focal;  /* pixels to a unit of length, at depth 1 in perspective */
     uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
     uint32_t            *nexts; /* per half-line: another one at the same end */
+    uint32_t            *partners; /* per half-line: the one that goes on where it begins, NO_VERTEX: none */
     uint8_t             *used;  /* per line */
     uint32_t            *path;  /* half-lines of the chain, by the end that they begin at */
     size_t               path_count, path_capacity;
@@ -35,7 +38,9 @@ typedef struct chainer {
     uint8_t             *kept;  /* per point */
     uint32_t            *stack;
     size_t               kept_capacity, stack_capacity;
-    size_t               stroke_capacity, out_capacity;
+    size_t               stroke_capacity, out_capacity, mark_capacity;
+    stroke_mark          marks[MARKS_MAX]; /* of the chain, least ids first */
+    size_t               mark_count;
 } chainer;
 
 /* --- joining ------------------------------------------------------------------------------------------------------- */
@@ -66,41 +71,62 @@ static bool ends_at_corners(stroke_class kind)
     return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL;
 }
 
-/* The other half-lines of one's kind at one's end: how many, and the one that goes on straightest. */
-static size_t straightest(const chainer *c, uint32_t half, uint32_t *best)
+/* Is the line visible where this half-line begins? */
+static bool begins_visible(const chainer *c, uint32_t half)
 {
-    stroke_class kind = c->lines->lines[half / 2].kind;
-    size_t others = 0;
-    double most = -2;
-    *best = NO_VERTEX;
-    for (uint32_t h = c->heads[end_number(c, half)]; h != NO_VERTEX; h = c->nexts[h]) {
-        if (h / 2 == half / 2 || c->lines->lines[h / 2].kind != kind)
-            continue;
-        double turn = turn_between(c, half, h);
-        others++;
-        if (turn > most || (turn == most && h < *best)) {
-            most = turn;
-            *best = h;
-        }
-    }
-    if (others > 1 && most < STRAIGHT_ON)
-        *best = NO_VERTEX;
-    return others;
+    uint32_t first = c->seen->starts[half / 2], last = c->seen->starts[half / 2 + 1] - 1;
+    return c->seen->spans[half & 1 ? last : first].count == 0;
 }
 
-/* The half-line with which a chain goes on beyond this half-line's own end, NO_VERTEX: it ends there. */
-static uint32_t partner_of(const chainer *c, uint32_t half)
+/* How well one line goes on as another one: what is visible goes on as what is visible, then what turns least. Below 0: not at all. */
+static double fit(const chainer *c, uint32_t in, uint32_t out)
 {
-    uint32_t best, back;
-    size_t others = straightest(c, half, &best);
-    if (best == NO_VERTEX || (others > 1 && ends_at_corners(c->lines->lines[half / 2].kind)))
-        return NO_VERTEX;
-    if (others > 1) { /* both must want each other */
-        straightest(c, best, &back);
-        if (back != half)
-            return NO_VERTEX;
+    double turn = turn_between(c, in, out);
+    bool alike = begins_visible(c, in) == begins_visible(c, out);
+    return turn < (alike ? TURNS_BACK : STRAIGHT_ON) ? -1 : turn + (alike ? 4 : 1);
+}
+
+/* Pairs the half-lines of one kind at one end, best fit first. Sharp lines end at corners. */
+static void pair_lines(chainer *c, const uint32_t *halves, size_t count)
+{
+    if (count == 2) {
+        c->partners[halves[0]] = halves[1];
+        c->partners[halves[1]] = halves[0];
     }
-    return best;
+    if (count <= 2 || ends_at_corners(c->lines->lines[halves[0] / 2].kind))
+        return;
+    for (;;) {
+        double most = 0;
+        uint32_t p = 0, q = 0;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = i + 1; k < count; k++) {
+                bool free = c->partners[halves[i]] == NO_VERTEX && c->partners[halves[k]] == NO_VERTEX && halves[i] / 2 != halves[k] / 2;
+                double own = free ? fit(c, halves[i], halves[k]) : -1;
+                if (own > most) {
+                    most = own;
+                    p = halves[i];
+                    q = halves[k];
+                }
+            }
+        if (most <= 0)
+            return;
+        c->partners[p] = q;
+        c->partners[q] = p;
+    }
+}
+
+static void pair_ends(chainer *c)
+{
+    for (uint32_t end = 0; end < c->lines->end_count; end++)
+        for (int kind = 0; kind < STROKE_CLASS_COUNT && c->heads[end] != NO_VERTEX; kind++) {
+            uint32_t halves[MEETING_MAX];
+            size_t count = 0;
+            for (uint32_t h = c->heads[end]; h != NO_VERTEX && count < MEETING_MAX; h = c->nexts[h])
+                if ((int)c->lines->lines[h / 2].kind == kind)
+                    halves[count++] = h;
+            if (count > 1)
+                pair_lines(c, halves, count);
+        }
 }
 
 static bool link_ends(chainer *c)
@@ -109,14 +135,17 @@ static bool link_ends(chainer *c)
     c->heads = mem_alloc(((size_t)l->end_count + 1) * sizeof *c->heads);
     c->nexts = mem_alloc((2 * l->count + 1) * sizeof *c->nexts);
     c->used = mem_calloc(l->count + 1, 1);
-    if (!c->heads || !c->nexts || !c->used)
+    c->partners = mem_alloc((2 * l->count + 1) * sizeof *c->partners);
+    if (!c->heads || !c->nexts || !c->used || !c->partners)
         return false;
+    memset(c->partners, 0xFF, 2 * l->count * sizeof *c->partners);
     memset(c->heads, 0xFF, ((size_t)l->end_count + 1) * sizeof *c->heads);
     for (size_t h = 2 * l->count; h-- > 0;) {
         uint32_t end = end_number(c, (uint32_t)h);
         c->nexts[h] = c->heads[end];
         c->heads[end] = (uint32_t)h;
     }
+    pair_ends(c);
     return true;
 }
 
@@ -129,7 +158,7 @@ static bool follow(chainer *c, uint32_t half, bool *closed)
             return false;
         c->path[c->path_count++] = h;
         c->used[h / 2] = 1;
-        uint32_t next = partner_of(c, h ^ 1);
+        uint32_t next = c->partners[h ^ 1];
         *closed = next == half && c->path_count > 1;
         if (next == NO_VERTEX || c->used[next / 2])
             return true;
@@ -142,7 +171,7 @@ static uint32_t first_of(const chainer *c, uint32_t line)
 {
     uint32_t start = 2 * line, h = start;
     for (size_t steps = 0; steps <= c->lines->count; steps++) {
-        uint32_t before = partner_of(c, h);
+        uint32_t before = c->partners[h];
         if (before == NO_VERTEX || (before ^ 1) == start || c->used[before / 2])
             return h;
         h = before ^ 1;
@@ -242,12 +271,61 @@ static bool put_path(chainer *c)
     return put_point(c, end);
 }
 
+static double line_length(const chainer *c, uint32_t half)
+{
+    const window_segment *s = &c->lines->segments[half / 2];
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    return sqrt(x * x + y * y) / c->v->units;
+}
+
+/* The edges with the least ids, and where on the path they begin. An id is as good as random, so that such an edge is left when others come and go. */
+static void find_marks(chainer *c)
+{
+    double arc = 0;
+    c->mark_count = 0;
+    for (size_t i = 0; i < c->path_count; i++) {
+        stroke_mark own = {c->lines->lines[c->path[i] / 2].id, 0, (float)arc};
+        arc += line_length(c, c->path[i]);
+        if (c->mark_count == MARKS_MAX && own.id >= c->marks[MARKS_MAX - 1].id)
+            continue;
+        size_t at = c->mark_count < MARKS_MAX ? c->mark_count++ : MARKS_MAX - 1;
+        for (; at > 0 && c->marks[at - 1].id > own.id; at--)
+            c->marks[at] = c->marks[at - 1];
+        c->marks[at] = own;
+    }
+}
+
+/* Does the chain run against its way? Outlines have what is seen from the front to one side; other chains run the way of their least edge, which stays with them. */
+static bool runs_back(const chainer *c)
+{
+    const view_line *lines = c->lines->lines;
+    size_t least = 0, back = 0;
+    for (size_t i = 0; i < c->path_count; i++) {
+        back += (c->path[i] & 1) != lines[c->path[i] / 2].turned;
+        if (lines[c->path[i] / 2].id < lines[c->path[least] / 2].id)
+            least = i;
+    }
+    return lines[c->path[0] / 2].kind == STROKE_CONTOUR ? 2 * back > c->path_count : c->path[least] & 1;
+}
+
+/* So that chains do not turn round from one frame to the next. */
+static void orient(chainer *c)
+{
+    if (!runs_back(c))
+        return;
+    for (size_t i = 0, k = c->path_count - 1; i <= k && k < c->path_count; i++, k--) {
+        uint32_t other = c->path[i] ^ 1;
+        c->path[i] = c->path[k] ^ 1;
+        c->path[k] = other;
+    }
+}
+
 static double measure(chainer *c)
 {
     double arc = 0;
     for (size_t i = 0; i < c->point_count; i++) {
-        if (i > 0)
-            arc += hypot(c->points[i].x - c->points[i - 1].x, c->points[i].y - c->points[i - 1].y);
+        double x = i ? c->points[i].x - c->points[i - 1].x : 0, y = i ? c->points[i].y - c->points[i - 1].y : 0;
+        arc += sqrt(x * x + y * y);
         c->points[i].arc = arc;
     }
     return arc;
@@ -263,6 +341,11 @@ static bool rotate(chainer *c)
         return true;
     if (!mem_grow((void **)&c->rotated, &c->rotated_capacity, c->point_count, sizeof *c->rotated))
         return false;
+    double length = measure(c);
+    for (size_t i = 0; i < c->mark_count; i++) {
+        double arc = c->marks[i].arc - c->points[first].arc;
+        c->marks[i].arc = (float)(arc < 0 ? arc + length : arc);
+    }
     memcpy(c->rotated, c->points + first, (count - first) * sizeof *c->points);
     memcpy(c->rotated + count - first, c->points, first * sizeof *c->points);
     memcpy(c->points, c->rotated, count * sizeof *c->points);
@@ -279,33 +362,45 @@ static size_t stretch_end(const chainer *c, size_t begin)
     return end;
 }
 
-/* Stretches too short to be seen take the visibility of the longer neighbour. */
+/* What a short stretch becomes between two others: like the one that is visible, or hidden, as it is itself; else like the one before. */
+static int32_t calm_count(int32_t own, int32_t before, int32_t after)
+{
+    if (before == OUTSIDE)
+        return after == OUTSIDE ? own : after;
+    if (after == OUTSIDE)
+        return before;
+    return (before == 0) != (own == 0) && (after == 0) == (own == 0) ? after : before;
+}
+
+/* Stretches too short to be seen take the visibility of a neighbour. */
 static void calm(chainer *c)
 {
-    size_t before = SIZE_MAX; /* the last stretch that stays */
+    int32_t before = OUTSIDE;
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
-        if (c->points[end].arc - c->points[begin].arc >= FLICKER || c->points[begin].count == OUTSIDE) {
-            before = begin;
-            continue;
-        }
-        bool has_next = end + 1 < c->point_count && c->points[end].count != OUTSIDE;
-        int32_t count = before != SIZE_MAX && c->points[before].count != OUTSIDE ? c->points[before].count
-                        : has_next                                               ? c->points[end].count
-                                                                                 : c->points[begin].count;
-        for (size_t i = begin; i < end; i++)
-            c->points[i].count = count;
+        int32_t own = c->points[begin].count, after = end + 1 < c->point_count ? c->points[end].count : OUTSIDE;
+        double limit = before == OUTSIDE || after == OUTSIDE ? FLICKER / 2 : FLICKER; /* no place farther than half of it from one that is so */
+        bool brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < limit;
+        for (size_t i = begin; i < end && brief; i++)
+            c->points[i].count = calm_count(own, before, after);
+        before = c->points[begin].count;
     }
 }
 
 /* --- simplifying --------------------------------------------------------------------------------------------------- */
 
-static double distance_from(const chain_point *p, const chain_point *a, const chain_point *b)
+/* Depth may be off by this many times as much as the place on the page. */
+#define DEPTH_SHARE 0.1
+
+/* By how much a point lies off a straight piece, pixels. */
+static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
 {
     double x = b->x - a->x, y = b->y - a->y, length = x * x + y * y;
     double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
     share = share < 0 ? 0 : share > 1 ? 1 : share;
-    return hypot(p->x - a->x - share * x, p->y - a->y - share * y);
+    double away_x = p->x - a->x - share * x, away_y = p->y - a->y - share * y;
+    double depth = (p->z - a->z - share * (b->z - a->z)) * (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_SHARE;
+    return sqrt(away_x * away_x + away_y * away_y + depth * depth);
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */
@@ -324,7 +419,7 @@ static bool simplify(chainer *c, size_t begin, size_t end)
         size_t last = c->stack[--depth], first = c->stack[--depth], worst = 0;
         double most = limit;
         for (size_t i = first + 1; i < last; i++) {
-            double away = distance_from(&c->points[i], &c->points[first], &c->points[last]);
+            double away = distance_from(c, &c->points[i], &c->points[first], &c->points[last]);
             if (away > most) {
                 most = away;
                 worst = i;
@@ -375,7 +470,15 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
         if (!put_stroke(c, s, begin, end))
             return false;
     }
-    c->out->chain_count += c->out->stroke_count > before;
+    if (c->out->stroke_count == before)
+        return true;
+    if (!mem_grow((void **)&c->out->marks, &c->mark_capacity, c->out->mark_count + c->mark_count, sizeof *c->out->marks))
+        return false;
+    for (size_t i = 0; i < c->mark_count; i++) {
+        c->marks[i].chain = s.chain;
+        c->out->marks[c->out->mark_count++] = c->marks[i];
+    }
+    c->out->chain_count++;
     return true;
 }
 
@@ -383,18 +486,17 @@ static bool make_chain(chainer *c, uint32_t line)
 {
     bool closed;
     c->path_count = 0;
-    if (!follow(c, first_of(c, line), &closed) || !put_path(c) || (closed && !rotate(c)))
+    if (!follow(c, first_of(c, line), &closed))
+        return false;
+    orient(c);
+    find_marks(c);
+    if (!put_path(c) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
     if (length < c->wishes->shortest || length <= 0)
         return true;
     calm(c);
-    uint64_t id = UINT64_MAX;
-    for (size_t i = 0; i < c->path_count; i++) {
-        uint64_t own = c->lines->lines[c->path[i] / 2].id;
-        id = own < id ? own : id;
-    }
-    return put_strokes(c, &c->lines->lines[line], id, closed, length);
+    return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
 }
 
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
@@ -402,7 +504,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 {
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
-    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes};
+    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
     bool good = link_ends(&c);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)
@@ -410,6 +512,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                 good = make_chain(&c, i);
     mem_free(c.heads);
     mem_free(c.nexts);
+    mem_free(c.partners);
     mem_free(c.used);
     mem_free(c.path);
     mem_free(c.points);
@@ -425,6 +528,7 @@ void stroke_set_release(stroke_set *s)
 {
     mem_free(s->strokes);
     mem_free(s->points);
+    mem_free(s->marks);
     memset(s, 0, sizeof *s);
 }
 
@@ -440,6 +544,13 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
     status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, wishes, error);
+    if (status == LMN_OK)
+        status = strokes_join(out, v, error);
+    if (status == LMN_OK)
+        status = strokes_thin(out, wishes->crowd, v->camera.width, v->camera.height, error);
+    out->perspective = !v->camera.orthographic;
+    if (status != LMN_OK)
+        stroke_set_release(out);
     visibility_release(&seen);
     lines_release(&lines);
     return status;

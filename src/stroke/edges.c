@@ -118,6 +118,14 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
     }
 }
 
+static uint32_t *count_up(uint32_t count)
+{
+    uint32_t *out = mem_alloc(count * sizeof *out);
+    for (uint32_t i = 0; i < count && out; i++)
+        out[i] = i;
+    return out;
+}
+
 static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_error *error)
 {
     edge_mesh *out = b->mesh;
@@ -126,7 +134,9 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     if (!count_mesh(m, &vertices, &corners, &said))
         return error_set(error, LMN_LIMIT, "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices, corners);
     out->places = gather_places(m, posed, vertices);
-    uint32_t *ids = out->places ? mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places}) : NULL;
+    bool welded = m->primitive_count == 1 && m->primitives[0].welded && !posed;
+    uint32_t *ids = !out->places ? NULL : welded ? count_up((uint32_t)vertices)
+                                        : mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places});
     out->faces = mem_alloc(corners * sizeof **out->faces);
     out->normals = mem_alloc(corners / 3 * sizeof *out->normals);
     bool mixed = false;
@@ -226,6 +236,12 @@ static double volume_of(const edge_mesh *m, uint32_t f, vec3 from)
            (double)p.z * ((double)q.x * r.y - (double)q.y * r.x);
 }
 
+static void widen(box3 *box, vec3 p)
+{
+    box->min = (vec3){p.x < box->min.x ? p.x : box->min.x, p.y < box->min.y ? p.y : box->min.y, p.z < box->min.z ? p.z : box->min.z};
+    box->max = (vec3){p.x > box->max.x ? p.x : box->max.x, p.y > box->max.y ? p.y : box->max.y, p.z > box->max.z ? p.z : box->max.z};
+}
+
 /* Numbers the pieces; boxes, and volumes by their first corner, which says which way round they are. */
 static double *number_pieces(builder *b)
 {
@@ -258,7 +274,7 @@ static double *number_pieces(builder *b)
         uint32_t piece = m->pieces[f];
         volumes[piece] += volume_of(m, f, origins[piece]);
         for (int k = 0; k < 3; k++)
-            m->boxes[piece] = box3_with_point(m->boxes[piece], m->places[m->faces[f][k]]);
+            widen(&m->boxes[piece], m->places[m->faces[f][k]]);
     }
     mem_free(origins);
     return volumes;

@@ -35,6 +35,17 @@ typedef struct crossing_search {
     bool                failed, cancelled;
 } crossing_search;
 
+/* fminf and fmaxf are calls. */
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 static double3 minus(double3 a, double3 b)
 {
     return (double3){a.x - b.x, a.y - b.y, a.z - b.z};
@@ -88,8 +99,8 @@ static bool widen_region(void *user, uint32_t a, uint32_t b)
     crossing_search *s = user;
     const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
     s->piece_meets[a] = s->piece_meets[b] = 1;
-    box3 both = {{fmaxf(p->min.x, q->min.x), fmaxf(p->min.y, q->min.y), fmaxf(p->min.z, q->min.z)},
-                 {fminf(p->max.x, q->max.x), fminf(p->max.y, q->max.y), fminf(p->max.z, q->max.z)}};
+    box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
+                 {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
     s->region = box3_union(s->region, both);
     return true;
 }
@@ -121,8 +132,8 @@ static bool mark_region(void *user, uint32_t a, uint32_t b)
 {
     crossing_search *s = user;
     const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
-    box3 both = {{fmaxf(p->min.x, q->min.x), fmaxf(p->min.y, q->min.y), fmaxf(p->min.z, q->min.z)},
-                 {fminf(p->max.x, q->max.x), fminf(p->max.y, q->max.y), fminf(p->max.z, q->max.z)}};
+    box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
+                 {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
     mark_range r = marks_of(s, &both);
     for (int z = r.low[2]; z <= r.high[2]; z++)
         for (int y = r.low[1]; y <= r.high[1]; y++)
@@ -146,12 +157,13 @@ static bool is_marked(const crossing_search *s, const box3 *b)
 
 static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, uint32_t face)
 {
-    box3 box = box3_empty();
+    vec3 p[3];
     for (int k = 0; k < 3; k++) {
-        vec3 p = m->places[m->faces[face][k]];
-        box = box3_with_point(box, still ? p : mat4_transform_point(&item->world, p));
+        p[k] = m->places[m->faces[face][k]];
+        p[k] = still ? p[k] : mat4_transform_point(&item->world, p[k]);
     }
-    return box;
+    return (box3){{smaller(p[0].x, smaller(p[1].x, p[2].x)), smaller(p[0].y, smaller(p[1].y, p[2].y)), smaller(p[0].z, smaller(p[1].z, p[2].z))},
+                  {larger(p[0].x, larger(p[1].x, p[2].x)), larger(p[0].y, larger(p[1].y, p[2].y)), larger(p[0].z, larger(p[1].z, p[2].z))}};
 }
 
 static lmn_status gather_faces(crossing_search *s, lmn_error *error)
@@ -192,8 +204,14 @@ static world_face load_face(const crossing_search *s, const near_face *n)
     const stroke_item *item = &s->scene->items[n->item];
     const edge_mesh *m = &s->scene->meshes[item->mesh];
     world_face out = {.vertices = {m->faces[n->face][0], m->faces[n->face][1], m->faces[n->face][2]}};
-    for (int k = 0; k < 3; k++)
-        out.p[k] = item_place(item, m->places[out.vertices[k]]);
+    for (int k = 0; k < 3; k++) {
+        vec3 p = m->places[out.vertices[k]];
+        out.p[k] = s->still[n->item] ? (double3){p.x, p.y, p.z} : item_place(item, p);
+    }
+    if (s->still[n->item]) { /* rounded, but the same each time */
+        out.normal = (double3){m->normals[n->face].x, m->normals[n->face].y, m->normals[n->face].z};
+        return out;
+    }
     double3 normal = cross(minus(out.p[1], out.p[0]), minus(out.p[2], out.p[0]));
     double length = sqrt(dot(normal, normal));
     out.normal = length > 0 ? (double3){normal.x / length, normal.y / length, normal.z / length} : (double3){0, 0, 0};
@@ -251,8 +269,8 @@ static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face
     for (int k = 0; k < 3; k++) {
         vec3 p = m->places[m->faces[face][k]];
         float height = (p.x - origin.x) * normal.x + (p.y - origin.y) * normal.y + (p.z - origin.z) * normal.z;
-        least = fminf(least, height);
-        most = fmaxf(most, height);
+        least = smaller(least, height);
+        most = larger(most, height);
     }
     return least > room || most < -room;
 }
@@ -356,4 +374,17 @@ lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *u
         s->crossings = NULL;
     }
     return status;
+}
+
+size_t stroke_scene_crossing_count(const stroke_scene *s)
+{
+    return s->crossings ? s->crossings->count : 0;
+}
+
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3])
+{
+    const face_crossing *c = &s->crossings->crossings[index];
+    for (int i = 0; i < 2; i++)
+        memcpy(ends[i], (double[]){c->ends[i].x, c->ends[i].y, c->ends[i].z}, sizeof ends[i]);
+    return c->items[0];
 }

@@ -198,9 +198,7 @@ static vec3 eye_of(const stroke_view *v)
     return (vec3){(float)e[0], (float)e[1], (float)e[2]};
 }
 
-/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye outside, what faces away lies behind what faces
- * the eye, so that it need not be counted. */
-static uint8_t *find_unseen(const stroke_view *v, size_t index)
+uint8_t *view_unseen(const stroke_view *v, size_t index)
 {
     const stroke_item *item = &v->scene->items[index];
     const edge_mesh *m = &v->scene->meshes[item->mesh];
@@ -246,6 +244,13 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
     return true;
 }
 
+static float slope_of(window_point a, window_point b, window_point c)
+{
+    double rise_b = b.z - a.z, rise_c = c.z - a.z;
+    double x = rise_b * ((double)c.y - a.y) - rise_c * ((double)b.y - a.y), y = rise_c * ((double)b.x - a.x) - rise_b * ((double)c.x - a.x);
+    return (float)((fabs(x) + fabs(y)) / fabs(window_side(a, b, c)));
+}
+
 static void box_triangles(size_t begin, size_t end, void *user)
 {
     stroke_view *v = user;
@@ -257,6 +262,7 @@ static void box_triangles(size_t begin, size_t end, void *user)
         box->high_x = a.x > b.x ? (a.x > c.x ? a.x : c.x) : (b.x > c.x ? b.x : c.x);
         box->high_y = a.y > b.y ? (a.y > c.y ? a.y : c.y) : (b.y > c.y ? b.y : c.y);
         box->near_z = nextafterf((float)(a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z)), -INFINITY);
+        box->slope = slope_of(a, b, c);
     }
 }
 
@@ -306,7 +312,7 @@ static lmn_status fill_view(stroke_view *v, lmn_progress_fn progress, void *user
         if (progress && (i & 63) == 0 && !progress((double)i / (double)s->item_count, "projecting", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while the model was projected");
         else {
-            uint8_t *unseen = find_unseen(v, i);
+            uint8_t *unseen = view_unseen(v, i);
             if (!unseen || !put_faces(v, i, unseen))
                 status = error_memory(error);
             mem_free(unseen);

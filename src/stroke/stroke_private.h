@@ -33,6 +33,7 @@ typedef struct window_triangle {
 typedef struct window_box {
     int32_t low_x, low_y, high_x, high_y;
     float   near_z; /* or a little less */
+    float   slope;  /* by how much z changes at most over one unit: places are rounded to units */
 } window_box;
 
 /* A grid of cells. */
@@ -96,6 +97,9 @@ bool   view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2])
 double3 item_place(const stroke_item *item, vec3 p);
 double view_depth(const stroke_view *v, double z); /* eye depth */
 double view_tolerance(const stroke_view *v, double z); /* of z */
+/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye outside, what faces away lies behind what faces the eye, so
+ * that it need not be counted. Free with mem_free; NULL when memory is gone. */
+uint8_t *view_unseen(const stroke_view *v, size_t item);
 static inline bool view_is_front(const stroke_view *v, uint32_t face)
 {
     return v->fronts[face >> 3] >> (face & 7) & 1;
@@ -167,6 +171,7 @@ typedef struct view_line {
     uint32_t     ends[2];  /* of view points, or numbers from vertex_count on that only lines have */
     uint64_t     id;
     float        weight;
+    bool         turned;   /* outlines: what is seen from the front lies to its other side */
 } view_line;
 
 typedef struct view_lines {
@@ -182,5 +187,13 @@ void       lines_release(view_lines *l);
 /* --- chains.c --- */
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
                        lmn_error *error);
+
+/* --- join.c --- */
+/* Joins strokes of one kind whose ends almost touch. */
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
+
+/* --- crowd.c --- */
+/* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's size in pixels. */
+lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error);
 
 #endif

@@ -14,7 +14,7 @@
 
 /* Stretches shorter than this are not told apart, pixels. */
 #define CRUMB 0.02
-enum { BLOCK = 512 };
+enum { BLOCK = 512, PORTION = 64 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
 typedef struct span_block {
@@ -49,7 +49,7 @@ typedef struct place_slot {
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
-    double                far_z;     /* of the segment: what begins behind is no cover */
+    float                 far_z;     /* of the segment, or a little more: what begins behind is no cover */
     int32_t               low_x, low_y, high_x, high_y;
     uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
@@ -69,14 +69,6 @@ static double cross_edge(const worker *w, window_point p, window_point q, double
     double a = window_side(p, q, w->segment->a), b = window_side(p, q, w->segment->b);
     *z = p.z + from / (from - to) * (q.z - p.z);
     return a / (a - b);
-}
-
-/* By how much z changes over one unit of the window: places are rounded to units. */
-static double slope_of(const window_point p[3])
-{
-    double side = window_side(p[0], p[1], p[2]), b = p[1].z - p[0].z, c = p[2].z - p[0].z;
-    double x = b * ((double)p[2].y - p[0].y) - c * ((double)p[1].y - p[0].y), y = c * ((double)p[1].x - p[0].x) - b * ((double)p[2].x - p[0].x);
-    return (fabs(x) + fabs(y)) / fabs(side);
 }
 
 static bool has_corner(const window_triangle *t, uint32_t point)
@@ -143,28 +135,32 @@ static void cover_nearer(worker *w, double from, double to, double before, doubl
     put_step(w, to, -1);
 }
 
-static void compare(worker *w, uint32_t number)
+/* Do the corners of a triangle lie on both sides of the segment's line? `sides`: below 0 on one of them. */
+static bool straddles(const worker *w, const window_triangle *t, int64_t sides[3])
+{
+    const window_segment *s = w->segment;
+    const window_point *points = w->v->points;
+    int64_t along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
+    for (int k = 0; k < 3; k++) {
+        const window_point *p = &points[t->v[k]];
+        sides[k] = along_x * ((int64_t)p->y - s->a.y) - along_y * ((int64_t)p->x - s->a.x);
+    }
+    bool low = sides[0] < 0;
+    return ((low != (sides[1] < 0)) | (low != (sides[2] < 0))) & (t->face != s->faces[0]) & (t->face != s->faces[1]);
+}
+
+/* A triangle that straddles the line: what of the segment it covers. */
+static void compare(worker *w, uint32_t number, const int64_t sides[3])
 {
     const stroke_view *v = w->v;
-    const window_box *box = &v->boxes[number];
-    if (box->low_x > w->high_x || box->high_x < w->low_x || box->low_y > w->high_y || box->high_y < w->low_y || box->near_z > w->far_z)
-        return;
     const window_triangle *t = &v->triangles[number];
     const window_segment *s = w->segment;
-    w->pairs++;
     const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
-    double sides[3];
-    bool low[3];
-    for (int k = 0; k < 3; k++) {
-        sides[k] = window_side(s->a, s->b, p[k]);
-        low[k] = sides[k] < 0;
-    }
-    if ((low[0] == low[1] && low[1] == low[2]) || t->face == s->faces[0] || t->face == s->faces[1])
-        return;
+    bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
     int alone = low[0] == low[1] ? 2 : low[0] == low[2] ? 1 : 0, next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
     double z0, z1;
-    double t0 = cross_edge(w, p[alone], p[next], sides[alone], sides[next], &z0);
-    double t1 = cross_edge(w, p[last], p[alone], sides[last], sides[alone], &z1);
+    double t0 = cross_edge(w, p[alone], p[next], (double)sides[alone], (double)sides[next], &z0);
+    double t1 = cross_edge(w, p[last], p[alone], (double)sides[last], (double)sides[alone], &z1);
     if (t0 > t1) {
         double other = t0;
         t0 = t1;
@@ -181,19 +177,47 @@ static void compare(worker *w, uint32_t number)
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
         after = 0;
-    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + slope_of(p));
+    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + v->boxes[number].slope);
+}
+
+/* Which of these triangles may cover the segment, by their boxes; returns how many are put to `out`. Whether one does cannot be foretold, so nothing branches on it. */
+static size_t sift(worker *w, const uint32_t *entries, size_t count, bool alone, uint32_t *out)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t number = entries[i];
+        const window_box *box = &w->v->boxes[number];
+        bool apart = (box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) | (box->near_z > w->far_z);
+        out[kept] = number;
+        kept += !apart;
+    }
+    if (alone)
+        return kept;
+    size_t fresh = 0;
+    for (size_t i = 0; i < kept; i++) {
+        uint32_t number = out[i];
+        out[fresh] = number;
+        fresh += w->stamps[number] != w->stamp;
+        w->stamps[number] = w->stamp;
+    }
+    return fresh;
 }
 
 static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
 {
     worker *w = user;
-    for (size_t i = 0; i < count; i++) {
-        if (!alone) {
-            if (w->stamps[entries[i]] == w->stamp)
-                continue;
-            w->stamps[entries[i]] = w->stamp;
+    uint32_t near[PORTION];
+    int64_t sides[PORTION][3];
+    for (size_t begin = 0; begin < count; begin += PORTION) {
+        size_t near_count = sift(w, entries + begin, count - begin < PORTION ? count - begin : PORTION, alone, near), crossed = 0;
+        w->pairs += near_count;
+        for (size_t i = 0; i < near_count; i++) {
+            uint32_t number = near[i];
+            near[crossed] = number;
+            crossed += straddles(w, &w->v->triangles[number], sides[crossed]);
         }
-        compare(w, entries[i]);
+        for (size_t i = 0; i < crossed; i++)
+            compare(w, near[i], sides[i]);
     }
 }
 
@@ -244,7 +268,7 @@ static bool put_spans(worker *w, span_block *block)
 {
     size_t first = block->count, steps, next = 0;
     const window_segment *s = w->segment;
-    double length = hypot((double)s->b.x - s->a.x, (double)s->b.y - s->a.y) / w->v->units, crumb = CRUMB / fmax(length, CRUMB), at = 0;
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y, length = sqrt(x * x + y * y) / w->v->units, crumb = CRUMB / fmax(length, CRUMB), at = 0;
     int64_t count = 0;
     if (!gather_steps(w, &steps))
         return false;
@@ -270,7 +294,7 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->high_x = s->a.x < s->b.x ? s->b.x : s->a.x;
     w->low_y = s->a.y < s->b.y ? s->a.y : s->b.y;
     w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
-    w->far_z = s->a.z > s->b.z ? s->a.z : s->b.z;
+    w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
     if (!w->failed)
         w->failed = !put_spans(w, block);
@@ -404,7 +428,7 @@ static void count_nearer(void *user, const uint32_t *entries, size_t count, bool
             continue;
         double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole, b = window_side(p[2], p[0], c->at) / whole;
         double z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
-        c->count += c->at.z - z > view_tolerance(v, z) + slope_of(p);
+        c->count += c->at.z - z > view_tolerance(v, z) + box->slope;
     }
 }
 
