@@ -99,6 +99,8 @@ void      watch_stop(frame *f, stopwatch w, const char *group, const char *name)
 /* --- lighting.c: what programs that ask for light get --- */
 void lights_declare(text *prelude, const frame *f); /* soft shadows and occlusion too, where they were drawn */
 void lights_set(frame *f);
+/* The same numbers for who works without a GPU: at most LIGHTS_MAX rows; returns how many. */
+int  lights_list(const frame *f, float positions[][4], float colours[][4]);
 void shadow_set(frame *f);     /* uniforms of light/shadow.glsl */
 void visibility_set(frame *f); /* of light/light.glsl's soft shadows and occlusion */
 /* Are the first light's shadows drawn, and soft? */
