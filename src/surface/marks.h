@@ -34,7 +34,7 @@ typedef struct stipple_values {
 
 typedef struct surface_strokes_values {
     mark_values common;
-    int32_t placed, law, pattern, series;
+    int32_t placed, law, series;
     float   width, scale, length, turn, uneven, taper, repeat, jitter;
     param_words strokes;
 } surface_strokes_values;

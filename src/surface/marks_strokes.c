@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "halftone/strokes.h"
 #include "surface/marks.h"
@@ -10,6 +11,23 @@
 
 static const char *const placed_names[] = {"form", "planes", "uv", NULL};
 static const char *const law_names[] = {"thesis", "line", NULL};
+
+/* The pattern of this name; PATTERN_COUNT: none has it. */
+static stroke_pattern pattern_of(const char *name)
+{
+    int i = 0;
+    while (i < PATTERN_COUNT && strcmp(stroke_pattern_names[i], name) != 0)
+        i++;
+    return (stroke_pattern)i;
+}
+
+static lmn_status check_strokes(const char *words, lmn_error *error)
+{
+    const char *ending = strrchr(words, '.');
+    if (!words[0] || pattern_of(words) < PATTERN_COUNT || (ending && (strcmp(ending, ".stx") == 0 || strcmp(ending, ".svg") == 0)))
+        return LMN_OK;
+    return error_set(error, LMN_USAGE, "'%s' is neither a pattern of strokes nor a file that ends in .stx or .svg", words);
+}
 
 static const param params[] = {
     MARK_ROWS(30000, "Strokes"),
@@ -21,13 +39,13 @@ static const param params[] = {
                     .doc = "Mean length of strokes, share of the model's diagonal."),
     PARAM_INT_ROW(surface_strokes_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .cpu_only = true, .only_if = "placed<2", .doc = "Sets of strokes that cross each other, later ones where it is darker."),
     PARAM_FLOAT_ROW(surface_strokes_values, turn, .def = 62, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "series>1",
-                    .doc = "Angle between one set of strokes and the next; uv: of the texture."),
+                    .doc = "Angle between one set of strokes and the next."),
     PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed<2", .doc = "How much strokes differ in length and way."),
     PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_SHARE, .doc = "Share of its length over which each end of a stroke runs out."),
     PARAM_ENUM_ROW(surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
                    .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is the seed's simpler law, which leaves too few where strokes are foreshortened."),
-    PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .only_if = "placed=uv", .doc = "A file of strokes (.stx, .svg) to lay out by texture coordinates. Empty: the pattern."),
-    PARAM_ENUM_ROW(surface_strokes_values, pattern, .names = stroke_pattern_names, .def = PATTERN_CROSS, .cpu_only = true, .only_if = "placed=uv", .doc = "Strokes for texture coordinates, where no file is given."),
+    PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .example = "brick", .only_if = "placed=uv", .check = check_strokes,
+                   .doc = "What is laid out by texture coordinates: a file of strokes (.stx, .svg) or a pattern (parallel, cross, contour, brick, stipple, scribble, random). Empty: cross."),
     PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 1000, .soft_max = 32, .cpu_only = true, .only_if = "placed=uv",
                     .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there are as many strokes as asked for."),
     PARAM_FLOAT_ROW(surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=uv",
@@ -37,8 +55,8 @@ static const param params[] = {
 static void describe(text *out, const void *values)
 {
     const surface_strokes_values *v = values;
-    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %d %.9g %.9g %s", v->common.count, v->common.pattern_seed, v->placed, (double)v->length, v->series, (double)v->turn,
-                (double)v->uneven, v->pattern, (double)v->repeat, (double)v->jitter, v->strokes.text);
+    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s", v->common.count, v->common.pattern_seed, v->placed, (double)v->length, v->series, (double)v->turn,
+                (double)v->uneven, (double)v->repeat, (double)v->jitter, v->strokes.text);
 }
 
 /* The area of the surface in texture coordinates. */
@@ -56,10 +74,11 @@ static lmn_status make_tiled(marks *out, const mark_surface *surface, const surf
 {
     strokes texture = {NULL, 0, 0, 1};
     lmn_status status;
-    if (v->strokes.text[0])
+    stroke_pattern pattern = v->strokes.text[0] ? pattern_of(v->strokes.text) : PATTERN_CROSS;
+    if (pattern == PATTERN_COUNT)
         status = strokes_load(&texture, v->strokes.text, error);
     else
-        status = strokes_generate(&texture, &(pattern_wishes){.pattern = (stroke_pattern)v->pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed}, error);
+        status = strokes_generate(&texture, &(pattern_wishes){.pattern = pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed}, error);
     double squares = area_of_uvs(surface), often = squares > 0 && texture.count > 0 ? sqrt(v->common.count / (squares * (double)texture.count)) : 1;
     tile_wishes wishes = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1), .jitter = v->jitter, .seed = (uint32_t)v->common.pattern_seed};
     if (status == LMN_OK)

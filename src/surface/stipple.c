@@ -7,7 +7,7 @@
 #include "surface/surface.h"
 
 static const param params[] = {
-    MARK_ROWS(150000, "Dots"),
+    MARK_ROWS(200000, "Dots"),
     PARAM_FLOAT_ROW(stipple_values, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .doc = "Diameter of the dots."),
     PARAM_FLOAT_ROW(stipple_values, grow, .def = 1.5, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_NONE,
                     .doc = "Dots become up to this many times as wide where there are not enough of them for the tone."),
@@ -36,7 +36,7 @@ static const mark_source source = {.point = largest, .describe = describe, .make
 
 const technique surface_stipple = {
     .name = "stipple", .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.",
-    .example = "{\"surface\": {\"technique\": \"stipple\"}, \"lines\": \"discontinuity\"}",
+    .example = "{\"surface\": {\"technique\": \"stipple\", \"count\": 2000}, \"lines\": \"discontinuity\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(stipple_values), .channels = CHANNEL_NORMAL_DEPTH,
     .surface = "surface/marks_paper.glsl", .marks = &source,
 };
