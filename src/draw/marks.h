@@ -13,7 +13,7 @@ typedef struct mark_ground {
     double       origin[3];
     double       extent;      /* diagonal of it all */
     vec3        *places, *normals;
-    vec2        *uvs;         /* v upwards; NULL unless all parts have texture coordinates */
+    vec2        *uvs;         /* v upwards; 0 in parts that have none */
     uint32_t    *indices;
     uint32_t    *parts;       /* per triangle: index of its part */
     float       *brightness;  /* per corner of each triangle: of its material, linear, 0 … 1 */

@@ -11,7 +11,7 @@ typedef struct ground_job {
     const lmn_scene *scene;
     upload           settings; /* of which only the crease angle counts */
     size_t           vertex_capacity, normal_capacity, uv_capacity, index_capacity, part_capacity, brightness_capacity;
-    bool             bare;     /* some part has no texture coordinates */
+    bool             laid_out; /* some part has texture coordinates */
 } ground_job;
 
 void mark_ground_release(mark_ground *g)
@@ -113,7 +113,7 @@ static bool add_primitive(ground_job *j, const primitive *p, const gpu_mesh_data
         }
     }
     g->surface.triangle_count = triangle;
-    j->bare = j->bare || !data->uvs[0];
+    j->laid_out = j->laid_out || data->uvs[0];
     return true;
 }
 
@@ -162,7 +162,7 @@ lmn_status mark_ground_create(mark_ground *out, const lmn_scene *scene, const ma
             status = add_part(&j, worlds, i, error);
     out->surface.places = out->places;
     out->surface.normals = out->normals;
-    out->surface.uvs = j.bare ? NULL : out->uvs;
+    out->surface.uvs = j.laid_out ? out->uvs : NULL;
     out->surface.indices = out->indices;
     if (status != LMN_OK)
         mark_ground_release(out);

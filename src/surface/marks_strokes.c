@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "halftone/strokes.h"
 #include "surface/marks.h"
@@ -87,14 +88,92 @@ static lmn_status make_tiled(marks *out, const mark_surface *surface, const surf
     return status;
 }
 
+static lmn_status make_traced(marks *out, const mark_surface *surface, double extent, size_t count, const surface_strokes_values *v, lmn_error *error)
+{
+    trace_wishes wishes = {.count = count, .length = extent * (double)v->length, .uneven = v->uneven, .series = v->series,
+                           .turn = v->turn * (3.14159265f / 180), .bends = v->placed != PLACED_PLANES, .seed = (uint32_t)v->common.pattern_seed};
+    return marks_trace(out, surface, &wishes, error);
+}
+
+/* Some of a surface's triangles. */
+typedef struct share_of_surface {
+    mark_surface surface;
+    uint32_t    *indices, *triangles; /* triangles: of the whole */
+} share_of_surface;
+
+static bool has_area_of_uvs(const mark_surface *s, uint32_t t)
+{
+    mark_surface one = *s;
+    one.indices = &s->indices[3 * (size_t)t];
+    one.triangle_count = 1;
+    return area_of_uvs(&one) > 0;
+}
+
+static bool take_share(share_of_surface *out, const mark_surface *s, bool laid_out)
+{
+    *out = (share_of_surface){.surface = *s, .indices = mem_alloc(3 * (size_t)s->triangle_count * sizeof *out->indices),
+                              .triangles = mem_alloc((size_t)s->triangle_count * sizeof *out->triangles)};
+    if (!out->indices || !out->triangles)
+        return false;
+    out->surface.indices = out->indices;
+    out->surface.triangle_count = 0;
+    for (uint32_t t = 0; t < s->triangle_count; t++)
+        if (has_area_of_uvs(s, t) == laid_out) {
+            memcpy(&out->indices[3 * (size_t)out->surface.triangle_count], &s->indices[3 * (size_t)t], 3 * sizeof *s->indices);
+            out->triangles[out->surface.triangle_count++] = t;
+        }
+    return true;
+}
+
+/* Adds what lies on a share to what lies on the whole. */
+static bool add_share(marks *out, const marks *share, const uint32_t *triangles)
+{
+    if (!mem_grow((void **)&out->lines, &out->line_capacity, out->line_count + share->line_count, sizeof *out->lines))
+        return false;
+    for (size_t i = 0; i < share->line_count; i++) {
+        mark_line *l = &out->lines[out->line_count++];
+        *l = share->lines[i];
+        l->triangle = triangles[l->triangle];
+        l->stroke += (uint32_t)out->stroke_count;
+    }
+    out->stroke_count += share->stroke_count;
+    out->line_length += share->line_length;
+    out->area += share->area;
+    return true;
+}
+
+/* Strokes of a texture where there are texture coordinates, strokes that follow the form where there are none. */
+static lmn_status make_both(marks *out, const mark_surface *surface, double extent, const surface_strokes_values *v, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    lmn_status status = LMN_OK;
+    double whole = mark_surface_area(surface);
+    for (int laid_out = 0; laid_out < 2 && status == LMN_OK; laid_out++) {
+        share_of_surface share;
+        marks made = {.lines = NULL};
+        if (!take_share(&share, surface, laid_out))
+            status = error_memory(error);
+        else if (laid_out)
+            status = make_tiled(&made, &share.surface, v, error);
+        else
+            status = make_traced(&made, &share.surface, extent, (size_t)(v->common.count * mark_surface_area(&share.surface) / fmax(whole, 1e-300)) + 1, v, error);
+        if (status == LMN_OK && !add_share(out, &made, share.triangles))
+            status = error_memory(error);
+        surface_marks_release(&made);
+        mem_free(share.indices);
+        mem_free(share.triangles);
+    }
+    if (status != LMN_OK)
+        surface_marks_release(out);
+    return status;
+}
+
 static lmn_status make(marks *out, const mark_surface *surface, double extent, const void *values, lmn_error *error)
 {
     const surface_strokes_values *v = values;
     if (v->placed == PLACED_UV && surface->uvs)
-        return make_tiled(out, surface, v, error);
-    trace_wishes wishes = {.count = (size_t)v->common.count, .length = extent * (double)v->length, .uneven = v->uneven, .series = v->series,
-                           .turn = v->turn * (3.14159265f / 180), .bends = v->placed != PLACED_PLANES, .seed = (uint32_t)v->common.pattern_seed};
-    return marks_trace(out, surface, &wishes, error);
+        return make_both(out, surface, extent, v, error);
+    return make_traced(out, surface, extent, (size_t)v->common.count, v, error);
 }
 
 static const mark_source source = {.describe = describe, .make = make, .vertex = "surface/marks_strokes.vert", .fragment = "surface/marks_strokes.frag"};
