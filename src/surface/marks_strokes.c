@@ -47,7 +47,7 @@ static const param params[] = {
                    .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is the seed's simpler law, which leaves too few where strokes are foreshortened."),
     PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .example = "brick", .only_if = "placed=uv", .check = check_strokes,
                    .doc = "What is laid out by texture coordinates: a file of strokes (.stx, .svg) or a pattern (parallel, cross, contour, brick, stipple, scribble, random). Empty: cross."),
-    PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 1000, .soft_max = 32, .cpu_only = true, .only_if = "placed=uv",
+    PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 20, .soft_max = 8, .cpu_only = true, .only_if = "placed=uv",
                     .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there are as many strokes as asked for."),
     PARAM_FLOAT_ROW(surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=uv",
                     .doc = "How far each copy of a stroke is moved, share of the texture, so that it is not seen to repeat."),

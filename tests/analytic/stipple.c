@@ -363,6 +363,72 @@ static void sizes(void)
     free(blobs);
 }
 
+/* Strokes are as wide at every angle, aspect and depth: the ink of each, by its principal axes, is a bar of that width. */
+static void widths(void)
+{
+    static const double wanted[] = {1.5, 3, 6, 12};
+    static const int sizes[3][2] = {{256, 256}, {320, 180}, {180, 320}};
+    for (int w = 0; w < 4; w++) {
+        double worst = 0;
+        int    seen = 0;
+        for (int turn = 0; turn < 9; turn++) {
+            char keys[200];
+            snprintf(keys, sizeof keys, "\"placed\":\"planes\",\"count\":16,\"length\":0.12,\"series\":1,\"taper\":0,\"uneven\":0,\"fade\":0.001,\"width\":%g,\"pattern_seed\":%d", wanted[w], turn);
+            shot_view view = view_of(turn % 3 - 1, 0.3 * turn - 1, 4, 26);
+            double a = 0.35 * turn;
+            view.up = (dvec){sin(a), cos(a), 0};
+            view.width = sizes[turn % 3][0];
+            view.height = sizes[turn % 3][1];
+            shot s;
+            if (!draw_wall(&s, dark("strokes", 0.9, keys), "", "", &view))
+                return;
+            char *used = check_alloc((size_t)(s.width * s.height), 1);
+            int  *stack = check_alloc((size_t)(s.width * s.height), sizeof *stack);
+            for (int i = 0; i < s.width * s.height; i++) {
+                if (used[i] || halftone_ink(&s, i % s.width, i / s.width) < 0.02)
+                    continue;
+                double m[6] = {0}; /* ink, x, y, xx, xy, yy */
+                bool   whole = true;
+                int    top = 0;
+                stack[top++] = i;
+                used[i] = 1;
+                while (top) {
+                    int at = stack[--top], x = at % s.width, y = at / s.width;
+                    double ink = halftone_ink(&s, x, y);
+                    const double add[6] = {1, x, y, (double)x * x, (double)x * y, (double)y * y};
+                    for (int k = 0; k < 6; k++)
+                        m[k] += ink * add[k];
+                    whole = whole && x > 0 && y > 0 && x + 1 < s.width && y + 1 < s.height;
+                    for (int k = 0; k < 9; k++) {
+                        int nx = x + k % 3 - 1, ny = y + k / 3 - 1, n = ny * s.width + nx;
+                        if (nx >= 0 && ny >= 0 && nx < s.width && ny < s.height && !used[n] && halftone_ink(&s, nx, ny) >= 0.02) {
+                            used[n] = 1;
+                            stack[top++] = n;
+                        }
+                    }
+                }
+                double xx = m[3] / m[0] - m[1] * m[1] / m[0] / m[0], xy = m[4] / m[0] - m[1] * m[2] / m[0] / m[0], yy = m[5] / m[0] - m[2] * m[2] / m[0] / m[0];
+                double mean = 0.5 * (xx + yy), apart = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy), length = sqrt(12 * (mean + apart));
+                if (!whole || length < 25 || length > 60)
+                    continue; /* at the rim, cut by the wall's, or two */
+                double across = mean - apart, width = sqrt(fmax(12 * (across - 1.0 / 12), 0)); /* a rim is a pixel wide */
+                if (width > 1.5 * wanted[w])
+                    continue; /* two */
+                /* A bar with round ends. */
+                double side = wanted[w], round = 0.785398 * side * side, straight = (m[0] - round) / side;
+                double bar = sqrt(12 * (side * side * side * straight / 12 + 0.049087 * side * side * side * side) / m[0]);
+                worst = fmax(worst, fabs(width - bar));
+                seen++;
+            }
+            free(used);
+            free(stack);
+            shot_release(&s);
+        }
+        check_at_most("EX-12", worst, 0.25, "width of strokes of %g px off (%d strokes)", wanted[w], seen);
+        check_at_least("EX-12", seen, 12, "strokes seen");
+    }
+}
+
 /* What points and quads draw is the same: row EX-29's layouts. Dots that might grow too large for the driver's points are quads. */
 static void points_and_quads(void)
 {
@@ -458,7 +524,7 @@ static void uncut(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"tones", tones},         {"tone_over_distance", tone_over_distance}, {"strokes_over_distance", strokes_over_distance}, {"same_set", same_set}, {"stays_put", stays_put}, {"sizes", sizes},
+        {"tones", tones},         {"tone_over_distance", tone_over_distance}, {"strokes_over_distance", strokes_over_distance}, {"same_set", same_set}, {"stays_put", stays_put}, {"sizes", sizes}, {"widths", widths},
         {"points_and_quads", points_and_quads}, {"at_the_rim", at_the_rim}, {"hidden", hidden}, {"uncut", uncut},
     };
     halftone_begin_kept("stipple");
