@@ -373,8 +373,8 @@ static void widths(void)
         int    seen = 0;
         for (int turn = 0; turn < 9; turn++) {
             char keys[200];
-            snprintf(keys, sizeof keys, "\"placed\":\"planes\",\"count\":16,\"length\":0.12,\"series\":1,\"taper\":0,\"uneven\":0,\"fade\":0.001,\"width\":%g,\"pattern_seed\":%d", wanted[w], turn);
-            shot_view view = view_of(turn % 3 - 1, 0.3 * turn - 1, 4, 26);
+            snprintf(keys, sizeof keys, "\"placed\":\"planes\",\"count\":%d,\"length\":0.08,\"series\":1,\"taper\":0,\"uneven\":0,\"fade\":0.001,\"width\":%g,\"pattern_seed\":%d", wanted[w] > 8 ? 16 : 40, wanted[w], turn);
+            shot_view view = view_of(0.6 * (turn % 3 - 1), 0.15 * turn - 0.6, 4, 17);
             double a = 0.35 * turn;
             view.up = (dvec){sin(a), cos(a), 0};
             view.width = sizes[turn % 3][0];
@@ -409,15 +409,12 @@ static void widths(void)
                 }
                 double xx = m[3] / m[0] - m[1] * m[1] / m[0] / m[0], xy = m[4] / m[0] - m[1] * m[2] / m[0] / m[0], yy = m[5] / m[0] - m[2] * m[2] / m[0] / m[0];
                 double mean = 0.5 * (xx + yy), apart = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy), length = sqrt(12 * (mean + apart));
-                if (!whole || length < 25 || length > 60)
+                if (!whole || length < 22 || length > 70)
                     continue; /* at the rim, cut by the wall's, or two */
                 double across = mean - apart, width = sqrt(fmax(12 * (across - 1.0 / 12), 0)); /* a rim is a pixel wide */
                 if (width > 1.5 * wanted[w])
                     continue; /* two */
-                /* A bar with round ends. */
-                double side = wanted[w], round = 0.785398 * side * side, straight = (m[0] - round) / side;
-                double bar = sqrt(12 * (side * side * side * straight / 12 + 0.049087 * side * side * side * side) / m[0]);
-                worst = fmax(worst, fabs(width - bar));
+                worst = fmax(worst, fabs(width - wanted[w]));
                 seen++;
             }
             free(used);
