@@ -1,6 +1,6 @@
 /* Areas of parts: what is seen of each, in one colour. Parts run through each other and lie before and behind each other at once, so that no order of painting is right; visibility is worked
- * out in a picture of part numbers several times as fine as the page's pixels, and its borders are traced and straightened. They are off by less than a third of a pixel, below lines that
- * are wider. */
+ * out in a picture of part numbers several times as fine as the page's pixels, and its borders are traced and straightened. They are off by about a third of a pixel, below lines that
+ * are wider; on large pages by more. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "draw/vector_private.h"
 
-enum { FINEST = 4, CELLS_MOST = 1 << 24 };
+static const double cells_a_pixel = 3, cells_most = 1e7;
 static const double nearest_w = 1e-9;
 static const float  straight_within = 0.75f; /* cells that a border may be moved by */
 
@@ -120,11 +120,9 @@ static void draw_faces(fill_job *j, const stroke_item *item)
 
 static bool draw_parts(fill_job *j)
 {
-    int    finer = FINEST;
-    while (finer > 1 && (double)j->view->width * j->view->height * finer * finer > CELLS_MOST)
-        finer--;
-    j->columns = j->view->width * finer;
-    j->rows = j->view->height * finer;
+    double finer = fmin(cells_a_pixel, sqrt(cells_most / j->view->width / j->view->height));
+    j->columns = (int)fmax(j->view->width * finer, 1);
+    j->rows = (int)fmax(j->view->height * finer, 1);
     size_t count = (size_t)j->columns * (size_t)j->rows;
     j->parts = mem_calloc(count, sizeof *j->parts);
     j->depths = mem_alloc(count * sizeof *j->depths);

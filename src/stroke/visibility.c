@@ -14,7 +14,7 @@
 
 /* Stretches shorter than this are not told apart, pixels. */
 #define CRUMB 0.02
-enum { BLOCK = 512, PORTION = 64 };
+enum { BLOCK = 512 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
 typedef struct span_block {
@@ -135,28 +135,23 @@ static void cover_nearer(worker *w, double from, double to, double before, doubl
     put_step(w, to, -1);
 }
 
-/* Do the corners of a triangle lie on both sides of the segment's line? `sides`: below 0 on one of them. */
-static bool straddles(const worker *w, const window_triangle *t, int64_t sides[3])
-{
-    const window_segment *s = w->segment;
-    const window_point *points = w->v->points;
-    int64_t along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
-    for (int k = 0; k < 3; k++) {
-        const window_point *p = &points[t->v[k]];
-        sides[k] = along_x * ((int64_t)p->y - s->a.y) - along_y * ((int64_t)p->x - s->a.x);
-    }
-    bool low = sides[0] < 0;
-    return ((low != (sides[1] < 0)) | (low != (sides[2] < 0))) & (t->face != s->faces[0]) & (t->face != s->faces[1]);
-}
-
-/* A triangle that straddles the line: what of the segment it covers. */
-static void compare(worker *w, uint32_t number, const int64_t sides[3])
+static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
+    const window_box *box = &v->boxes[number];
+    /* Without short cuts: which of these fails cannot be foretold. */
+    if ((box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) | (box->near_z > w->far_z))
+        return;
     const window_triangle *t = &v->triangles[number];
     const window_segment *s = w->segment;
+    w->pairs++;
     const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
+    int64_t sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
+    for (int k = 0; k < 3; k++)
+        sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
     bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
+    if (((low[0] == low[1]) & (low[1] == low[2])) | (t->face == s->faces[0]) | (t->face == s->faces[1]))
+        return;
     int alone = low[0] == low[1] ? 2 : low[0] == low[2] ? 1 : 0, next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
     double z0, z1;
     double t0 = cross_edge(w, p[alone], p[next], (double)sides[alone], (double)sides[next], &z0);
@@ -177,47 +172,19 @@ static void compare(worker *w, uint32_t number, const int64_t sides[3])
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
         after = 0;
-    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + v->boxes[number].slope);
-}
-
-/* Which of these triangles may cover the segment, by their boxes; returns how many are put to `out`. Whether one does cannot be foretold, so nothing branches on it. */
-static size_t sift(worker *w, const uint32_t *entries, size_t count, bool alone, uint32_t *out)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t number = entries[i];
-        const window_box *box = &w->v->boxes[number];
-        bool apart = (box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) | (box->near_z > w->far_z);
-        out[kept] = number;
-        kept += !apart;
-    }
-    if (alone)
-        return kept;
-    size_t fresh = 0;
-    for (size_t i = 0; i < kept; i++) {
-        uint32_t number = out[i];
-        out[fresh] = number;
-        fresh += w->stamps[number] != w->stamp;
-        w->stamps[number] = w->stamp;
-    }
-    return fresh;
+    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + box->slope);
 }
 
 static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
 {
     worker *w = user;
-    uint32_t near[PORTION];
-    int64_t sides[PORTION][3];
-    for (size_t begin = 0; begin < count; begin += PORTION) {
-        size_t near_count = sift(w, entries + begin, count - begin < PORTION ? count - begin : PORTION, alone, near), crossed = 0;
-        w->pairs += near_count;
-        for (size_t i = 0; i < near_count; i++) {
-            uint32_t number = near[i];
-            near[crossed] = number;
-            crossed += straddles(w, &w->v->triangles[number], sides[crossed]);
+    for (size_t i = 0; i < count; i++) {
+        if (!alone) {
+            if (w->stamps[entries[i]] == w->stamp)
+                continue;
+            w->stamps[entries[i]] = w->stamp;
         }
-        for (size_t i = 0; i < crossed; i++)
-            compare(w, near[i], sides[i]);
+        compare(w, entries[i]);
     }
 }
 

@@ -20,6 +20,7 @@
 #include "base/memory.h"
 #include "draw/vector_private.h"
 #include "export/export.h"
+#include "look/look.h"
 
 static const colour black = {0, 0, 0, 1};
 
@@ -308,17 +309,22 @@ static void test_pdf_picture(void **state)
 
 /* --- areas -------------------------------------------------------------------------------------------------------------- */
 
-/* All triangles of a scene as the camera of a view sees them, filled one by one. */
+static uint32_t owners[SIDE][SIDE]; /* what is nearest, part index + 1 */
+static double   depths[SIDE][SIDE];
+static uint8_t  colours[SIDE * SIDE][3];
+
+/* All triangles of a scene as the camera of a view sees them, one by one, with a depth for each pixel. */
 static void rasterise_scene(raster *r, const lmn_scene *scene, const view_camera *camera)
 {
     mat4 *worlds = scene_world_matrices(scene), both = mat4_multiply(&camera->projection, &camera->view);
     memset(r, 0, sizeof *r);
+    memset(owners, 0, sizeof owners);
     for (size_t i = 0; i < scene->part_count; i++) {
         const mesh *m = &scene->meshes[scene->nodes[scene->parts[i].node].mesh];
         mat4        all = mat4_multiply(&both, &worlds[scene->parts[i].node]);
         for (size_t n = 0; n < m->primitive_count; n++)
             for (uint32_t t = 0; t + 2 < m->primitives[n].index_count; t += 3) {
-                double p[3][2];
+                double p[3][3];
                 for (int k = 0; k < 3; k++) {
                     vec3   v = m->primitives[n].positions[m->primitives[n].indices[t + (uint32_t)k]];
                     double from[4] = {(double)v.x, (double)v.y, (double)v.z, 1}, clip[4] = {0};
@@ -327,27 +333,70 @@ static void rasterise_scene(raster *r, const lmn_scene *scene, const view_camera
                             clip[a] += all.m[4 * b + a] * from[b];
                     p[k][0] = (clip[0] / clip[3] + 1) / 2 * SIDE;
                     p[k][1] = (1 - clip[1] / clip[3]) / 2 * SIDE;
+                    p[k][2] = clip[2] / clip[3];
                 }
                 double low = fmin(p[0][1], fmin(p[1][1], p[2][1])), high = fmax(p[0][1], fmax(p[1][1], p[2][1]));
                 double left = fmin(p[0][0], fmin(p[1][0], p[2][0])), right = fmax(p[0][0], fmax(p[1][0], p[2][0]));
                 for (int y = (int)fmax(low, 0); y <= (int)fmin(high, SIDE - 1); y++)
                     for (int x = (int)fmax(left, 0); x <= (int)fmin(right, SIDE - 1); x++) {
-                        int sides = 0;
+                        int    sides = 0;
+                        double z = 0, area = 0;
                         for (int k = 0; k < 3; k++) {
                             const double *a = p[k], *b = p[(k + 1) % 3];
-                            sides += (b[0] - a[0]) * (y + 0.5 - a[1]) - (b[1] - a[1]) * (x + 0.5 - a[0]) > 0 ? 1 : -1;
+                            double        side = (b[0] - a[0]) * (y + 0.5 - a[1]) - (b[1] - a[1]) * (x + 0.5 - a[0]);
+                            sides += side > 0 ? 1 : -1;
+                            z += side * p[(k + 2) % 3][2];
+                            area += side;
                         }
-                        if (sides == 3 || sides == -3)
-                            r->ink[y][x] = 1;
+                        if (sides != 3 && sides != -3)
+                            continue;
+                        r->ink[y][x] = 1;
+                        if (owners[y][x] && z / area >= depths[y][x])
+                            continue;
+                        depths[y][x] = z / area;
+                        owners[y][x] = (uint32_t)i + 1;
                     }
             }
     }
     mem_free(worlds);
 }
 
-static void check_fill(const char *model)
+/* Does every pixel that is not at a border have the colour of the part that is nearest there? */
+static void check_colours(const char *model, const lmn_scene *scene, const lmn_look *look)
 {
-    static const char look_text[] = "{\"version\": 1, \"rules\": [{\"select\": \"*\", \"surface\": {\"technique\": \"flat\", \"colour\": \"#000000\"}}]}";
+    int inside = 0, wrong = 0;
+    for (int y = 2; y < SIDE - 2; y++)
+        for (int x = 2; x < SIDE - 2; x++) {
+            bool border = owners[y][x] == 0;
+            for (int k = 0; k < 25 && !border; k++)
+                border = owners[y + k / 5 - 2][x + k % 5 - 2] != owners[y][x];
+            if (border)
+                continue;
+            colour c = vector_fill_colour(&look->rules[0], scene, owners[y][x] - 1);
+            const float own[3] = {colour_from_linear(c.r), colour_from_linear(c.g), colour_from_linear(c.b)};
+            bool        same = true;
+            for (int k = 0; k < 3; k++)
+                same = same && fabsf(own[k] * 255 - colours[y * SIDE + x][k]) < 4;
+            inside++;
+            wrong += !same;
+        }
+    print_message("%s: %d of %d pixels have another part's colour\n", model, wrong, inside);
+    assert_true(inside > 10000 && wrong <= inside / 1000); /* slivers that one sample a pixel does not see */
+}
+
+static void read_colours(const char *path)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    assert_true(png_image_begin_read_from_file(&image, path) && image.width == SIDE && image.height == SIDE);
+    image.format = PNG_FORMAT_RGB;
+    assert_true(png_image_finish_read(&image, &(png_color){255, 255, 255}, colours, 0, NULL));
+}
+
+/* Parts in black: all that is there is filled. In their own colours: with what is nearest. */
+static void check_fill(const char *model, bool coloured)
+{
+    static const char lit_text[] = "{\"version\": 1, \"rules\": [{\"select\": \"*\", \"surface\": \"lit\"}]}";
+    static const char black_text[] = "{\"version\": 1, \"rules\": [{\"select\": \"*\", \"surface\": {\"technique\": \"flat\", \"colour\": \"#000000\"}}]}";
     char           folder[] = "/tmp/limner-svg-XXXXXX", path[128], command[256], picture[64];
     lmn_scene     *scene = NULL;
     lmn_look      *look = NULL;
@@ -361,7 +410,7 @@ static void check_fill(const char *model)
     snprintf(path, sizeof path, "%s/examples/%s", LIMNER_SOURCE_DIR, model);
     assert_int_equal(lmn_scene_create(&scene, &error), LMN_OK);
     assert_int_equal(lmn_scene_add_file(scene, path, &load, &error), LMN_OK);
-    assert_int_equal(lmn_look_parse(&look, look_text, "black", &error), LMN_OK);
+    assert_int_equal(lmn_look_parse(&look, coloured ? lit_text : black_text, "areas", &error), LMN_OK);
     assert_int_equal(lmn_draw_sheet(&sheet, NULL, scene, look, &how, &desc, &error), LMN_OK);
     rasterise_scene(&wanted, scene, &sheet->views[0].camera);
     assert_non_null(mkdtemp(folder));
@@ -370,13 +419,19 @@ static void check_fill(const char *model)
     assert_int_equal(lmn_sheet_write(sheet, path, ".svg", NULL, &error), LMN_OK);
     snprintf(command, sizeof command, "rsvg-convert -w 600 -h 600 %s/sheet -o %s/sheet.png", folder, folder);
     bool read = system(command) == 0 && read_png(&drawn, picture);
+    if (read)
+        read_colours(picture);
     unlink(path);
     unlink(picture);
     rmdir(folder);
+    if (read && coloured)
+        check_colours(model, scene, look);
     lmn_sheet_destroy(&sheet);
     lmn_look_destroy(&look);
     lmn_scene_destroy(&scene);
     assert_true(read);
+    if (coloured)
+        return;
     double found = share_near(&wanted, &drawn), true_ink = share_near(&drawn, &wanted);
     print_message("%s: %.5f of the triangles are filled, %.5f of what is filled is theirs\n", model, found, true_ink);
     assert_true(found >= 0.9995 && true_ink >= 0.9995);
@@ -390,10 +445,13 @@ static void test_fill_picture(void **state)
         print_message("rsvg-convert is not installed: areas are not drawn\n");
         skip();
     }
-    check_fill("gearbox.stl");
-    check_fill("pump.glb");
-    check_fill("spot.obj");
-    check_fill("house.glb");
+    check_fill("gearbox.stl", false);
+    check_fill("pump.glb", false);
+    check_fill("spot.obj", false);
+    check_fill("house.glb", false);
+    check_fill("house.glb", true);
+    check_fill("pump.glb", true);
+    check_fill("crank.glb", true);
 }
 
 /* Letters stand where they should: the words are read back, and are as wide as the font has them. */
