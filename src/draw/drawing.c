@@ -339,22 +339,12 @@ static void note_strokes(const session *s, const upload *up, warnings *notes)
         warnings_add(notes, WARNING_UNUSED, "lines 'strokes' are those of whole parts: what a section takes away is drawn too; operators like 'discontinuity' draw what is left");
 }
 
-/* Compositions that shade the geometry again draw nothing over it. */
-static const technique_use *shades_again(const rule *r)
-{
-    const technique_use *compose = rule_use(r, KIND_COMPOSE);
-    for (size_t i = 0; compose && i < compose->technique->pass_count; i++)
-        if (compose->technique->passes[i].geometry && compose->technique->passes[i].writes == TARGET_PAGE)
-            return compose;
-    return NULL;
-}
-
 /* Marks lie on the triangles of parts as they are in the scene. */
 static void note_marks(const session *s, warnings *notes)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
-        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = shades_again(fig->rule);
+        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = rule_shades_again(fig->rule);
         bool solids = false;
         if (!surface || !surface->technique->marks)
             continue;

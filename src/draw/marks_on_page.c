@@ -52,6 +52,7 @@ lmn_status marks_on_page(marks_page *out, const mark_page_wishes *w, lmn_error *
     if (status != LMN_OK)
         return status;
     status = mark_ground_marks(&made, &ground, w->surface, error);
+    made.parts = ground.parts;
     if (status == LMN_OK) {
         mark_view view = view_of(w, ground.origin);
         asked a = {.wishes = w, .origin = ground.origin};

@@ -14,6 +14,15 @@ const technique_use *rule_use(const rule *r, kind_id id)
     return r->use_counts[id] ? &r->uses[id][0] : NULL;
 }
 
+const technique_use *rule_shades_again(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    for (size_t i = 0; compose && i < compose->technique->pass_count; i++)
+        if (compose->technique->passes[i].geometry && compose->technique->passes[i].writes == TARGET_PAGE)
+            return compose;
+    return NULL;
+}
+
 static void scale_lengths(const param *params, size_t count, void *values, int pixel_scale)
 {
     for (size_t i = 0; i < count; i++)

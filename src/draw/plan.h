@@ -63,5 +63,7 @@ bool shades_with_geometry(const technique_use *surface);
 
 /* The use of a kind that holds one technique; NULL when the rule has none. */
 const technique_use *rule_use(const rule *r, kind_id id);
+/* The composition of a rule when it shades the geometry again, so that nothing is drawn over surfaces; NULL: it does not. */
+const technique_use *rule_shades_again(const rule *r);
 
 #endif

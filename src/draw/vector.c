@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/limits.h"
 #include "base/memory.h"
+#include "draw/plan.h"
 #include "draw/vector_private.h"
 #include "export/export.h"
 #include "finish/finish.h"
@@ -35,6 +36,8 @@ typedef struct vector_job {
     double                begun, share, reported; /* progress: of the stage at hand, and the most that was told */
     lmn_look              bare;     /* the look without lines and sections; its arrays are borrowed or in `bare_rules` */
     rule                 *bare_rules;
+    technique            *bare_surfaces; /* of rules with marks: without them */
+    technique_use        *bare_uses;
     void                 *bare_scene;
 } vector_job;
 
@@ -92,17 +95,33 @@ static lmn_status share_parts(vector_job *j, lmn_error *error)
     return LMN_OK;
 }
 
-/* The look as the renderer gets it: without lines, and without what lines do not show. */
+/* Marks are drawn here, and leave paper to the renderer. */
+static void leave_marks_out(vector_job *j, size_t i)
+{
+    const technique_use *surface = rule_use(&j->look->rules[i], KIND_SURFACE);
+    if (!surface || !surface->technique->marks)
+        return;
+    j->bare_surfaces[i] = *surface->technique;
+    j->bare_surfaces[i].marks = NULL;
+    j->bare_uses[i] = (technique_use){&j->bare_surfaces[i], surface->values};
+    j->bare_rules[i].uses[KIND_SURFACE] = &j->bare_uses[i];
+}
+
+/* The look as the renderer gets it: without lines, without marks, and without what lines do not show. */
 static lmn_status make_bare(vector_job *j, lmn_error *error)
 {
     const technique_use *own = &j->look->wide[KIND_SCENE];
     j->bare = *j->look;
     j->bare_rules = mem_copy(j->look->rules, j->look->rule_count * sizeof *j->bare_rules);
     scene_values *values = j->bare_scene = mem_copy(own->values, own->technique->params_size);
-    if (!j->bare_rules || !values)
+    j->bare_surfaces = mem_calloc(j->look->rule_count, sizeof *j->bare_surfaces);
+    j->bare_uses = mem_calloc(j->look->rule_count, sizeof *j->bare_uses);
+    if (!j->bare_rules || !values || !j->bare_surfaces || !j->bare_uses)
         return error_memory(error);
-    for (size_t i = 0; i < j->look->rule_count; i++)
+    for (size_t i = 0; i < j->look->rule_count; i++) {
         j->bare_rules[i].use_counts[KIND_LINES] = 0;
+        leave_marks_out(j, i);
+    }
     if (values->cut.text[0])
         warnings_add(&j->out->warnings, WARNING_NO_STROKES, "sections have no lines in vector drawings: the model is drawn whole");
     values->cut.text[0] = '\0';
@@ -320,6 +339,12 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
     return status;
 }
 
+static double crease_of(const lmn_look *look)
+{
+    const scene_values *scene = look->wide[KIND_SCENE].values;
+    return (double)scene->crease_angle * (3.14159265358979323846 / 180);
+}
+
 static void count_strokes(vector_job *j, const stroke_set *set, const stroke_style *style)
 {
     for (size_t i = 0; i < set->stroke_count; i++) {
@@ -332,6 +357,42 @@ static void count_strokes(vector_job *j, const stroke_set *set, const stroke_sty
     }
 }
 
+/* The parts that a rule draws, and how many they are; NULL: memory is gone. */
+static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
+{
+    bool *parts = mem_calloc(j->scene->part_count, sizeof *parts);
+    *count = 0;
+    for (size_t i = 0; parts && i < j->scene->part_count; i++) {
+        parts[i] = j->selected[i] && j->rules[i] == r;
+        *count += parts[i];
+    }
+    return parts;
+}
+
+/* The marks of one rule's parts. */
+static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vector_view *v, const rule *r, const vector_ink *ink, lmn_error *error)
+{
+    const technique_use *surface = vector_rule_marks(r);
+    size_t               count = 0;
+    if (!surface)
+        return LMN_OK;
+    bool *parts = parts_of(j, r, &count);
+    if (!parts)
+        return error_memory(error);
+    vector_marks m = {.view = view, .ground = j->ground, .one_pen = j->wanted->plotter, .part_marks = j->out->part_marks,
+                      .wishes = {.scene = j->scene, .look = j->look, .worlds = j->worlds, .parts = parts, .part_count = j->scene->part_count, .crease_angle = crease_of(j->look),
+                                 .surface = surface, .camera = &v->camera, .width = v->width, .height = v->height}};
+    lmn_status status = LMN_OK;
+    if (!report_part(0, "marks", j))
+        status = error_set(error, LMN_CANCELLED, "cancelled");
+    else if (count)
+        status = vector_put_marks(ink, &m, error);
+    mem_free(parts);
+    j->out->dots += m.dots;
+    j->out->marks += m.lines;
+    return status;
+}
+
 /* The strokes of one rule's parts, as ribbons. */
 static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
 {
@@ -342,13 +403,9 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     *out = (ribbon_set){0};
     if (!vector_rule_strokes(r, &wishes, &style))
         return LMN_OK;
-    bool *parts = mem_calloc(j->scene->part_count, sizeof *parts);
+    bool *parts = parts_of(j, r, &count);
     if (!parts)
         return error_memory(error);
-    for (size_t i = 0; i < j->scene->part_count; i++) {
-        parts[i] = j->selected[i] && j->rules[i] == r;
-        count += parts[i];
-    }
     lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
     mem_free(parts);
     if (status == LMN_OK)
@@ -366,13 +423,11 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     return status;
 }
 
-static lmn_status draw_lines(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
+static lmn_status draw_lines(vector_job *j, stroke_view *view, const vector_ink *ink, lmn_error *error)
 {
-    stroke_view  *view = NULL;
-    size_t        rules = j->look->rule_count;
-    stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width, v->height};
-    ribbon_set   *sets = mem_calloc(rules, sizeof *sets);
-    lmn_status    status = sets ? stroke_view_create(&view, &j->strokes, &camera, report_part, j, error) : error_memory(error);
+    size_t      rules = j->look->rule_count;
+    ribbon_set *sets = mem_calloc(rules, sizeof *sets);
+    lmn_status  status = sets ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < rules && status == LMN_OK; i++)
         status = draw_rule(j, view, &j->look->rules[i], &sets[i], error);
     if (status == LMN_OK)
@@ -380,6 +435,19 @@ static lmn_status draw_lines(vector_job *j, const vector_view *v, const vector_i
     for (size_t i = 0; sets && i < rules; i++)
         ribbon_set_release(&sets[i]);
     mem_free(sets);
+    return status;
+}
+
+/* What lies on surfaces, and lines over it. */
+static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
+{
+    stroke_view  *view = NULL;
+    stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width, v->height};
+    lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
+    for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
+        status = draw_marks(j, view, v, &j->look->rules[i], ink, error);
+    if (status == LMN_OK)
+        status = draw_lines(j, view, ink, error);
     stroke_view_destroy(&view);
     return status;
 }
@@ -396,7 +464,7 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
         status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
     if (status == LMN_OK && j->wanted->fill && !j->lines_only)
         status = vector_put_fills(page, &ink, v, &j->strokes, j->rules, report_part, j, error);
-    return status == LMN_OK ? draw_lines(j, v, &ink, error) : status;
+    return status == LMN_OK ? draw_ink(j, v, &ink, error) : status;
 }
 
 /* Lines of frames: as dark as the page is light. */
@@ -408,14 +476,12 @@ static colour frame_ink(colour ground)
 
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 {
-    lmn_sheet          *s = j->out;
-    const scene_values *scene = j->look->wide[KIND_SCENE].values;
-    double              crease = (double)scene->crease_angle * (3.14159265358979323846 / 180);
-    lmn_status          status = check_cancelled(j, 0.3, "drawing", error);
+    lmn_sheet *s = j->out;
+    lmn_status status = check_cancelled(j, 0.3, "drawing", error);
     j->begun = 0.3;
     j->share = 0.2;
     if (status == LMN_OK)
-        status = stroke_scene_create(&j->strokes, j->scene, j->worlds, j->selected, crease, report_part, j, error);
+        status = stroke_scene_create(&j->strokes, j->scene, j->worlds, j->selected, crease_of(j->look), report_part, j, error);
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
         j->share = 0.45 / (double)s->view_count;
         j->begun = 0.5 + j->share * (double)i;
@@ -430,6 +496,22 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     return status == LMN_OK ? check_cancelled(j, 0.95, "drawing", error) : status;
 }
 
+/* Marks of vector drawings know the look's lights, and no more than these. */
+static void note_marks(vector_job *j)
+{
+    const scene_values *scene = j->look->wide[KIND_SCENE].values;
+    bool any = false, again = false;
+    for (size_t i = 0; i < j->look->rule_count; i++) {
+        const technique_use *surface = rule_use(&j->look->rules[i], KIND_SURFACE);
+        any = any || vector_rule_marks(&j->look->rules[i]);
+        again = again || (surface && surface->technique->marks && rule_shades_again(&j->look->rules[i]));
+    }
+    if (again)
+        warnings_add(&j->out->warnings, WARNING_UNUSED, "a composition that shades again leaves out the marks of surfaces; 'opaque' draws them");
+    if (any && (scene->shadows || scene->occlusion > 0 || scene->focus > 0))
+        warnings_add(&j->out->warnings, WARNING_UNUSED, "shadows, occlusion and depth focus do not change the dots and strokes of surfaces in vector drawings");
+}
+
 static lmn_status keep_facts(vector_job *j, lmn_error *error)
 {
     lmn_sheet *s = j->out;
@@ -440,7 +522,8 @@ static lmn_status keep_facts(vector_job *j, lmn_error *error)
     s->load_ms = j->scene->load_ms;
     s->part_names = mem_calloc(count, sizeof *s->part_names);
     s->part_strokes = mem_calloc(count, sizeof *s->part_strokes);
-    if (!s->look || !s->part_names || !s->part_strokes)
+    s->part_marks = mem_calloc(count, sizeof *s->part_marks);
+    if (!s->look || !s->part_names || !s->part_strokes || !s->part_marks)
         return error_memory(error);
     s->part_count = count;
     for (size_t i = 0; i < count; i++) {
@@ -456,6 +539,7 @@ static lmn_status keep_facts(vector_job *j, lmn_error *error)
     sheet_set_title(&s->page, title && *title ? title : file, description);
     if (j->desc->time_s != 0 && j->scene->animation_count)
         warnings_add(&s->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
+    note_marks(j);
     return LMN_OK;
 }
 
@@ -496,6 +580,8 @@ lmn_status vector_draw(lmn_sheet **out, lmn_renderer *r, const lmn_scene *scene,
     mem_free(j.selected);
     mem_free((void *)j.rules);
     mem_free(j.bare_rules);
+    mem_free(j.bare_surfaces);
+    mem_free(j.bare_uses);
     mem_free(j.bare_scene);
     if (status != LMN_OK) {
         vector_destroy(&j.out);
@@ -518,6 +604,7 @@ void vector_destroy(lmn_sheet **sheet)
         mem_free(s->part_names[i]);
     mem_free(s->part_names);
     mem_free(s->part_strokes);
+    mem_free(s->part_marks);
     mem_free(s);
     *sheet = NULL;
 }

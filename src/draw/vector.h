@@ -32,10 +32,12 @@ struct lmn_sheet {
     size_t      part_count;
     char      **part_names;
     uint64_t   *part_strokes; /* visible ones of each part */
+    uint64_t   *part_marks;   /* dots and strokes on its surface */
     uint64_t    triangles;
     box3        bounds;
     double      load_ms, frame_ms;
     uint64_t    counts[STROKE_CLASS_COUNT], hidden;
+    uint64_t    dots, marks;    /* that lie on surfaces: dots, strokes */
     bool        verified;
     stroke_check check;
 };

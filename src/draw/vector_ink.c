@@ -20,13 +20,11 @@ typedef struct inked {
 
 typedef struct ink_writer {
     const vector_ink *how;
-    float           (*points)[2];
-    size_t            count, capacity;
+    vector_pen        pen;
     int32_t           groups[2];    /* what is hidden, what is visible; −1: not there yet */
     int32_t           part_group, class_group;
     const ribbon     *before;       /* of the group and item that are open */
     float             width, opacity; /* of the item */
-    bool              failed;
 } ink_writer;
 
 static int compare_inked(const void *a, const void *b)
@@ -44,7 +42,7 @@ static int compare_inked(const void *a, const void *b)
 
 /* --- points -------------------------------------------------------------------------------------------------------------- */
 
-static void add_point(ink_writer *w, float x, float y)
+static void add_point(vector_pen *w, float x, float y)
 {
     if (w->failed || !mem_grow((void **)&w->points, &w->capacity, w->count + 1, sizeof *w->points)) {
         w->failed = true;
@@ -86,7 +84,7 @@ static float bisect(const ribbon_point *points, size_t count, size_t i, float ou
 }
 
 /* Half a circle from the left of `direction` round its tip to the right. */
-static void add_cap(ink_writer *w, const ribbon_point *p, const float direction[2])
+static void add_cap(vector_pen *w, const ribbon_point *p, const float direction[2])
 {
     for (int i = 1; i < CAP_PIECES; i++) {
         float angle = (float)i * 3.14159265f / CAP_PIECES, along = sinf(angle) * p->half, across = cosf(angle) * p->half;
@@ -95,7 +93,7 @@ static void add_cap(ink_writer *w, const ribbon_point *p, const float direction[
 }
 
 /* One side of a piece, from `from` to `to` either way. */
-static void add_side(ink_writer *w, const ribbon_point *points, size_t count, bool back)
+static void add_side(vector_pen *w, const ribbon_point *points, size_t count, bool back)
 {
     for (size_t n = 0; n < count; n++) {
         size_t i = back ? count - 1 - n : n;
@@ -104,7 +102,7 @@ static void add_side(ink_writer *w, const ribbon_point *points, size_t count, bo
     }
 }
 
-static void put_outline(ink_writer *w, const ribbon_point *points, size_t count, bool round)
+static void put_outline(vector_pen *w, const ribbon_point *points, size_t count, bool round)
 {
     float direction[2];
     w->count = 0;
@@ -120,7 +118,7 @@ static void put_outline(ink_writer *w, const ribbon_point *points, size_t count,
         sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true}, (const float (*)[2])w->points, w->count);
 }
 
-static void put_uneven(ink_writer *w, const ribbon_point *points, size_t count, ribbon_end end)
+void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, ribbon_end end)
 {
     size_t begin = 0;
     for (size_t i = 1; i < count; i++) {
@@ -134,15 +132,14 @@ static void put_uneven(ink_writer *w, const ribbon_point *points, size_t count, 
     }
 }
 
-static void put_even(ink_writer *w, const ribbon *r, const ribbon_point *points, float width)
+void vector_pen_even(vector_pen *w, const ribbon_point *points, size_t count, const sheet_path *style)
 {
-    size_t count = r->closed && r->count > 2 ? r->count - 1 : r->count;
+    count -= style->closed && count > 2 ? 1 : 0;
     w->count = 0;
     for (size_t i = 0; i < count; i++)
         add_point(w, points[i].x, points[i].y);
-    sheet_path style = {.closed = r->closed, .width = width, .cap = r->end == RIBBON_BUTT ? SHEET_CAP_BUTT : SHEET_CAP_ROUND};
     if (!w->failed)
-        sheet_add_path(w->how->page, &style, (const float (*)[2])w->points, w->count);
+        sheet_add_path(w->how->page, style, (const float (*)[2])w->points, w->count);
 }
 
 /* --- groups and items ------------------------------------------------------------------------------------------------------ */
@@ -207,9 +204,10 @@ static void put_ribbon(ink_writer *w, const inked *what)
         sheet_add_item(w->how->page, SHEET_PATH, (uint32_t)w->class_group, ink, r->id);
     }
     if (r->even || w->how->lines_only)
-        put_even(w, r, points, (float)((double)width / VECTOR_PIXELS_PER_MM));
+        vector_pen_even(&w->pen, points, r->count, &(sheet_path){.closed = r->closed, .width = (float)((double)width / VECTOR_PIXELS_PER_MM),
+                                                                .cap = r->end == RIBBON_BUTT ? SHEET_CAP_BUTT : SHEET_CAP_ROUND});
     else
-        put_uneven(w, points, r->count, r->end);
+        vector_pen_uneven(&w->pen, points, r->count, r->end);
     w->before = r;
     w->opacity = opacity;
 }
@@ -219,7 +217,7 @@ lmn_status vector_put_ribbons(const vector_ink *ink, const ribbon_set *sets, siz
     size_t count = 0, at = 0;
     for (size_t i = 0; i < set_count; i++)
         count += sets[i].ribbon_count;
-    ink_writer w = {.how = ink, .groups = {-1, -1}, .part_group = -1, .class_group = -1};
+    ink_writer w = {.how = ink, .pen = {.how = ink}, .groups = {-1, -1}, .part_group = -1, .class_group = -1};
     inked     *all = mem_calloc(count, sizeof *all);
     if (!all)
         return error_memory(error);
@@ -228,9 +226,9 @@ lmn_status vector_put_ribbons(const vector_ink *ink, const ribbon_set *sets, siz
             all[at] = (inked){&sets[i], &sets[i].ribbons[k], at};
     if (count)
         qsort(all, count, sizeof *all, compare_inked);
-    for (size_t i = 0; i < count && !w.failed && !ink->page->failed; i++)
+    for (size_t i = 0; i < count && !w.pen.failed && !ink->page->failed; i++)
         put_ribbon(&w, &all[i]);
     mem_free(all);
-    mem_free(w.points);
-    return w.failed || ink->page->failed ? error_memory(error) : LMN_OK;
+    mem_free(w.pen.points);
+    return w.pen.failed || ink->page->failed ? error_memory(error) : LMN_OK;
 }

@@ -2,6 +2,7 @@
 #ifndef LIMNER_DRAW_VECTOR_PRIVATE_H
 #define LIMNER_DRAW_VECTOR_PRIVATE_H
 
+#include "draw/marks.h"
 #include "draw/vector.h"
 
 /* --- vector_page.c: what descriptions say in words ------------------------------------------------------------------ */
@@ -57,6 +58,31 @@ typedef struct vector_ink {
     bool             lines_only;
 } vector_ink;
 lmn_status vector_put_ribbons(const vector_ink *ink, const ribbon_set *sets, size_t set_count, lmn_error *error);
+
+/* Draws one line after another: an even one by its axis with a width, another by its outline. `points` is the caller's to free with mem_free. */
+typedef struct vector_pen {
+    const vector_ink *how;
+    float           (*points)[2];
+    size_t            count, capacity;
+    bool              failed;
+} vector_pen;
+void vector_pen_even(vector_pen *w, const ribbon_point *points, size_t count, const sheet_path *style);
+void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, ribbon_end end);
+
+/* --- vector_marks.c: dots and strokes that lie on surfaces ---------------------------------------------------------------- */
+
+/* The surface of a rule whose marks are drawn; NULL: it has none. */
+const technique_use *vector_rule_marks(const rule *r);
+/* Puts what is drawn of a rule's marks into groups of their own, one for each part. `wishes` says what and in which view; its surface may leave the paper to the ground, and who hides what is `view`. */
+typedef struct vector_marks {
+    mark_page_wishes   wishes;
+    const stroke_view *view;
+    colour             ground;        /* of the page, sRGB */
+    bool               one_pen;       /* for plotters: all as wide as the look says, each on its own */
+    uint64_t           dots, lines;   /* out: how many */
+    uint64_t          *part_marks;    /* out: added up for each part */
+} vector_marks;
+lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error);
 
 /* --- vector_order.c: for plotters ---------------------------------------------------------------------------------------- */
 

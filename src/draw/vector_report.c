@@ -31,10 +31,23 @@ static json_t *parts_json(const lmn_sheet *s)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < s->part_count; i++)
-        if (s->part_strokes[i])
-            json_array_append_new(array, json_pack("{s:I, s:s, s:I}", "id", (json_int_t)(i + 1), "name", s->part_names[i], "strokes",
-                                                   (json_int_t)s->part_strokes[i]));
+        if (s->part_strokes[i] || s->part_marks[i]) {
+            json_t *part = json_pack("{s:I, s:s, s:I}", "id", (json_int_t)(i + 1), "name", s->part_names[i], "strokes", (json_int_t)s->part_strokes[i]);
+            if (s->part_marks[i])
+                json_object_set_new(part, "marks", json_integer((json_int_t)s->part_marks[i]));
+            json_array_append_new(array, part);
+        }
     return array;
+}
+
+static json_t *strokes_json(const lmn_sheet *s)
+{
+    json_t *out = report_strokes_json(s->counts);
+    if (s->dots)
+        json_object_set_new(out, "dots", json_integer((json_int_t)s->dots));
+    if (s->marks)
+        json_object_set_new(out, "marks", json_integer((json_int_t)s->marks));
+    return out;
 }
 
 char *vector_report_json(const lmn_sheet *s)
@@ -50,7 +63,7 @@ char *vector_report_json(const lmn_sheet *s)
     json_object_set_new(root, "sheet", sheet_json(s));
     json_object_set_new(root, "load_ms", json_real(s->load_ms));
     json_object_set_new(root, "frame_ms", json_real(s->frame_ms));
-    json_object_set_new(root, "strokes", report_strokes_json(s->counts));
+    json_object_set_new(root, "strokes", strokes_json(s));
     json_object_set_new(root, "hidden_strokes", json_integer((json_int_t)s->hidden));
     if (s->verified)
         json_object_set_new(root, "verify", json_pack("{s:I, s:I}", "samples", (json_int_t)s->check.samples, "wrong", (json_int_t)s->check.wrong));

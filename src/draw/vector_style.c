@@ -8,6 +8,7 @@
 #include "layer/layer.h"
 #include "lines/lines.h"
 #include "lines/stroke/strokes.h"
+#include "surface/marks.h"
 #include "surface/surface.h"
 
 /* What a picture's lines do not say. */
@@ -157,6 +158,14 @@ static bool flat_colour(const technique_use *surface, colour *out)
     return true;
 }
 
+/* Marks on paper that is nothing but the page. */
+static bool marks_on_ground(const rule *r, colour ground)
+{
+    const technique_use *marked = vector_rule_marks(r);
+    const mark_values   *v = marked ? marked->values : NULL;
+    return v && !(v->paper_tint > 0) && (isnan(v->paper.r) || !(v->paper.a > 0) || same_colour(v->paper, ground));
+}
+
 bool vector_rule_needs_pixels(const rule *r, colour ground)
 {
     const technique_use *surface = r->use_counts[KIND_SURFACE] ? &r->uses[KIND_SURFACE][0] : NULL;
@@ -164,7 +173,7 @@ bool vector_rule_needs_pixels(const rule *r, colour ground)
     colour               only;
     if (!surface || (compose && compose->technique == &compose_wire))
         return false; /* nothing but lines */
-    return !(flat_colour(surface, &only) && (!(only.a > 0) || same_colour(only, ground)));
+    return !marks_on_ground(r, ground) && !(flat_colour(surface, &only) && (!(only.a > 0) || same_colour(only, ground)));
 }
 
 bool vector_needs_pixels(const lmn_look *look)

@@ -51,6 +51,7 @@ typedef struct marks {
     size_t     stroke_count;
     double     area;        /* of the surface, model units */
     double     line_length; /* of all lines */
+    const uint32_t *parts;  /* per triangle: index of its part, borrowed; NULL: nobody asks */
 } marks;
 void surface_marks_release(marks *m);
 
@@ -207,12 +208,14 @@ typedef struct mark_view {
 typedef void (*mark_hidden_fn)(void *user, const double (*places)[3], size_t count, uint32_t *out);
 
 typedef struct marks_page_point {
-    float x, y, width;
+    float    x, y, width;
+    uint32_t part;         /* of dots: id of what it lies on; 0: not known */
 } marks_page_point;
 
 typedef struct marks_page_line {
     uint32_t first, count; /* points */
     uint32_t stroke;
+    uint32_t part;         /* id; 0: not known */
 } marks_page_line;
 
 /* What is to be drawn, in pixels; origin at the top left, y down. */
@@ -223,7 +226,6 @@ typedef struct marks_page {
     marks_page_point *points; /* of lines; widths differ where strokes run out */
     size_t            line_count, line_capacity, point_count, point_capacity;
     colour            ink;    /* linear, straight alpha */
-    uint32_t          part;   /* id; for who asks */
 } marks_page;
 void marks_page_release(marks_page *p);
 

@@ -92,11 +92,16 @@ static float darkness_at(const pager *g, const place_on_page *p, float bright)
 
 /* --- dots --------------------------------------------------------------------------------------------------------------- */
 
-static bool add_dot(marks_page *out, float x, float y, float diameter)
+static uint32_t part_of(const marks *m, uint32_t triangle)
+{
+    return m->parts ? m->parts[triangle] + 1 : 0;
+}
+
+static bool add_dot(marks_page *out, marks_page_point dot)
 {
     if (!mem_grow((void **)&out->dots, &out->dot_capacity, out->dot_count + 1, sizeof *out->dots))
         return false;
-    out->dots[out->dot_count++] = (marks_page_point){x, y, diameter};
+    out->dots[out->dot_count++] = dot;
     return true;
 }
 
@@ -132,7 +137,7 @@ static lmn_status dots_visible(marks_page *out, const pager *g, const marks *m, 
         const vec3 *at = &m->dots[i].place;
         const double place[3] = {(double)at->x, (double)at->y, (double)at->z};
         memcpy(places[count++], place, sizeof place);
-        done = add_dot(out, x, y, size);
+        done = add_dot(out, (marks_page_point){x, y, size, part_of(m, m->dots[i].triangle)});
     }
     if (done && hidden && count > 0) {
         hidden(user, (const double (*)[3])places, count, behind);
@@ -177,6 +182,7 @@ static float taper_at(const pager *g, const mark_line *l, float along)
 typedef struct stretch_walk {
     marks_page     *out;
     const pager    *g;
+    const marks    *marks;
     bool            open; /* a line of the page is being continued */
     mark_hidden_fn  hidden;
     void           *user;
@@ -190,10 +196,10 @@ static bool add_point(stretch_walk *w, const mark_line *l, float x, float y, flo
     if (!w->open) {
         if (!mem_grow((void **)&out->lines, &out->line_capacity, out->line_count + 1, sizeof *out->lines))
             return false;
-        out->lines[out->line_count++] = (marks_page_line){.first = (uint32_t)out->point_count, .stroke = l->stroke};
+        out->lines[out->line_count++] = (marks_page_line){.first = (uint32_t)out->point_count, .stroke = l->stroke, .part = part_of(w->marks, l->triangle)};
         w->open = true;
     }
-    out->points[out->point_count++] = (marks_page_point){x, y, width};
+    out->points[out->point_count++] = (marks_page_point){x, y, width, 0};
     out->lines[out->line_count - 1].count++;
     return true;
 }
@@ -248,7 +254,7 @@ static bool add_piece(stretch_walk *w, const mark_line *l, float width)
 
 static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m, mark_hidden_fn hidden, void *user, lmn_error *error)
 {
-    stretch_walk w = {out, g, false, hidden, user};
+    stretch_walk w = {out, g, m, false, hidden, user};
     bool done = true;
     for (size_t i = 0; i < m->line_count && done; i++) {
         const mark_line *l = &m->lines[i];
