@@ -24,11 +24,14 @@ typedef struct mark_dot {
     vec3     place, normal;
     float    share[2]; /* of the triangle's second and third corner */
     float    priority; /* 1 − rank / count; every prefix of the ranks is evenly spread */
-    float    bright;   /* of what it lies on, 0 … 1, as the eye counts it: set by who knows the material; 1 */
+    float    bright;   /* of what it lies on, 0 … 1, linear: set by who knows the material; 1 */
     uint32_t triangle;
 } mark_dot;
 
-/* A straight piece of a stroke, within one triangle. Pieces of a stroke follow each other. */
+/* By how much pieces may leave the surface of a stroke that bends, share of its length. */
+#define MARK_SAG 0.012
+
+/* A straight piece of a stroke, on one triangle or over small ones. Pieces of a stroke follow each other. */
 typedef struct mark_line {
     vec3     a, b, normal;
     vec3     middle, middle_normal; /* of the whole stroke: where its tone is decided, so that it is drawn whole */

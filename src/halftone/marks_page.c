@@ -85,7 +85,7 @@ static float darkness_at(const pager *g, const place_on_page *p, float bright)
     }
     double bent = pow(fmin(fmax(sum, 0), 1), (double)g->style->contrast);
     double tone = (double)g->style->shadow + ((double)g->style->light - (double)g->style->shadow) * bent;
-    tone *= 1 + ((double)bright - 1) * (double)g->style->texture;
+    tone *= 1 + (pow(fmin(fmax((double)bright, 0), 1), 1 / 2.2) - 1) * (double)g->style->texture; /* brightness as the eye counts it */
     double darkness = g->style->white ? tone : 1 - tone;
     return (float)fmin(fmax(darkness, 0), 1);
 }
@@ -215,15 +215,27 @@ static void close_line(stretch_walk *w)
     w->open = false;
 }
 
+/* From a piece to above the surface that it is a chord of, on the viewer's side: its own surface hides no stroke. */
+static void find_lift(const pager *g, const mark_line *l, double out[3])
+{
+    double stretch, lift = MARK_SAG * (double)l->length;
+    if (find_place(g, l->a, l->normal, &stretch).facing < 0)
+        lift = -lift;
+    out[0] = lift * (double)l->normal.x;
+    out[1] = lift * (double)l->normal.y;
+    out[2] = lift * (double)l->normal.z;
+}
+
 /* One piece, in samples of about two pixels: those that something hides interrupt the line. */
 static bool add_piece(stretch_walk *w, const mark_line *l, float width)
 {
     enum { SAMPLES_MAX = 64 };
-    double places[SAMPLES_MAX + 1][3], eye[3];
+    double places[SAMPLES_MAX + 1][3], eye[3], lift[3];
     float  at[SAMPLES_MAX + 1][2];
     uint32_t behind[SAMPLES_MAX + 1] = {0};
     bool   there[SAMPLES_MAX + 1], hides = w->hidden != NULL;
     float  ends[2][2] = {{0, 0}, {0, 0}};
+    find_lift(w->g, l, lift);
     move_point(&w->g->view->model_view, l->a, eye);
     bool seen = on_page(w->g, eye, &ends[0][0], &ends[0][1]);
     move_point(&w->g->view->model_view, l->b, eye);
@@ -234,9 +246,9 @@ static bool add_piece(stretch_walk *w, const mark_line *l, float width)
     for (int i = 0; i <= count; i++) {
         float s = (float)i / (float)count;
         vec3 p = {l->a.x + s * (l->b.x - l->a.x), l->a.y + s * (l->b.y - l->a.y), l->a.z + s * (l->b.z - l->a.z)};
-        places[i][0] = (double)p.x;
-        places[i][1] = (double)p.y;
-        places[i][2] = (double)p.z;
+        places[i][0] = (double)p.x + lift[0];
+        places[i][1] = (double)p.y + lift[1];
+        places[i][2] = (double)p.z + lift[2];
         move_point(&w->g->view->model_view, p, eye);
         there[i] = on_page(w->g, eye, &at[i][0], &at[i][1]);
     }

@@ -15,7 +15,6 @@ enum { POINTS_MAX = 512 /* of one half of a stroke */ };
 
 static const double SHARP = 0.5;      /* cosine between faces at which strokes end */
 static const double FEATURE = 0.7;   /* radians: edges over which ways do not go on */
-static const double STRAIGHT = 0.012; /* by how much chords may leave out of a stroke, share of its length */
 
 typedef struct d3 {
     double x, y, z;
@@ -237,7 +236,7 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
     if (p->count < 2 || !(length > 0))
         return true;
     bool kept[2 * POINTS_MAX + 1];
-    simplify(p, STRAIGHT * length, kept);
+    simplify(p, MARK_SAG * length, kept);
     mark_line line = {.middle = seed->place, .middle_normal = seed->normal, .light = light, .perspective = perspective,
                       .span = 1.0f / (float)t->wishes->series, .length = (float)length, .bright = 1, .stroke = (uint32_t)t->out->stroke_count++};
     size_t first = t->out->line_count;
