@@ -18,7 +18,7 @@ typedef struct pager {
     const mark_view  *view;
     const mark_style *style;
     double            focal;
-    double            cofactors[9];
+    double            cofactors[9], determinant; /* of model_view, the latter without its sign */
     bool              backs;     /* what turns away is left to who knows what hides it */
 } pager;
 
@@ -124,18 +124,72 @@ static float dot_size(const pager *g, const marks *m, const mark_dot *d, float *
     return g->style->diameter * sqrtf(ink);
 }
 
+/* --- rims of dots: a disc ends where its surface does, so one that mostly hangs over is left out, as the GPU cuts it off ---------------- */
+
+enum { RIM = 6 };
+
+static void to_model(const pager *g, const double eye[3], double out[3])
+{
+    const double *shift = &g->view->model_view.m[12];
+    for (int k = 0; k < 3; k++)
+        out[k] = (g->cofactors[3 * k] * (eye[0] - shift[0]) + g->cofactors[3 * k + 1] * (eye[1] - shift[1]) + g->cofactors[3 * k + 2] * (eye[2] - shift[2])) / g->determinant;
+}
+
+/* Places around a dot on its plane: RIM a little above the surface, then as many a little below. */
+static void find_rim(const pager *g, const mark_dot *d, float size, double (*out)[3])
+{
+    double stretch, way[3] = {0, 0, -1};
+    place_on_page p = find_place(g, d->place, d->normal, &stretch);
+    double pixel = (g->view->orthographic ? 1 : -p.eye[2]) / g->focal, radius = 0.5 * (double)size, c = fmin(fabs(p.facing), 1);
+    double steep = fmin(sqrt(1 - c * c) / fmax(c, 0.05), 8), reach = pixel * (radius + 1) * (1 + 2 * steep);
+    for (int i = 0; i < RIM; i++) {
+        double angle = 2 * 3.14159265358979323846 * i / RIM, at[3] = {radius * pixel * cos(angle), radius * pixel * sin(angle), 0};
+        double off = dot(p.normal, at), length = 1;
+        for (int k = 0; k < 3; k++)
+            at[k] += p.eye[k];
+        if (!g->view->orthographic) {
+            length = fmax(sqrt(dot(at, at)), 1e-300);
+            for (int k = 0; k < 3; k++)
+                way[k] = at[k] / length;
+        }
+        double along = dot(p.normal, way), most = 8 * radius * pixel;
+        double t = fabs(along) > 1e-6 ? fmin(fmax(-off / along, -most), most) : 0;
+        for (int side = 0; side < 2; side++) {
+            double eye[3];
+            for (int k = 0; k < 3; k++)
+                eye[k] = at[k] + (t + (side ? reach : -reach)) * way[k];
+            to_model(g, eye, out[side * RIM + i]);
+        }
+    }
+}
+
+/* Does at least half of a disc lie on what is seen of its surface? There, nothing is in front a little above, and something a little below. What is outside the page counts. */
+static bool lies_on_surface(const pager *g, const mark_dot *d, float size, mark_hidden_fn hidden, void *user)
+{
+    double   places[2 * RIM][3];
+    uint32_t front[2 * RIM];
+    int      own = 0;
+    find_rim(g, d, size, places);
+    hidden(user, (const double (*)[3])places, 2 * RIM, front);
+    for (int i = 0; i < RIM; i++)
+        own += front[i] == UINT32_MAX || (front[i] == 0 && front[RIM + i] > 0);
+    return 2 * own >= RIM;
+}
+
 static lmn_status dots_visible(marks_page *out, const pager *g, const marks *m, mark_hidden_fn hidden, void *user, lmn_error *error)
 {
     size_t first = out->dot_count, count = 0;
     double (*places)[3] = mem_alloc(m->dot_count * sizeof *places);
+    uint32_t *numbers = mem_alloc(m->dot_count * sizeof *numbers);
     uint32_t *behind = mem_calloc(m->dot_count, sizeof *behind);
-    bool done = places && behind;
+    bool done = places && behind && numbers;
     for (size_t i = 0; done && i < m->dot_count; i++) {
         float x = 0, y = 0, size = dot_size(g, m, &m->dots[i], &x, &y);
         if (!(size > 0))
             continue;
         const vec3 *at = &m->dots[i].place;
         const double place[3] = {(double)at->x, (double)at->y, (double)at->z};
+        numbers[count] = (uint32_t)i;
         memcpy(places[count++], place, sizeof place);
         done = add_dot(out, (marks_page_point){x, y, size, part_of(m, m->dots[i].triangle)});
     }
@@ -143,10 +197,11 @@ static lmn_status dots_visible(marks_page *out, const pager *g, const marks *m, 
         hidden(user, (const double (*)[3])places, count, behind);
         out->dot_count = first;
         for (size_t i = 0; i < count; i++)
-            if (behind[i] == 0)
+            if (behind[i] == 0 && lies_on_surface(g, &m->dots[numbers[i]], out->dots[first + i].width, hidden, user))
                 out->dots[out->dot_count++] = out->dots[first + i];
     }
     mem_free(places);
+    mem_free(numbers);
     mem_free(behind);
     return done ? LMN_OK : error_memory(error);
 }
@@ -286,6 +341,7 @@ lmn_status marks_visible(marks_page *out, const marks *m, const mark_view *view,
 {
     pager g = {.view = view, .style = style, .focal = view->projection.m[5] * view->height / 2, .backs = hidden != NULL};
     double determinant = mat4_cofactors(&view->model_view, g.cofactors);
+    g.determinant = fmax(fabs(determinant), 1e-300);
     for (int k = 0; k < 9 && determinant < 0; k++)
         g.cofactors[k] = -g.cofactors[k];
     out->ink = style->ink;
