@@ -270,10 +270,11 @@ static void close_line(stretch_walk *w)
     w->open = false;
 }
 
-/* From a piece to above the surface that it is a chord of, on the viewer's side: its own surface hides no stroke. */
+/* From a piece to above the surface that it is a chord of, on the viewer's side: its own surface hides no stroke. Twice as far as chords may leave it, since strokes run over folds of up to 60 degrees,
+ * of which the chord has one side's normal. */
 static void find_lift(const pager *g, const mark_line *l, double out[3])
 {
-    double stretch, lift = MARK_SAG * (double)l->length;
+    double stretch, lift = 2 * MARK_SAG * (double)l->length;
     if (find_place(g, l->a, l->normal, &stretch).facing < 0)
         lift = -lift;
     out[0] = lift * (double)l->normal.x;

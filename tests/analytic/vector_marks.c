@@ -8,7 +8,7 @@
 #include "check.h"
 #include "picture.h"
 
-enum { SIDE = 512, FINER = 4, BLOCK = 16 };
+enum { SIDE = 1024, FINER = 2, BLOCK = 16 };
 
 static bool run(const char *command)
 {
@@ -111,7 +111,7 @@ static void same_as_pictures(void)
             snprintf(svg, sizeof svg, "%s", check_path("marks-%s-%s.svg", models[m], looks[l]));
             snprintf(shown, sizeof shown, "%s", check_path("marks-%s-%s-svg.png", models[m], looks[l]));
             snprintf(command, sizeof command, "rsvg-convert -w %d -h %d %s -o %s", SIDE * FINER, SIDE * FINER, svg, shown);
-            if (!check_that("8", write_look(look, surfaces[l]) && draw(models[m], look, "--samples 16", png) && draw(models[m], look, "", svg) && run(command), "%s is drawn as %s", models[m], looks[l]))
+            if (!check_that("8", write_look(look, surfaces[l]) && draw(models[m], look, "--samples 4", png) && draw(models[m], look, "", svg) && run(command), "%s is drawn as %s", models[m], looks[l]))
                 continue;
             double *own = cover_of(png, 1, true), *other = cover_of(shown, FINER, false);
             if (own && other) {
