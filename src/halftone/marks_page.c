@@ -320,6 +320,18 @@ static bool add_piece(stretch_walk *w, const mark_line *l, float width)
     return true;
 }
 
+/* Does a stroke turn away at its middle, with something in front of that? Then it is on the far side, and what comes round from there is not drawn, as on the GPU. */
+static bool is_far_side(const stretch_walk *w, const mark_line *l)
+{
+    double         stretch;
+    const double   middle[1][3] = {{(double)l->middle.x, (double)l->middle.y, (double)l->middle.z}};
+    uint32_t       front = 0;
+    if (!w->hidden || find_place(w->g, l->middle, l->middle_normal, &stretch).facing >= 0)
+        return false;
+    w->hidden(w->user, middle, 1, &front);
+    return front > 0 && front != UINT32_MAX;
+}
+
 static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m, mark_hidden_fn hidden, void *user, lmn_error *error)
 {
     stretch_walk w = {out, g, m, false, hidden, user};
@@ -329,7 +341,7 @@ static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m,
         if (i > 0 && l->stroke != m->lines[i - 1].stroke)
             close_line(&w);
         float ink = stroke_ink(g, l);
-        if (ink > 0)
+        if (ink > 0 && !is_far_side(&w, l))
             done = add_piece(&w, l, g->style->diameter * ink);
         else
             close_line(&w);
