@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/butterfly_mesh.h"
 
 static const char *const class_names[STROKE_CLASS_COUNT] = {"contour", "border", "crease", "intersection", "material", "suggestive", "ridge", "valley", "apparent"};
 
@@ -21,6 +22,7 @@ typedef struct collector {
     double3             *places;  /* of the ends that only lines have, from v->vertex_count on */
     uint32_t            *slots;   /* hash table of them; NO_VERTEX when empty */
     size_t               place_count, place_capacity, slot_mask;
+    uint8_t             *outline; /* per edge of a refined mesh: the silhouette that was propagated runs along it */
 } collector;
 
 /* Numbers that differ for different lines and stay from view to view. */
@@ -111,6 +113,38 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
 }
 
+typedef struct front_test {
+    const stroke_view *v;
+    const edge_mesh   *mesh;
+    uint32_t           item;
+} front_test;
+
+/* On the last level as the view has it, so that nothing is found that the view does not show. */
+static bool is_front(void *user, uint32_t level, uint32_t face)
+{
+    const front_test *t = user;
+    const edge_refinement *r = t->mesh->refinement;
+    if (level + 1 == r->surface.level_count && r->faces[face] != EDGE_NO_FACE)
+        return view_is_front(t->v, t->v->items[t->item].first_face + r->faces[face]);
+    const uint32_t *corners = r->surface.levels[level].faces[face];
+    const stroke_item *item = &t->v->scene->items[t->item];
+    return view_shows_front(t->v, item_place(item, t->mesh->places[corners[0]]), item_place(item, t->mesh->places[corners[1]]),
+                            item_place(item, t->mesh->places[corners[2]]));
+}
+
+/* Of a mesh that was refined, outlines are looked for only near those of the coarser one. */
+static lmn_status find_outline(collector *c, uint32_t index, lmn_error *error)
+{
+    const edge_mesh *m = &c->v->scene->meshes[c->v->scene->items[index].mesh];
+    mem_free(c->outline);
+    c->outline = NULL;
+    if (!m->refinement || c->wishes->contours != CONTOURS_EDGES)
+        return LMN_OK;
+    c->outline = mem_alloc((size_t)m->edge_count + 1);
+    front_test test = {c->v, m, index};
+    return c->outline ? edge_mesh_silhouette(m, is_front, &test, c->outline, NULL, error) : error_memory(error);
+}
+
 static bool collect_edges(collector *c, uint32_t index)
 {
     const stroke_item *item = &c->v->scene->items[index];
@@ -118,6 +152,8 @@ static bool collect_edges(collector *c, uint32_t index)
     uint32_t first_face = c->v->items[index].first_face;
     for (uint32_t i = 0; i < m->edge_count; i++) {
         stroke_class kind = class_of(c, &m->edges[i], first_face);
+        if (kind == STROKE_CONTOUR && c->outline && !c->outline[i] && !(m->edges[i].flags & EDGE_CREASE))
+            continue;
         if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], mix((uint64_t)index << 32 | item->part_index, i), kind))
             return false;
     }
@@ -202,9 +238,14 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wis
     collector c = {.out = out, .v = v, .wishes = wishes, .parts = parts};
     out->end_count = v->vertex_count;
     lmn_status status = wishes->intersections ? collect_intersections(&c, progress, user, error) : LMN_OK;
-    for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++)
-        if ((!parts || parts[v->scene->items[i].part_index]) && !collect_edges(&c, i))
+    for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
+        if (parts && !parts[v->scene->items[i].part_index])
+            continue;
+        status = find_outline(&c, i, error);
+        if (status == LMN_OK && !collect_edges(&c, i))
             status = error_memory(error);
+    }
+    mem_free(c.outline);
     mem_free(c.places);
     mem_free(c.slots);
     if (status != LMN_OK)

@@ -10,7 +10,7 @@ typedef struct propagator {
     const butterfly *b;
     propagate_front  is_front;
     void            *user;
-    uint32_t         level;
+    uint32_t         level, first; /* first: the one of which all faces are asked for */
     uint8_t         *facing[BUTTERFLY_STEPS_MAX + 1]; /* per face: UNKNOWN where it is as its parent is */
     uint8_t         *touched;  /* per face of the level: shares a vertex with the silhouette */
     uint32_t        *band;     /* faces of the level that were asked for, in that order */
@@ -22,7 +22,7 @@ typedef struct propagator {
 static uint8_t facing_of(const propagator *p, uint32_t level, uint32_t face)
 {
     for (;; level--, face /= 4)
-        if (p->facing[level][face] != UNKNOWN || level == 0)
+        if (p->facing[level][face] != UNKNOWN || level == p->first)
             return p->facing[level][face];
 }
 
@@ -113,15 +113,18 @@ static bool put_silhouette(propagator *p)
     return true;
 }
 
-lmn_status silhouette_propagate(silhouette *out, const butterfly *b, propagate_front is_front, void *user, lmn_error *error)
+lmn_status silhouette_propagate(silhouette *out, const butterfly *b, uint32_t all_of, propagate_front is_front, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     propagator p = {.b = b, .is_front = is_front, .user = user, .out = out};
-    p.facing[0] = mem_calloc((size_t)b->levels[0].face_count + 1, 1);
-    bool good = p.facing[0] != NULL;
-    for (uint32_t f = 0; f < b->levels[0].face_count && good; f++)
+    while (p.level + 1 < b->level_count && b->levels[p.level + 1].face_count <= all_of)
+        p.level++;
+    p.first = p.level;
+    p.facing[p.level] = mem_calloc((size_t)b->levels[p.level].face_count + 1, 1);
+    bool good = p.facing[p.level] != NULL;
+    for (uint32_t f = 0; f < b->levels[p.level].face_count && good; f++)
         good = ask(&p, f);
-    for (uint32_t i = 1; i < b->level_count && good; i++)
+    while (p.level + 1 < b->level_count && good)
         good = propagate_level(&p);
     good = good && put_silhouette(&p);
     for (uint32_t i = 0; i < b->level_count; i++)

@@ -13,10 +13,11 @@ typedef struct silhouette {
     uint64_t  tested[BUTTERFLY_STEPS_MAX + 1]; /* faces asked for, per level */
 } silhouette;
 
-/* On level 0 all faces are asked for. After that, faces are asked for when their parent shares a vertex with the parent level's silhouette, and further on as long as what is found
+/* On level 0 and on further levels of up to `all_of` faces all faces are asked for: where a few large faces stand for a shape, the next level may well have outlines that they have
+ * not. After that, faces are asked for when their parent shares a vertex with the parent level's silhouette, and further on as long as what is found
  * differs from what is beside it; all others are as their parents are. So what is found is part of the true silhouette and ends nowhere. New ones far from the old, small waves that
  * refining made, are not found, nor are they wanted. Errors: LMN_MEMORY. */
-lmn_status silhouette_propagate(silhouette *out, const butterfly *b, propagate_front is_front, void *user, lmn_error *error);
+lmn_status silhouette_propagate(silhouette *out, const butterfly *b, uint32_t all_of, propagate_front is_front, void *user, lmn_error *error);
 void       silhouette_release(silhouette *s);
 
 #endif

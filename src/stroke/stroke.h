@@ -79,6 +79,9 @@ typedef struct stroke_scene {
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
+/* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round as the lines are. Takes stroke_wishes.refine. Also LMN_LIMIT. */
+lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+                                       int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
@@ -115,8 +118,10 @@ typedef struct stroke_wishes {
     int32_t hidden;    /* bool: stretches behind surfaces too */
     float   simplify;  /* by how much points may be moved, pixels */
     float   shortest;  /* chains shorter than this are left out, pixels */
+    int32_t refine;    /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
+    int32_t curve;     /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_wishes;
-#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f}
+#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0, 0}
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */

@@ -94,6 +94,8 @@ typedef struct visibility_span {
 bool   view_place(const stroke_view *v, double3 world, window_point *out);
 /* Cuts a line of the world to what lies in the window; false when nothing does. `cut`: the shares that are left. */
 bool   view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
+/* Is a triangle of the world seen from the front? Its corners run anticlockwise then. */
+bool   view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
 double3 item_place(const stroke_item *item, vec3 p);
 double view_depth(const stroke_view *v, double z); /* eye depth */
 double view_tolerance(const stroke_view *v, double z); /* of z */
