@@ -169,7 +169,8 @@ typedef struct view_line {
     uint32_t     item;
     uint32_t     ends[2];  /* of view points, or numbers from vertex_count on that only lines have */
     uint64_t     id;
-    float        weight;
+    float        weights[2]; /* at its ends */
+    bool         sharp;      /* runs along a sharp edge */
 } view_line;
 
 typedef struct view_lines {
