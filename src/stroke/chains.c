@@ -8,10 +8,11 @@
 #include "stroke/curve_path.h"
 
 /* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
-#define FLICKER 0.25
-/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. */
+#define FLICKER 0.9
+/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
-enum { OUTSIDE = -1 }; /* of the page */
+#define TURNS_BACK -0.7
+enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
 typedef struct chain_point {
@@ -26,8 +27,10 @@ typedef struct chainer {
     const view_lines    *lines;
     const visibility    *seen;
     const stroke_wishes *wishes;
+    double               focal;  /* pixels to a unit of length, at depth 1 in perspective */
     uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
     uint32_t            *nexts; /* per half-line: another one at the same end */
+    uint32_t            *partners; /* per half-line: the one that goes on where it begins, NO_VERTEX: none */
     uint8_t             *used;  /* per line */
     uint32_t            *path;  /* half-lines of the chain, by the end that they begin at */
     size_t               path_count, path_capacity;
@@ -36,9 +39,11 @@ typedef struct chainer {
     uint8_t             *kept;  /* per point */
     uint32_t            *stack;
     size_t               kept_capacity, stack_capacity;
-    size_t               stroke_capacity, out_capacity;
+    size_t               stroke_capacity, out_capacity, mark_capacity;
+    stroke_mark          marks[MARKS_MAX]; /* of the chain, least ids first */
+    size_t               mark_count;
     curve_path           curve;
-    bool                 curved; /* the chain is */
+    bool                 curved;     /* the chain is */
 } chainer;
 
 /* --- joining ------------------------------------------------------------------------------------------------------- */
@@ -69,41 +74,62 @@ static bool ends_at_corners(stroke_class kind)
     return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL;
 }
 
-/* The other half-lines of one's kind at one's end: how many, and the one that goes on straightest. */
-static size_t straightest(const chainer *c, uint32_t half, uint32_t *best)
+/* Is the line visible where this half-line begins? */
+static bool begins_visible(const chainer *c, uint32_t half)
 {
-    stroke_class kind = c->lines->lines[half / 2].kind;
-    size_t others = 0;
-    double most = -2;
-    *best = NO_VERTEX;
-    for (uint32_t h = c->heads[end_number(c, half)]; h != NO_VERTEX; h = c->nexts[h]) {
-        if (h / 2 == half / 2 || c->lines->lines[h / 2].kind != kind)
-            continue;
-        double turn = turn_between(c, half, h);
-        others++;
-        if (turn > most || (turn == most && h < *best)) {
-            most = turn;
-            *best = h;
-        }
-    }
-    if (others > 1 && most < STRAIGHT_ON)
-        *best = NO_VERTEX;
-    return others;
+    uint32_t first = c->seen->starts[half / 2], last = c->seen->starts[half / 2 + 1] - 1;
+    return c->seen->spans[half & 1 ? last : first].count == 0;
 }
 
-/* The half-line with which a chain goes on beyond this half-line's own end, NO_VERTEX: it ends there. */
-static uint32_t partner_of(const chainer *c, uint32_t half)
+/* How well one line goes on as another one: what is visible goes on as what is visible, then what turns least. Below 0: not at all. */
+static double fit(const chainer *c, uint32_t in, uint32_t out)
 {
-    uint32_t best, back;
-    size_t others = straightest(c, half, &best);
-    if (best == NO_VERTEX || (others > 1 && ends_at_corners(c->lines->lines[half / 2].kind)))
-        return NO_VERTEX;
-    if (others > 1) { /* both must want each other */
-        straightest(c, best, &back);
-        if (back != half)
-            return NO_VERTEX;
+    double turn = turn_between(c, in, out);
+    bool alike = begins_visible(c, in) == begins_visible(c, out);
+    return turn < (alike ? TURNS_BACK : STRAIGHT_ON) ? -1 : turn + (alike ? 4 : 1);
+}
+
+/* Pairs the half-lines of one kind at one end, best fit first. Sharp lines end at corners. */
+static void pair_lines(chainer *c, const uint32_t *halves, size_t count)
+{
+    if (count == 2) {
+        c->partners[halves[0]] = halves[1];
+        c->partners[halves[1]] = halves[0];
     }
-    return best;
+    if (count <= 2 || ends_at_corners(c->lines->lines[halves[0] / 2].kind))
+        return;
+    for (;;) {
+        double most = 0;
+        uint32_t p = 0, q = 0;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = i + 1; k < count; k++) {
+                bool free = c->partners[halves[i]] == NO_VERTEX && c->partners[halves[k]] == NO_VERTEX && halves[i] / 2 != halves[k] / 2;
+                double own = free ? fit(c, halves[i], halves[k]) : -1;
+                if (own > most) {
+                    most = own;
+                    p = halves[i];
+                    q = halves[k];
+                }
+            }
+        if (most <= 0)
+            return;
+        c->partners[p] = q;
+        c->partners[q] = p;
+    }
+}
+
+static void pair_ends(chainer *c)
+{
+    for (uint32_t end = 0; end < c->lines->end_count; end++)
+        for (int kind = 0; kind < STROKE_CLASS_COUNT && c->heads[end] != NO_VERTEX; kind++) {
+            uint32_t halves[MEETING_MAX];
+            size_t count = 0;
+            for (uint32_t h = c->heads[end]; h != NO_VERTEX && count < MEETING_MAX; h = c->nexts[h])
+                if ((int)c->lines->lines[h / 2].kind == kind)
+                    halves[count++] = h;
+            if (count > 1)
+                pair_lines(c, halves, count);
+        }
 }
 
 static bool link_ends(chainer *c)
@@ -112,14 +138,17 @@ static bool link_ends(chainer *c)
     c->heads = mem_alloc(((size_t)l->end_count + 1) * sizeof *c->heads);
     c->nexts = mem_alloc((2 * l->count + 1) * sizeof *c->nexts);
     c->used = mem_calloc(l->count + 1, 1);
-    if (!c->heads || !c->nexts || !c->used)
+    c->partners = mem_alloc((2 * l->count + 1) * sizeof *c->partners);
+    if (!c->heads || !c->nexts || !c->used || !c->partners)
         return false;
+    memset(c->partners, 0xFF, 2 * l->count * sizeof *c->partners);
     memset(c->heads, 0xFF, ((size_t)l->end_count + 1) * sizeof *c->heads);
     for (size_t h = 2 * l->count; h-- > 0;) {
         uint32_t end = end_number(c, (uint32_t)h);
         c->nexts[h] = c->heads[end];
         c->heads[end] = (uint32_t)h;
     }
+    pair_ends(c);
     return true;
 }
 
@@ -132,7 +161,7 @@ static bool follow(chainer *c, uint32_t half, bool *closed)
             return false;
         c->path[c->path_count++] = h;
         c->used[h / 2] = 1;
-        uint32_t next = partner_of(c, h ^ 1);
+        uint32_t next = c->partners[h ^ 1];
         *closed = next == half && c->path_count > 1;
         if (next == NO_VERTEX || c->used[next / 2])
             return true;
@@ -145,7 +174,7 @@ static uint32_t first_of(const chainer *c, uint32_t line)
 {
     uint32_t start = 2 * line, h = start;
     for (size_t steps = 0; steps <= c->lines->count; steps++) {
-        uint32_t before = partner_of(c, h);
+        uint32_t before = c->partners[h];
         if (before == NO_VERTEX || (before ^ 1) == start || c->used[before / 2])
             return h;
         h = before ^ 1;
@@ -265,6 +294,46 @@ static bool put_path(chainer *c, bool closed)
     return put_point(c, point_at(c, last, c->path[last] & 1 ? 0 : 1, OUTSIDE));
 }
 
+static double line_length(const chainer *c, uint32_t half)
+{
+    const window_segment *s = &c->lines->segments[half / 2];
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    return sqrt(x * x + y * y) / c->v->units;
+}
+
+/* The edges with the least ids, and where on the path they begin. An id is as good as random, so that such an edge is left when others come and go. */
+static void find_marks(chainer *c)
+{
+    double arc = 0;
+    c->mark_count = 0;
+    for (size_t i = 0; i < c->path_count; i++) {
+        stroke_mark own = {c->lines->lines[c->path[i] / 2].id, 0, (float)arc};
+        arc += line_length(c, c->path[i]);
+        if (c->mark_count == MARKS_MAX && own.id >= c->marks[MARKS_MAX - 1].id)
+            continue;
+        size_t at = c->mark_count < MARKS_MAX ? c->mark_count++ : MARKS_MAX - 1;
+        for (; at > 0 && c->marks[at - 1].id > own.id; at--)
+            c->marks[at] = c->marks[at - 1];
+        c->marks[at] = own;
+    }
+}
+
+/* A chain runs the way of its least edge, so that it does not turn round from one frame to the next. */
+static void orient(chainer *c)
+{
+    size_t least = 0;
+    for (size_t i = 1; i < c->path_count; i++)
+        if (c->lines->lines[c->path[i] / 2].id < c->lines->lines[c->path[least] / 2].id)
+            least = i;
+    if (!(c->path[least] & 1))
+        return;
+    for (size_t i = 0, k = c->path_count - 1; i <= k && k < c->path_count; i++, k--) {
+        uint32_t other = c->path[i] ^ 1;
+        c->path[i] = c->path[k] ^ 1;
+        c->path[k] = other;
+    }
+}
+
 static double measure(chainer *c)
 {
     double arc = 0;
@@ -286,6 +355,11 @@ static bool rotate(chainer *c)
         return true;
     if (!mem_grow((void **)&c->rotated, &c->rotated_capacity, c->point_count, sizeof *c->rotated))
         return false;
+    double length = measure(c);
+    for (size_t i = 0; i < c->mark_count; i++) {
+        double arc = c->marks[i].arc - c->points[first].arc;
+        c->marks[i].arc = (float)(arc < 0 ? arc + length : arc);
+    }
     memcpy(c->rotated, c->points + first, (count - first) * sizeof *c->points);
     memcpy(c->rotated + count - first, c->points, first * sizeof *c->points);
     memcpy(c->points, c->rotated, count * sizeof *c->points);
@@ -323,13 +397,18 @@ static void calm(chainer *c)
 
 /* --- simplifying --------------------------------------------------------------------------------------------------- */
 
-static double distance_from(const chain_point *p, const chain_point *a, const chain_point *b)
+/* Depth may be off by this many times as much as the place on the page. */
+#define DEPTH_SHARE 0.1
+
+/* By how much a point lies off a straight piece, pixels. */
+static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
 {
     double x = b->x - a->x, y = b->y - a->y, length = x * x + y * y;
     double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
     share = share < 0 ? 0 : share > 1 ? 1 : share;
     double away_x = p->x - a->x - share * x, away_y = p->y - a->y - share * y;
-    return sqrt(away_x * away_x + away_y * away_y);
+    double depth = (p->z - a->z - share * (b->z - a->z)) * (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_SHARE;
+    return sqrt(away_x * away_x + away_y * away_y + depth * depth);
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */
@@ -348,7 +427,7 @@ static bool simplify(chainer *c, size_t begin, size_t end)
         size_t last = c->stack[--depth], first = c->stack[--depth], worst = 0;
         double most = limit;
         for (size_t i = first + 1; i < last; i++) {
-            double away = distance_from(&c->points[i], &c->points[first], &c->points[last]);
+            double away = distance_from(c, &c->points[i], &c->points[first], &c->points[last]);
             if (away > most) {
                 most = away;
                 worst = i;
@@ -399,7 +478,15 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
         if (!put_stroke(c, s, begin, end))
             return false;
     }
-    c->out->chain_count += c->out->stroke_count > before;
+    if (c->out->stroke_count == before)
+        return true;
+    if (!mem_grow((void **)&c->out->marks, &c->mark_capacity, c->out->mark_count + c->mark_count, sizeof *c->out->marks))
+        return false;
+    for (size_t i = 0; i < c->mark_count; i++) {
+        c->marks[i].chain = s.chain;
+        c->out->marks[c->out->mark_count++] = c->marks[i];
+    }
+    c->out->chain_count++;
     return true;
 }
 
@@ -407,18 +494,17 @@ static bool make_chain(chainer *c, uint32_t line)
 {
     bool closed;
     c->path_count = 0;
-    if (!follow(c, first_of(c, line), &closed) || !put_path(c, closed) || (closed && !rotate(c)))
+    if (!follow(c, first_of(c, line), &closed))
+        return false;
+    orient(c);
+    find_marks(c);
+    if (!put_path(c, closed) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
     if (length < c->wishes->shortest || length <= 0)
         return true;
     calm(c);
-    uint64_t id = UINT64_MAX;
-    for (size_t i = 0; i < c->path_count; i++) {
-        uint64_t own = c->lines->lines[c->path[i] / 2].id;
-        id = own < id ? own : id;
-    }
-    return put_strokes(c, &c->lines->lines[line], id, closed, length);
+    return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
 }
 
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
@@ -426,7 +512,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 {
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
-    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes};
+    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
     bool good = link_ends(&c) && curve_path_open(&c.curve, v, lines, wishes->curve);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)
@@ -434,6 +520,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                 good = make_chain(&c, i);
     mem_free(c.heads);
     mem_free(c.nexts);
+    mem_free(c.partners);
     mem_free(c.used);
     mem_free(c.path);
     mem_free(c.points);
@@ -450,6 +537,7 @@ void stroke_set_release(stroke_set *s)
 {
     mem_free(s->strokes);
     mem_free(s->points);
+    mem_free(s->marks);
     memset(s, 0, sizeof *s);
 }
 
@@ -465,6 +553,10 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
     status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, wishes, error);
+    if (status == LMN_OK)
+        status = strokes_join(out, v, error);
+    if (status != LMN_OK)
+        stroke_set_release(out);
     visibility_release(&seen);
     lines_release(&lines);
     return status;

@@ -204,9 +204,7 @@ static vec3 eye_of(const stroke_view *v)
     return (vec3){(float)e[0], (float)e[1], (float)e[2]};
 }
 
-/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye outside, what faces away lies behind what faces
- * the eye, so that it need not be counted. */
-static uint8_t *find_unseen(const stroke_view *v, size_t index)
+uint8_t *view_unseen(const stroke_view *v, size_t index)
 {
     const stroke_item *item = &v->scene->items[index];
     const edge_mesh *m = &v->scene->meshes[item->mesh];
@@ -320,7 +318,7 @@ static lmn_status fill_view(stroke_view *v, lmn_progress_fn progress, void *user
         if (progress && (i & 63) == 0 && !progress((double)i / (double)s->item_count, "projecting", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while the model was projected");
         else {
-            uint8_t *unseen = find_unseen(v, i);
+            uint8_t *unseen = view_unseen(v, i);
             if (!unseen || !put_faces(v, i, unseen))
                 status = error_memory(error);
             mem_free(unseen);

@@ -47,10 +47,18 @@ typedef struct stroke {
     float        chain_length; /* pixels */
 } stroke;
 
+/* Where on a chain one of its lasting edges begins: what a chain of the next frame is recognised by. */
+typedef struct stroke_mark {
+    uint64_t id;
+    uint32_t chain;
+    float    arc;
+} stroke_mark;
+
 typedef struct stroke_set {
     stroke       *strokes;
     stroke_point *points;
-    size_t        stroke_count, point_count, chain_count;
+    stroke_mark  *marks;   /* in the order of the chains */
+    size_t        stroke_count, point_count, chain_count, mark_count;
     uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
@@ -130,15 +138,18 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
 
 /* What `stroke_verify` found. */
 typedef struct stroke_check {
-    uint64_t samples, wrong;
+    uint64_t samples;
+    uint64_t wrong;      /* visible where it should be hidden, or the other way round */
+    uint64_t miscounted; /* the same or a wrong number of surfaces in front */
 } stroke_check;
-/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample
- * counts as wrong when no place within half a pixel along the stroke has the count that the stroke claims (hidden or not, when `visible_only`). Errors: LMN_MEMORY, LMN_CANCELLED. */
+/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample is wrong when no
+ * place within half a pixel is as the stroke says. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 
-/* Gives strokes of a new frame the phases of those of the frame before: chains that share their id keep what repeats along them where it was on the
- * model; where chains split or merge, the longest one that is known hands over. Seed: nienhaus; peers.md section 5. */
+/* Gives strokes of a new frame the phases of those of the frame before: chains that share an edge keep what repeats along them where it was on the model; where chains split,
+ * each part goes on, and where they merge, the longest one hands over. Without memory left everything stays as it is. After Kalnins and others 2003 (coherent stylized silhouettes), in the
+ * simplest form: one offset a chain. */
 void stroke_follow(stroke_set *now, const stroke_set *before);
 
 #endif

@@ -99,6 +99,9 @@ bool   view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
 double3 item_place(const stroke_item *item, vec3 p);
 double view_depth(const stroke_view *v, double z); /* eye depth */
 double view_tolerance(const stroke_view *v, double z); /* of z */
+/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye outside, what faces away lies behind what faces the eye, so
+ * that it need not be counted. Free with mem_free; NULL when memory is gone. */
+uint8_t *view_unseen(const stroke_view *v, size_t item);
 static inline bool view_is_front(const stroke_view *v, uint32_t face)
 {
     return v->fronts[face >> 3] >> (face & 7) & 1;
@@ -186,5 +189,9 @@ void       lines_release(view_lines *l);
 /* --- chains.c --- */
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
                        lmn_error *error);
+
+/* --- join.c --- */
+/* Joins strokes of one kind whose ends almost touch. */
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
 
 #endif

@@ -1,0 +1,255 @@
+/* Strokes held against rays: places of strokes are looked at along straight lines from the eye through the triangles as they stand in the world, by other arithmetic than
+ * that which found them (no window, no grid, no whole numbers). */
+#include "stroke/stroke_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* A place counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what they belong to. */
+static const double near_by[] = {0, 0.25, 0.5};
+enum { DIRECTIONS = 8, RINGS = 3, STACK = 128, TICK = 4096 };
+
+typedef struct ray {
+    double3 from, along; /* `along` is a unit vector */
+    double  until;       /* distance of the place that is looked at */
+    double  near;        /* surfaces that pass it at less than this are as good as at the place: half a pixel */
+} ray;
+
+/* Surfaces in front: those that are so beyond doubt, and all. */
+typedef struct ray_count {
+    uint32_t sure, all;
+} ray_count;
+
+typedef struct verifier {
+    const stroke_view *v;
+    hierarchy          tree;
+    box3              *boxes;      /* per face of all items */
+    double3          (*corners)[3];
+    uint8_t           *unseen;     /* per face: as view_unseen says of its piece */
+    mat4               to_world;   /* from eye space */
+    double             half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
+} verifier;
+
+static double3 minus(double3 a, double3 b)
+{
+    return (double3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static double3 cross(double3 a, double3 b)
+{
+    return (double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static double dot(double3 a, double3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* --- preparation --------------------------------------------------------------------------------------------------- */
+
+static void load_item(verifier *w, size_t index, const uint8_t *unseen)
+{
+    const stroke_view *v = w->v;
+    const stroke_item *item = &v->scene->items[index];
+    const edge_mesh *m = &v->scene->meshes[item->mesh];
+    for (uint32_t f = 0; f < m->face_count; f++) {
+        uint32_t face = v->items[index].first_face + f;
+        box3 box = box3_empty();
+        for (int k = 0; k < 3; k++) {
+            double3 p = item_place(item, m->places[m->faces[f][k]]);
+            w->corners[face][k] = p;
+            box = box3_with_point(box, (vec3){nextafterf((float)p.x, -INFINITY), nextafterf((float)p.y, -INFINITY), nextafterf((float)p.z, -INFINITY)});
+            box = box3_with_point(box, (vec3){nextafterf((float)p.x, INFINITY), nextafterf((float)p.y, INFINITY), nextafterf((float)p.z, INFINITY)});
+        }
+        w->boxes[face] = box;
+        w->unseen[face] = unseen[m->pieces[f]];
+    }
+}
+
+/* The view matrix turns and moves: its inverse is its transpose. */
+static mat4 inverse_view(const mat4 *view)
+{
+    const double *m = view->m;
+    mat4 out = mat4_identity();
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++)
+            out.m[4 * c + r] = m[4 * r + c];
+        out.m[12 + r] = -(m[4 * r] * m[12] + m[4 * r + 1] * m[13] + m[4 * r + 2] * m[14]);
+    }
+    return out;
+}
+
+static void release(verifier *w)
+{
+    hierarchy_release(&w->tree);
+    mem_free(w->boxes);
+    mem_free(w->corners);
+    mem_free(w->unseen);
+}
+
+static lmn_status prepare(verifier *w, lmn_error *error)
+{
+    const stroke_view *v = w->v;
+    w->boxes = mem_alloc(((size_t)v->face_count + 1) * sizeof *w->boxes);
+    w->corners = mem_alloc(((size_t)v->face_count + 1) * sizeof *w->corners);
+    w->unseen = mem_alloc((size_t)v->face_count + 1);
+    lmn_status status = w->boxes && w->corners && w->unseen ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
+        uint8_t *unseen = view_unseen(v, i);
+        if (unseen)
+            load_item(w, i, unseen);
+        else
+            status = error_memory(error);
+        mem_free(unseen);
+    }
+    if (status == LMN_OK)
+        status = hierarchy_build(&w->tree, w->boxes, NULL, v->face_count, error);
+    w->to_world = inverse_view(&v->camera.view);
+    w->half_width = 1 / v->camera.projection.m[0];
+    w->half_height = 1 / v->camera.projection.m[5];
+    return status;
+}
+
+/* --- rays ---------------------------------------------------------------------------------------------------------- */
+
+static double3 place_of(const verifier *w, double x, double y, double z)
+{
+    const double *m = w->to_world.m;
+    return (double3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13], m[2] * x + m[6] * y + m[10] * z + m[14]};
+}
+
+/* The line from the eye (parallel: from far before it) to the place at a depth behind a place of the page. */
+static ray ray_to(const verifier *w, double x, double y, double depth)
+{
+    const stroke_camera *c = &w->v->camera;
+    double right = (2 * x / c->width - 1 + (c->orthographic ? -c->projection.m[12] : c->projection.m[8])) * w->half_width;
+    double up = (1 - 2 * y / c->height + (c->orthographic ? -c->projection.m[13] : c->projection.m[9])) * w->half_height;
+    double3 to, from;
+    if (c->orthographic) {
+        to = place_of(w, right, up, -depth);
+        from = place_of(w, right, up, -depth + 4 * w->v->scene->extent);
+    } else {
+        to = place_of(w, right * depth, up * depth, -depth);
+        from = place_of(w, right * c->near, up * c->near, -c->near);
+    }
+    double3 along = minus(to, from);
+    double length = sqrt(dot(along, along)), share = length > 0 ? 1 / length : 0;
+    double pixel = 2 * w->half_height / c->height * (c->orthographic ? 1 : depth);
+    return (ray){from, {along.x * share, along.y * share, along.z * share}, length, 0.5 * pixel};
+}
+
+static bool passes(const box3 *b, const ray *r)
+{
+    const double low[3] = {b->min.x, b->min.y, b->min.z}, high[3] = {b->max.x, b->max.y, b->max.z};
+    const double from[3] = {r->from.x, r->from.y, r->from.z}, along[3] = {r->along.x, r->along.y, r->along.z};
+    double enter = 0, leave = r->until;
+    for (int k = 0; k < 3; k++) {
+        if (along[k] == 0) {
+            if (from[k] < low[k] || from[k] > high[k])
+                return false;
+            continue;
+        }
+        double a = (low[k] - from[k]) / along[k], b2 = (high[k] - from[k]) / along[k];
+        enter = fmax(enter, fmin(a, b2));
+        leave = fmin(leave, fmax(a, b2));
+    }
+    return enter <= leave;
+}
+
+/* Möller and Trumbore's test. Counts the face when it lies in front of the ray's end. */
+static void count_face(const verifier *w, uint32_t face, const ray *r, ray_count *out)
+{
+    const double3 *p = w->corners[face];
+    double3 a = minus(p[1], p[0]), b = minus(p[2], p[0]), h = cross(r->along, b), normal = cross(a, b);
+    double det = dot(a, h);
+    if (det == 0 || w->unseen[face] == (det > 0 ? 2 : 1))
+        return;
+    double3 s = minus(r->from, p[0]), q = cross(s, a);
+    double u = dot(s, h) / det, v = dot(r->along, q) / det, t = dot(b, q) / det;
+    if (u < 0 || v < 0 || u + v > 1 || t < 0 || t >= r->until)
+        return;
+    out->all++;
+    out->sure += (r->until - t) * fabs(dot(r->along, normal)) > r->near * sqrt(dot(normal, normal));
+}
+
+static ray_count count_in_front(const verifier *w, const ray *r)
+{
+    uint32_t stack[STACK], depth = 0;
+    ray_count count = {0, 0};
+    if (w->tree.node_count)
+        stack[depth++] = 0;
+    while (depth > 0) {
+        const hierarchy_node *n = &w->tree.nodes[stack[--depth]];
+        if (!passes(&n->box, r))
+            continue;
+        for (uint32_t i = 0; i < n->count; i++)
+            count_face(w, w->tree.members[n->first + i], r, &count);
+        if (n->count == 0 && depth + 2 <= STACK) {
+            stack[depth++] = n->first;
+            stack[depth++] = n->first + 1;
+        }
+    }
+    return count;
+}
+
+/* --- strokes ------------------------------------------------------------------------------------------------------- */
+
+static void check_place(const verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
+{
+    bool right = false, counted = false;
+    for (int ring = 0; ring < RINGS && !counted; ring++)
+        for (int k = 0; k < (ring ? DIRECTIONS : 1) && !counted; k++) {
+            double turn = 2 * 3.14159265358979323846 * k / DIRECTIONS;
+            ray r = ray_to(w, x + near_by[ring] * cos(turn), y + near_by[ring] * sin(turn), depth);
+            ray_count count = count_in_front(w, &r);
+            right = right || (s->hidden_by ? count.all > 0 : count.sure == 0);
+            counted = count.sure <= s->hidden_by && s->hidden_by <= count.all;
+        }
+    out->samples++;
+    out->wrong += !right;
+    out->miscounted += !counted;
+}
+
+/* Depth runs evenly along the page in parallel projection, its inverse in perspective. */
+static double depth_between(const stroke_view *v, const stroke_point *p, const stroke_point *q, double share)
+{
+    if (v->camera.orthographic)
+        return p->depth + share * (q->depth - p->depth);
+    return 1 / (1 / p->depth + share * (1 / q->depth - 1 / p->depth));
+}
+
+static void check_stroke(const verifier *w, const stroke_set *set, const stroke *s, double apart, stroke_check *out)
+{
+    double next = apart / 2; /* along the stroke */
+    double done = 0;
+    for (uint32_t i = 0; i + 1 < s->count; i++) {
+        const stroke_point *p = &set->points[s->first + i], *q = p + 1;
+        double length = hypot((double)q->x - p->x, (double)q->y - p->y);
+        for (; next < done + length; next += apart) {
+            double share = (next - done) / length;
+            check_place(w, s, p->x + share * (q->x - p->x), p->y + share * (q->y - p->y), depth_between(w->v, p, q, share), out);
+        }
+        done += length;
+    }
+}
+
+lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
+                         lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    verifier w = {.v = v};
+    lmn_status status = prepare(&w, error);
+    uint64_t told = 0;
+    for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++) {
+        check_stroke(&w, set, &set->strokes[i], apart > 0 ? apart : 1, out);
+        if (progress && out->samples >= told + TICK) {
+            told = out->samples;
+            if (!progress((double)i / (double)set->stroke_count, "verifying", user))
+                status = error_set(error, LMN_CANCELLED, "cancelled while strokes were verified");
+        }
+    }
+    release(&w);
+    return status;
+}
