@@ -25,8 +25,7 @@ typedef struct collector {
     uint8_t             *outline; /* per edge of a refined mesh: the silhouette that was propagated runs along it */
 } collector;
 
-/* Numbers that differ for different lines and stay from view to view. */
-static uint64_t mix(uint64_t a, uint64_t b)
+uint64_t line_id(uint64_t a, uint64_t b)
 {
     uint64_t h = a * UINT64_C(0x9E3779B97F4A7C15) + b;
     h = (h ^ h >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -34,9 +33,8 @@ static uint64_t mix(uint64_t a, uint64_t b)
     return h ^ h >> 31;
 }
 
-static bool put_line(collector *c, view_line line, window_segment segment)
+static bool put_line(view_lines *out, view_line line, window_segment segment)
 {
-    view_lines *out = c->out;
     if (!mem_grow((void **)&out->lines, &out->capacity, out->count + 1, sizeof *out->lines) ||
         !mem_grow((void **)&out->segments, &out->segment_capacity, out->count + 1, sizeof *out->segments))
         return false;
@@ -57,10 +55,8 @@ static double3 between(double3 a, double3 b, double share)
     return (double3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-/* A line of the world that may reach beyond the window: what is left of it. Ends that are cut off get numbers of their own. */
-static bool put_world_line(collector *c, view_line line, double3 a, double3 b, const uint32_t faces[2])
+bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2])
 {
-    const stroke_view *v = c->v;
     double cut[2];
     if (!view_clip_line(v, a, b, cut))
         return true;
@@ -71,9 +67,9 @@ static bool put_world_line(collector *c, view_line line, double3 a, double3 b, c
         if (!view_place(v, between(a, b, share), k ? &s.b : &s.a))
             return true;
         if (!whole)
-            line.ends[k] = c->out->end_count++;
+            line.ends[k] = out->end_count++;
     }
-    return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
+    return !is_near_page(v, s.a, s.b) || put_line(out, line, s);
 }
 
 /* --- edges --------------------------------------------------------------------------------------------------------- */
@@ -108,9 +104,9 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     if (v->outside[a] & v->outside[b])
         return true;
     if (v->outside[a] | v->outside[b])
-        return put_world_line(c, line, item_place(item, m->places[e->vertex[0]]), item_place(item, m->places[e->vertex[1]]), faces);
-    window_segment s = {v->points[a], v->points[b], {a, b}, {faces[0], faces[1]}};
-    return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
+        return lines_put(c->out, v, line, item_place(item, m->places[e->vertex[0]]), item_place(item, m->places[e->vertex[1]]), faces);
+    window_segment s = {.a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}};
+    return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
 }
 
 typedef struct front_test {
@@ -154,7 +150,7 @@ static bool collect_edges(collector *c, uint32_t index)
         stroke_class kind = class_of(c, &m->edges[i], first_face);
         if (kind == STROKE_CONTOUR && c->outline && !c->outline[i] && !(m->edges[i].flags & EDGE_CREASE))
             continue;
-        if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], mix((uint64_t)index << 32 | item->part_index, i), kind))
+        if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], line_id((uint64_t)index << 32 | item->part_index, i), kind))
             return false;
     }
     return true;
@@ -167,7 +163,7 @@ static bool number_place(collector *c, double3 p, uint32_t *out)
 {
     uint64_t bits[3];
     memcpy(bits, &p, sizeof bits);
-    size_t slot = mix(mix(bits[0], bits[1]), bits[2]) & c->slot_mask;
+    size_t slot = line_id(line_id(bits[0], bits[1]), bits[2]) & c->slot_mask;
     while (c->slots[slot] != NO_VERTEX) {
         if (memcmp(&c->places[c->slots[slot]], &p, sizeof p) == 0) {
             *out = c->v->vertex_count + c->slots[slot];
@@ -211,8 +207,8 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
         if (c->parts && !c->parts[item->part_index] && !c->parts[v->scene->items[x->items[1]].part_index])
             continue;
         const uint32_t faces[2] = {v->items[x->items[0]].first_face + x->faces[0], v->items[x->items[1]].first_face + x->faces[1]};
-        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, mix((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), {1, 1}, false};
-        good = numbers[i][0] == numbers[i][1] || put_world_line(c, line, x->ends[0], x->ends[1], faces);
+        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, line_id((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), {1, 1}, false};
+        good = numbers[i][0] == numbers[i][1] || lines_put(c->out, v, line, x->ends[0], x->ends[1], faces);
     }
     mem_free(numbers);
     return good;
@@ -245,6 +241,8 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wis
         if (status == LMN_OK && !collect_edges(&c, i))
             status = error_memory(error);
     }
+    if (status == LMN_OK)
+        status = form_collect(out, v, wishes, parts, progress, user, error);
     mem_free(c.outline);
     mem_free(c.places);
     mem_free(c.slots);
@@ -257,5 +255,6 @@ void lines_release(view_lines *l)
 {
     mem_free(l->lines);
     mem_free(l->segments);
+    mem_free(l->ignored);
     memset(l, 0, sizeof *l);
 }

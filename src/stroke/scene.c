@@ -150,6 +150,7 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene
 
 void stroke_scene_release(stroke_scene *s)
 {
+    form_surfaces_destroy(s);
     for (size_t i = 0; i < s->mesh_count; i++)
         edge_mesh_release(&s->meshes[i]);
     if (s->crossings)

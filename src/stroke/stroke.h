@@ -75,6 +75,7 @@ typedef struct stroke_item {
 typedef struct crossing_list crossing_list;
 
 typedef struct stroke_scene {
+    struct form_surface *surfaces; /* per mesh, how it bends; NULL: not asked for yet */
     crossing_list *crossings; /* where pieces run through each other; NULL: not asked for yet */
     edge_mesh   *meshes;
     size_t       mesh_count;
@@ -93,6 +94,9 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
+/* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT,
+ * LMN_CANCELLED. */
+lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
