@@ -18,6 +18,10 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     if(folder STREQUAL halftone)
       target_link_libraries(limner_${folder} PRIVATE PkgConfig::XML)
     endif()
+    # Only what writes PDF sees the libraries for it.
+    if(folder STREQUAL export)
+      target_link_libraries(limner_${folder} PRIVATE PkgConfig::CAIRO PkgConfig::PANGO)
+    endif()
     # Only what makes shapes sees the libraries for them.
     if(folder STREQUAL construct)
       target_link_libraries(limner_${folder} PRIVATE ${LIMNER_SHAPE_LIBRARIES})
@@ -54,7 +58,7 @@ target_link_libraries(limner PRIVATE limner_embedded)
 list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 
 set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
-    PkgConfig::ASSIMP PkgConfig::GLU PkgConfig::XML ${LIMNER_SHAPE_LIBRARIES} ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
+    PkgConfig::ASSIMP PkgConfig::GLU PkgConfig::XML ${LIMNER_SHAPE_LIBRARIES} PkgConfig::CAIRO PkgConfig::PANGO ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)
 set_target_properties(limner PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)

@@ -9,7 +9,8 @@ packages=(build-essential cmake ninja-build pkg-config
           libpng-dev libjpeg-dev libwebp-dev libdeflate-dev libglu1-mesa-dev
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
           libxml2-dev
-          libcmocka-dev)
+          libcairo2-dev libpango1.0-dev
+          libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev)
 
 if ! command -v dpkg-query > /dev/null; then
     echo "This is no Debian system; install what docs/DEPENDENCIES.md lists, then run this again." >&2

@@ -10,18 +10,21 @@
 
 typedef struct draw_values {
     const char   *output, *format, *look, *select, *cut, *camera, *frames, *background, *maps, *report;
+    const char   *page, *scale, *unit, *views, *title;
     word_list     sets;
     option_size   size;
     option_vector eye, target, up;
     option_number fov, fit, time, seed, samples;
-    int           view, up_axis;
-    bool          orthographic, quiet, verbose;
+    int           view, up_axis, angle;
+    bool          orthographic, quiet, verbose, frame, plotter, fill, verify;
 } draw_values;
 
 static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
 
-/* The endings that lmn_drawing_write knows; asked before the work, not after it. */
-static const char *const formats[] = {".png"};
+static const char *const angles[] = {"third", "first", NULL};
+
+/* The endings that lmn_drawing_write and lmn_sheet_write know; asked before the work, not after it. */
+static const char *const formats[] = {".png", ".svg", ".pdf", ".dxf"};
 
 #define AT(field) offsetof(draw_values, field)
 
@@ -29,7 +32,7 @@ static const option options[] = {
     {"output", 'o', OPTION_TEXT, AT(output), "OUT",
      "Picture to write; its ending is the format. {name} gives one picture for each INPUT, {frame} is the frame's number, - is "
      "standard output. Default: the first INPUT's stem and .png."},
-    {"format", 0, OPTION_TEXT, AT(format), "FORMAT", "Format whatever the ending: png."},
+    {"format", 0, OPTION_TEXT, AT(format), "FORMAT", "Format whatever the ending: png, or as vectors svg, pdf or dxf."},
     {"look", 'l', OPTION_TEXT, AT(look), "NAME|FILE", "Look: one of `limner looks`, or a file. Default: edges."},
     {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
@@ -52,6 +55,16 @@ static const option options[] = {
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
+    {"page", 0, OPTION_TEXT, AT(page), "PAGE", "Of vector drawings: A4, A3-landscape, letter or 210x120mm. Default: the picture's size at 96 pixels an inch."},
+    {"scale", 0, OPTION_TEXT, AT(scale), "PAPER:MODEL", "Of vector drawings, in parallel projection: 1:20, 2:1. Default: as large as fits."},
+    {"unit", 0, OPTION_TEXT, AT(unit), "UNIT", "Of the model, for scales: mm, cm, m or in. Default: the format's (glTF metres, others millimetres)."},
+    {"views", 0, OPTION_TEXT, AT(views), "VIEW,VIEW…", "Of vector drawings: several views on one sheet, aligned and at one scale, for example front,top,right,iso."},
+    {"projection", 0, OPTION_CHOICE, AT(angle), "third|first", "How --views lie: in third angle the top view is above, in first angle below. Default: third.", .choices = angles},
+    {"title", 0, OPTION_TEXT, AT(title), "TEXT", "Title of a vector drawing."},
+    {"frame", 0, OPTION_FLAG, AT(frame), NULL, "Frame and title block around a vector drawing; its scale is one of the usual ones."},
+    {"plotter", 0, OPTION_FLAG, AT(plotter), NULL, "Vector drawings of lines alone, pen by pen, in an order that makes the pen's way short."},
+    {"fill", 0, OPTION_FLAG, AT(fill), NULL, "Fill parts of vector drawings with their colour instead of a picture below the lines."},
+    {"verify", 0, OPTION_FLAG, AT(verify), NULL, "Check the visibility of a vector drawing's lines by casting rays; the report has the result."},
     {"aov", 0, OPTION_TEXT, AT(maps), "DIR", "Write depth, normal, id, edge and shade maps into this folder, of sketches the field of uncertainty, too."},
     {"report", 0, OPTION_TEXT, AT(report), "FILE|-", "Write what was drawn as JSON."},
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No warnings and no progress."},
@@ -72,6 +85,8 @@ typedef struct session {
     lmn_look          *look;
     lmn_renderer      *renderer;
     lmn_draw_desc      desc;
+    char               ending[16]; /* of the format, ".svg"; empty: the path's */
+    bool               vectors;
     progress           progress;
 } session;
 
@@ -104,24 +119,56 @@ static bool knows_format(const char *ending)
     return false;
 }
 
-static int check_format(const draw_values *v)
+/* The format: given, or the ending of the output. */
+static void find_format(session *s)
 {
-    char ending[16] = "";
-    const char *dot = v->output ? strrchr(v->output, '.') : NULL, *given = v->format;
-    if (given)
-        snprintf(ending, sizeof ending, "%s%s", *given == '.' ? "" : ".", given);
+    const draw_values *v = s->values;
+    const char *dot = v->output ? strrchr(v->output, '.') : NULL;
+    if (v->format)
+        snprintf(s->ending, sizeof s->ending, "%s%s", *v->format == '.' ? "" : ".", v->format);
     else if (!v->output || strcmp(v->output, "-") == 0)
-        return EXIT_DONE;
+        snprintf(s->ending, sizeof s->ending, ".png");
     else if (dot && !strchr(dot, '/'))
-        snprintf(ending, sizeof ending, "%s", dot);
-    for (char *c = ending; *c; c++)
+        snprintf(s->ending, sizeof s->ending, "%s", dot);
+    for (char *c = s->ending; *c; c++)
         *c = (char)tolower((unsigned char)*c);
-    if (knows_format(ending))
+    s->vectors = knows_format(s->ending) && strcmp(s->ending, ".png") != 0;
+}
+
+static int check_format(const session *s)
+{
+    const draw_values *v = s->values;
+    if (knows_format(s->ending))
         return EXIT_DONE;
-    if (given)
-        return message_usage("the format is png", "--format is '%s'; there is no such format", given);
-    return message_usage("the ending says the format: .png; --format says it whatever the ending",
-                         "%s: cannot tell the format from '%s'", v->output, *ending ? ending : v->output);
+    if (v->format)
+        return message_usage("the format is png, svg, pdf or dxf", "--format is '%s'; there is no such format", v->format);
+    return message_usage("the ending says the format: .png, .svg, .pdf or .dxf; --format says it whatever the ending",
+                         "%s: cannot tell the format from '%s'", v->output, *s->ending ? s->ending : v->output);
+}
+
+/* Options of one kind of drawing that the other has not. */
+static int check_vectors(const session *s)
+{
+    const draw_values *v = s->values;
+    const struct {
+        const char *name;
+        bool        given;
+    } sheet_only[] = {{"page", v->page != NULL}, {"scale", v->scale != NULL}, {"unit", v->unit != NULL}, {"views", v->views != NULL}, {"projection", v->angle >= 0},
+                      {"title", v->title != NULL}, {"frame", v->frame}, {"plotter", v->plotter}, {"fill", v->fill}, {"verify", v->verify}};
+    for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->vectors; i++)
+        if (sheet_only[i].given)
+            return message_usage("for example -o drawing.svg", "--%s goes with vector drawings: .svg, .pdf or .dxf", sheet_only[i].name);
+    if (s->vectors && v->maps)
+        return message_usage("draw a .png for them", "--aov goes with pictures");
+    if (v->views && (v->view >= 0 || v->eye.given || v->camera))
+        return message_usage(NULL, "--views excludes --view, --eye and --camera");
+    if (v->views && v->fov.given)
+        return message_usage(NULL, "--views are in parallel projection; they have no --fov");
+    if (v->scale && v->fov.given)
+        return message_usage(NULL, "--scale is for parallel projection; it excludes --fov");
+    if (v->page && v->size.given)
+        return message_usage(NULL, "--page and --size exclude each other");
+    return EXIT_DONE;
 }
 
 static int check_samples(const option_number *samples)
@@ -161,7 +208,9 @@ static int check_output(const session *s, const word_list *inputs)
     unsigned long same = name_has_name(v->output) ? name_find_same_stem(inputs->items, inputs->count) : 0;
     if (same)
         return message_usage("draw them in two runs, or rename one", "%s: another input has the same {name}", inputs->items[same]);
-    int status = check_format(v);
+    int status = check_format(s);
+    if (status == EXIT_DONE)
+        status = check_vectors(s);
     if (status == EXIT_DONE)
         status = check_side_name(s, "report", v->report);
     return status == EXIT_DONE ? check_side_name(s, "aov", v->maps) : status;
@@ -254,9 +303,9 @@ static void place_eye(session *s, const lmn_scene *scene)
 /* --- one picture ----------------------------------------------------------------------------------------------- */
 
 /* The library's report knows neither where the picture went nor how long the files took to read. */
-static int store_report(const lmn_drawing *drawing, const char *report, const char *picture, uint64_t bytes, double load_ms)
+static int store_report(char *drawn, const char *report, const char *picture, uint64_t bytes, double load_ms)
 {
-    json_t *json = parse_and_free(lmn_drawing_report_json(drawing));
+    json_t *json = parse_and_free(drawn);
     if (!json)
         return EXIT_INTERNAL;
     json_object_set_new(json, "output", json_pack("{s:s, s:I}", "path", picture, "bytes", (json_int_t)bytes));
@@ -279,38 +328,43 @@ static int store_maps(const lmn_drawing *drawing, const char *folder)
     return lmn_drawing_write_maps(drawing, folder, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
 }
 
+/* A picture or a sheet; one of them is NULL. */
+typedef struct result {
+    lmn_drawing *drawing;
+    lmn_sheet   *sheet;
+} result;
+
 /* What only took longer stands in the report, and here for those who asked for more. */
-static void print_warnings(const lmn_drawing *drawing, bool verbose)
+static void print_warnings(const result *r, bool verbose)
 {
-    for (size_t i = 0; i < lmn_drawing_warning_count(drawing); i++) {
+    size_t count = r->sheet ? lmn_sheet_warning_count(r->sheet) : lmn_drawing_warning_count(r->drawing);
+    for (size_t i = 0; i < count; i++) {
         size_t times = 1;
-        const char *code = NULL, *text = lmn_drawing_warning_at(drawing, i, &code, &times);
+        const char *code = NULL, *text = r->sheet ? lmn_sheet_warning_at(r->sheet, i, &code, &times) : lmn_drawing_warning_at(r->drawing, i, &code, &times);
         if (text && (verbose || strcmp(code, "layer-memory") != 0))
             message_warning(text, times);
     }
 }
 
-static int store_picture(const session *s, const lmn_drawing *drawing, const char *input, long frame, double load_ms)
+static int store_result(const session *s, const result *r, const char *input, long frame, double load_ms)
 {
     const draw_values *v = s->values;
     lmn_error error = {0};
     uint64_t bytes = 0;
-    char format[16] = "";
     int status = EXIT_DONE;
     char *path = name_expand(s->pattern, input, frame), *maps = v->maps ? name_expand(v->maps, input, frame) : NULL;
     char *report = v->report ? name_expand(v->report, input, frame) : NULL;
     if (!path || (v->maps && !maps) || (v->report && !report))
         status = message_out_of_memory();
-    if (v->format)
-        snprintf(format, sizeof format, "%s%s", *v->format == '.' ? "" : ".", v->format);
-    else if (strcmp(s->pattern, "-") == 0)
-        snprintf(format, sizeof format, ".png");
-    if (status == EXIT_DONE && lmn_drawing_write(drawing, path, *format ? format : NULL, &bytes, &error) != LMN_OK)
+    lmn_status stored = LMN_OK;
+    if (status == EXIT_DONE)
+        stored = r->sheet ? lmn_sheet_write(r->sheet, path, s->ending, &bytes, &error) : lmn_drawing_write(r->drawing, path, s->ending, &bytes, &error);
+    if (stored != LMN_OK)
         status = message_error(&error);
     if (status == EXIT_DONE && maps)
-        status = store_maps(drawing, maps);
+        status = store_maps(r->drawing, maps);
     if (status == EXIT_DONE && report)
-        status = store_report(drawing, report, path, bytes, load_ms);
+        status = store_report(r->sheet ? lmn_sheet_report_json(r->sheet) : lmn_drawing_report_json(r->drawing), report, path, bytes, load_ms);
     if (status == EXIT_DONE && v->verbose)
         message_note("wrote %s (%llu bytes)", path, (unsigned long long)bytes);
     free(path);
@@ -319,23 +373,42 @@ static int store_picture(const session *s, const lmn_drawing *drawing, const cha
     return status;
 }
 
+static lmn_status draw_sheet(session *s, const lmn_scene *scene, lmn_sheet **out, lmn_error *error)
+{
+    const draw_values *v = s->values;
+    lmn_sheet_desc d = LMN_SHEET_DESC_INIT;
+    d.page = v->page;
+    d.scale = v->scale;
+    d.unit = v->unit;
+    d.views = v->views;
+    d.angle = v->angle == 1 ? LMN_FIRST_ANGLE : LMN_THIRD_ANGLE;
+    d.title = v->title;
+    d.frame = v->frame;
+    d.plotter = v->plotter;
+    d.lines_only = strcmp(s->ending, ".dxf") == 0;
+    d.fill = v->fill && !d.lines_only;
+    d.verify = v->verify;
+    return lmn_draw_sheet(out, s->renderer, scene, s->look, &s->desc, &d, error);
+}
+
 static int draw_picture(session *s, const lmn_scene *scene, const char *input, long frame, double load_ms)
 {
     lmn_error error = {0};
-    lmn_drawing *drawing = NULL;
+    result drawn = {NULL, NULL};
     double start = now_ms();
     if (s->frames.given)
         s->desc.time_s = (double)frame / s->frames.rate;
-    lmn_status drawn = lmn_draw(&drawing, s->renderer, scene, s->look, &s->desc, &error);
+    lmn_status done = s->vectors ? draw_sheet(s, scene, &drawn.sheet, &error) : lmn_draw(&drawn.drawing, s->renderer, scene, s->look, &s->desc, &error);
     progress_erase(&s->progress);
-    if (drawn != LMN_OK)
+    if (done != LMN_OK)
         return message_error(&error);
     if (s->values->verbose)
         message_note("%s: drawn in %.0f ms", input, now_ms() - start);
     if (!s->values->quiet)
-        print_warnings(drawing, s->values->verbose);
-    int status = store_picture(s, drawing, input, frame, load_ms);
-    lmn_drawing_destroy(&drawing);
+        print_warnings(&drawn, s->values->verbose);
+    int status = store_result(s, &drawn, input, frame, load_ms);
+    lmn_drawing_destroy(&drawn.drawing);
+    lmn_sheet_destroy(&drawn.sheet);
     return status;
 }
 
@@ -362,8 +435,9 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
     double load_ms = now_ms() - start;
     if (s->values->verbose)
         message_note("%s: read in %.0f ms", paths[0], load_ms);
+    bool pixels = !s->vectors || (lmn_look_needs_pixels(s->look) && !s->values->plotter && !s->values->fill && strcmp(s->ending, ".dxf") != 0);
     /* Made when first needed, so that a missing input is told even where there is no OpenGL, and kept for the rest. */
-    if (!s->renderer) {
+    if (!s->renderer && pixels) {
         lmn_error error = {0};
         lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
         if (lmn_renderer_create(&s->renderer, &desc, &error) != LMN_OK)
@@ -391,6 +465,7 @@ static int run(const word_list *inputs, const void *values)
 {
     session s = {.values = values};
     const draw_values *v = values;
+    find_format(&s);
     int status = check_camera(v);
     if (status == EXIT_DONE && v->frames)
         status = parse_frames(v->frames, &s.frames);
@@ -398,7 +473,9 @@ static int run(const word_list *inputs, const void *values)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
         status = load_look(&s);
-    s.pattern = v->output ? v->output : s.frames.given ? NAME_PLACE "-" FRAME_PLACE ".png" : NAME_PLACE ".png";
+    char standard[64];
+    snprintf(standard, sizeof standard, "%s%s", s.frames.given ? NAME_PLACE "-" FRAME_PLACE : NAME_PLACE, s.ending);
+    s.pattern = v->output ? v->output : standard;
     progress_begin(&s.progress, v->quiet);
     fill_desc(&s);
     if (status == EXIT_DONE)
@@ -409,7 +486,7 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_draw = {
-    .name = "draw", .inputs = "INPUT…", .summary = "Draw models into a picture.",
+    .name = "draw", .inputs = "INPUT…", .summary = "Draw models into a picture or as vectors.",
     .detail = "Several INPUTs make one scene, unless OUT contains {name}: then one picture each.\n"
               "Exit status: 0 done, 1 wrong argument, 2 wrong input, 3 no OpenGL, 4 output not written, 5 cancelled,\n"
               "6 out of memory or a defect.",

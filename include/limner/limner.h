@@ -6,6 +6,7 @@
 #include "limner/error.h"
 #include "limner/look.h"
 #include "limner/scene.h"
+#include "limner/sheet.h"
 #include "limner/solid.h"
 #include "limner/strokes.h"
 #include "limner/version.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/check_desc.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/limits.h"
@@ -48,7 +49,7 @@ static lmn_status check_range(lmn_error *error, const char *name, double value, 
     return error_set(error, LMN_USAGE, "%s is %g, it must be between %g and %g", name, value, low, high);
 }
 
-static lmn_status check_desc(const lmn_draw_desc *d, lmn_error *error)
+lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
 {
     if (!d || d->struct_size != sizeof *d)
         return error_set(error, LMN_USAGE, "the drawing description was not initialised with LMN_DRAW_DESC_INIT");
@@ -80,7 +81,7 @@ lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *
     *out = NULL;
     if (!renderer || !scene || !look)
         return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
-    lmn_status status = check_desc(desc, error);
+    lmn_status status = check_draw_desc(desc, error);
     return status == LMN_OK ? renderer_draw(out, renderer, scene, look, desc, error) : status;
 }
 
@@ -169,7 +170,7 @@ lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *s
     *out = NULL;
     if (!renderer || !scene)
         return error_set(error, LMN_USAGE, "a renderer and a scene are needed to measure");
-    lmn_status status = check_desc(desc, error);
+    lmn_status status = check_draw_desc(desc, error);
     if (status == LMN_OK)
         status = check_range(error, "the number of repeats", repeat, 1, 10000);
     if (status != LMN_OK)

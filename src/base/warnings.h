@@ -18,6 +18,8 @@
     X(WARNING_CUT_OPEN, "cut-open")               /* parts that are not closed have no cut face */                   \
     X(WARNING_BACKGROUND, "background")           /* what a .csg file marks with % and does not count as the model */ \
     X(WARNING_APPROXIMATE, "approximate")         /* drawn nearly as the file means it */                             \
+    X(WARNING_NO_STROKES, "no-strokes")           /* what has no lines in vector drawings */                          \
+    X(WARNING_PAGE, "page")                       /* what does not fit on a sheet, or is not known for it */          \
     X(WARNING_UNUSED, "unused")                   /* a setting without effect */
 
 typedef enum warning_code {

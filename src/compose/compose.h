@@ -41,7 +41,7 @@ typedef struct layer_style {
 /* What every composition of layers reads, and the passes behind it. */
 #define LAYER_READS                                                                                                               \
     {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NORMAL_DEPTH, \
-     TARGET_UNCERTAINTY, TARGET_OVERSHOOT}
+     TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES}
 /* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the place is. */
 #define NEARER_LINES_PASSES(condition)                                                                                            \
     {.name = "nearer lines across", .shader = "compose/nearer_row.frag", .reads = {TARGET_EDGE}, .writes = TARGET_NEARER_ROW,     \

@@ -5,7 +5,7 @@
 
 static const pass passes[] = {
     {.name = "sprite", .shader = "compose/sprite.frag",
-     .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_DASH, TARGET_GROUND, TARGET_UNCERTAINTY, TARGET_OVERSHOOT}, .writes = TARGET_PAGE,
+     .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_DASH, TARGET_GROUND, TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES}, .writes = TARGET_PAGE,
      .blend = BLEND_OVER, .depth = true},
 };
 

@@ -34,6 +34,10 @@ float neighbour_depth(ivec2 pixel)
 #endif
     int reach = max(int(ceil(extent)), 1);
     float least = 1.0;
+#ifdef HAS_STROKES
+    least = texelFetch(t_strokes, pixel, 0).r;
+    reach = least < 1.0 ? -1 : reach;
+#endif
 #ifdef HAS_OVERSHOOT
     least = overshoot_depth(pixel);
 #endif

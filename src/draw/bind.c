@@ -227,7 +227,7 @@ static const gpu_format formats[TARGET_COUNT] = {
     [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
     [TARGET_DIRECTION] = GPU_RGBA16F,
     [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
-    [TARGET_OUTLINES] = GPU_RGBA16F,
+    [TARGET_OUTLINES] = GPU_RGBA16F,     [TARGET_STROKES] = GPU_DEPTH32F,
 };
 
 gpu_texture *frame_acquire(frame *f, target t)
@@ -389,6 +389,8 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
             text_append(prelude, "#define HAS_DASHES\n");
         else if (reads[i] == TARGET_OVERSHOOT && s->targets[TARGET_OVERSHOOT])
             text_append(prelude, "#define HAS_OVERSHOOT\n");
+        else if (reads[i] == TARGET_STROKES && s->targets[TARGET_STROKES])
+            text_append(prelude, "#define HAS_STROKES\n");
     if (s->targets[TARGET_EDGE_BEFORE])
         text_append(prelude, "#define MAP_OF_BEFORE\n");
     if (s->targets[TARGET_NEARER])

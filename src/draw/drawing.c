@@ -311,12 +311,41 @@ static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
     return gpu_check(s->renderer->g, error);
 }
 
+static bool has_strokes(const rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const technique *t = r->uses[KIND_LINES][i].technique;
+        for (size_t k = 0; k < t->pass_count; k++)
+            if (t->passes[k].strokes)
+                return true;
+    }
+    return false;
+}
+
+/* Strokes know the meshes of parts as they are in the scene. */
+static void note_strokes(const session *s, const upload *up, warnings *notes)
+{
+    bool solids = false, cut = false;
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        const figure *fig = &s->plan.figures[i];
+        bool strokes = has_strokes(fig->rule);
+        for (size_t k = 0; k < s->plan.part_count && strokes; k++)
+            solids = solids || (fig->designated[k] && s->plan.scene->nodes[s->plan.scene->parts[k].node].solid != NONE);
+        cut = cut || (strokes && up->section.cut.cell_count > 0);
+    }
+    if (solids)
+        warnings_add(notes, WARNING_UNUSED, "lines 'strokes' are those of meshes: solids have none; operators like 'discontinuity' draw theirs");
+    if (cut)
+        warnings_add(notes, WARNING_UNUSED, "lines 'strokes' are those of whole parts: what a section takes away is drawn too; operators like 'discontinuity' draw what is left");
+}
+
 /* What could not be drawn as it was asked for. */
 static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const session *s)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     const upload *up = &r->up;
     bool cut_out = false, spares = false;
+    note_strokes(s, up, &d->warnings);
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
         bool blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;

@@ -29,8 +29,11 @@ int figure_reach(const figure *fig)
 {
     const rule *r = fig->rule;
     float widest = 0;
-    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
-        widest += lengths_of(kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, r->uses[KIND_LINES][i].values);
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const technique_use *use = &r->uses[KIND_LINES][i];
+        widest += lengths_of(kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, use->values);
+        widest += lengths_of(use->technique->params, use->technique->param_count, use->values);
+    }
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
     if (compose && fig->layered)
         widest += lengths_of(compose->technique->params, compose->technique->param_count, compose->values);

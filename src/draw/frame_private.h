@@ -208,6 +208,9 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
 
+/* --- strokes.c: lines with geometry --- */
+void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group);
+
 /* --- paper.c: what the sheet's ink is rubbed onto; nothing where there is no paper --- */
 void paper_declare(text *prelude, const frame *f);
 void paper_set(frame *f);

@@ -56,7 +56,7 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
 /* Gives back what the figures keep of the lines in front. */
 static void forget_lines(frame *f, layer_stack *stack)
 {
-    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH, TARGET_OVERSHOOT,
+    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH, TARGET_OVERSHOOT, TARGET_STROKES,
                                  TARGET_OUTLINES, TARGET_ENLARGED, TARGET_TRACES, TARGET_TRACES_ROW, TARGET_UNCERTAINTY, TARGET_FIELD};
     for (int i = 0; i < stack->count; i++)
         for (size_t k = 0; k < sizeof own / sizeof *own; k++) {

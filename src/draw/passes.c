@@ -227,15 +227,17 @@ static bool is_due(const frame *f, const pass *p, bool before)
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
 {
     const technique *t = use->technique;
-    if (id == KIND_LINES) /* each line technique has dashes of its own, or none */
+    if (id == KIND_LINES) { /* each line technique has dashes of its own, or none */
         forget(f, s, TARGET_DASH);
+        forget(f, s, TARGET_STROKES);
+    }
     pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
     const technique_use *lines = rule_inked_lines(s->figure->rule);
     if (id == KIND_COMPOSE && lines) {
         params.sets[params.count++] = use_common_set(KIND_LINES, lines);
         params.merged = rule_merged_detection(s->figure->rule);
-        if (params.merged)
+        if (params.merged || lines->technique->own_ink)
             params.sets[params.count++] = use_own_set(KIND_LINES, lines);
     }
     const technique_use *perturb = rule_use(s->figure->rule, KIND_PERTURB);
@@ -247,7 +249,9 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         const pass *p = &t->passes[i];
         if (!pass_applies(id, p, use) || !is_due(f, p, before))
             continue;
-        if (p->geometry)
+        if (p->strokes)
+            strokes_run(f, s, p, use, kinds[id]->name);
+        else if (p->geometry)
             run_geometry(f, s, p, use, kinds[id]->name);
         else if (p->process)
             run_process(f, s, p, use, kinds[id]->name);
@@ -261,6 +265,8 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
 static void fold_lines(frame *f, figure_state *s, kind_id id, const technique_use *use)
 {
     pass_params params = {.sets = {use_common_set(id, use)}, .count = 1};
+    if (use->technique->own_ink)
+        params.sets[params.count++] = use_own_set(id, use);
     run_pass(f, s, kinds[id]->fold, &params, kinds[id]->name, 0);
 }
 

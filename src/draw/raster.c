@@ -138,7 +138,7 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     const pass *merged = rule_merged_detection(s->figure->rule);
     uniforms_declare(prelude, use_common_set(KIND_LINES, lines));
     text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
-    if (merged)
+    if (merged || lines->technique->own_ink)
         uniforms_declare(prelude, use_own_set(KIND_LINES, lines));
     reads_declare(prelude, f, s, inking, merged);
     char joined[320];

@@ -5,6 +5,7 @@
 
 #include "base/limits.h"
 #include "draw/drawing.h"
+#include "draw/report_json.h"
 #include "limner/version.h"
 
 static json_t *numbers(const double *values, size_t count)
@@ -15,7 +16,7 @@ static json_t *numbers(const double *values, size_t count)
     return array;
 }
 
-static json_t *box_json(box3 b)
+json_t *report_box_json(box3 b)
 {
     if (box3_is_empty(b))
         b = (box3){{0, 0, 0}, {0, 0, 0}};
@@ -23,7 +24,7 @@ static json_t *box_json(box3 b)
     return json_pack("{s:o, s:o}", "min", numbers(low, 3), "max", numbers(high, 3));
 }
 
-static json_t *camera_json(const view_camera *c)
+json_t *report_camera_json(const view_camera *c)
 {
     json_t *out = json_object();
     json_object_set_new(out, "eye", numbers(c->eye, 3));
@@ -57,7 +58,7 @@ static json_t *parts_json(const lmn_drawing *d)
     return array;
 }
 
-static json_t *warnings_json(const warnings *list)
+json_t *report_warnings_json(const warnings *list)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < list->count; i++)
@@ -71,7 +72,7 @@ static json_t *gpu_json(const char *vendor, const char *renderer, const char *ve
     return json_pack("{s:s, s:s, s:s}", "vendor", vendor, "renderer", renderer, "version", version);
 }
 
-static char *dumped(json_t *root)
+char *report_dump(json_t *root)
 {
     char *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
     json_decref(root);
@@ -87,8 +88,8 @@ char *drawing_report_json(const lmn_drawing *d)
     json_object_set_new(root, "seed", json_integer((json_int_t)d->seed));
     json_object_set_new(root, "gpu", gpu_json(d->vendor, d->renderer, d->version));
     json_object_set_new(root, "scene", json_pack("{s:I, s:I, s:o}", "parts", (json_int_t)d->part_count, "triangles",
-                                                 (json_int_t)d->triangles, "bounds", box_json(d->bounds)));
-    json_object_set_new(root, "camera", camera_json(&d->camera));
+                                                 (json_int_t)d->triangles, "bounds", report_box_json(d->bounds)));
+    json_object_set_new(root, "camera", report_camera_json(&d->camera));
     json_object_set_new(root, "layers", json_integer(d->layers));
     if (d->producer)
         json_object_set_new(root, "layer_producer", json_string(d->producer));
@@ -98,8 +99,8 @@ char *drawing_report_json(const lmn_drawing *d)
     json_object_set_new(root, "frame_ms", json_real(d->frame_ms));
     json_object_set_new(root, "strokes", json_object());
     json_object_set_new(root, "parts_visible", parts_json(d));
-    json_object_set_new(root, "warnings", warnings_json(&d->warnings));
-    return dumped(root);
+    json_object_set_new(root, "warnings", report_warnings_json(&d->warnings));
+    return report_dump(root);
 }
 
 char *renderer_json(const lmn_renderer *r)
@@ -118,5 +119,5 @@ char *renderer_json(const lmn_renderer *r)
                                   (json_int_t)LIMIT_VERTICES, "triangles", (json_int_t)LIMIT_TRIANGLES, "nodes", (json_int_t)LIMIT_NODES,
                                   "instances", (json_int_t)LIMIT_INSTANCES, "node_depth", LIMIT_NODE_DEPTH, "image_side", LIMIT_IMAGE_SIDE,
                                   "picture_side", LIMIT_PICTURE_SIDE));
-    return dumped(root);
+    return report_dump(root);
 }

@@ -15,7 +15,7 @@ static const char *const target_names[TARGET_COUNT] = {
     [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
     [TARGET_SHADOW] = "t_shadow",             [TARGET_DIRECTION] = "t_direction",
     [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",              [TARGET_OVERSHOOT] = "t_overshoot",
-    [TARGET_OUTLINES] = "t_outlines",
+    [TARGET_OUTLINES] = "t_outlines",         [TARGET_STROKES] = "t_strokes",
 };
 
 const char *target_name(target t)

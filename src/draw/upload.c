@@ -216,6 +216,8 @@ void upload_release(upload *u, gpu *g)
     for (size_t i = 0; i <= u->mesh_count && u->shapes; i++)
         upload_shape_release(&u->shapes[i]);
     gpu_target_release(g, u->part_frames);
+    for (int i = 0; i < 2; i++)
+        stroke_store_destroy(&u->strokes[i], g);
     mem_free(u->part_frame_values);
     gpu_target_release(g, u->operand_table);
     gpu_buffer_release(g, u->program_buffer);

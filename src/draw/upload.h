@@ -3,6 +3,7 @@
 #define LIMNER_DRAW_UPLOAD_H
 
 #include "csg/csg.h"
+#include "draw/strokes.h"
 #include "gpu/gpu.h"
 #include "scene/cut.h"
 #include "technique/technique.h"
@@ -107,6 +108,7 @@ typedef struct upload {
     gpu_texture  *part_frames; /* NULL: not asked for yet */
     float        *part_frame_values; /* what is in it */
     double        frame_origin[3];
+    stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not asked for yet */
     uint64_t      triangles; /* drawn, instances counted */
 } upload;
 

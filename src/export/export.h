@@ -3,6 +3,7 @@
 #define LIMNER_EXPORT_EXPORT_H
 
 #include "base/error.h"
+#include "sheet/sheet.h"
 
 /* Bytes in memory, owned by the caller (mem_free). */
 typedef struct export_bytes {
@@ -18,5 +19,10 @@ lmn_status export_png_grey16(export_bytes *out, const uint16_t *grey, int width,
 lmn_status export_png_raw(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error);
 /* PFM of 1 or 3 floats a pixel, row 0 at the bottom. */
 lmn_status export_pfm(export_bytes *out, const float *values, int channels, int width, int height, lmn_error *error);
+
+/* A sheet as SVG, PDF or DXF (R12, ASCII). The same sheet, the same bytes. Errors: LMN_MEMORY, also where the sheet is not whole; LMN_INTERNAL when the PDF library fails. */
+lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error);
+lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error);
+lmn_status export_dxf(export_bytes *out, const sheet *s, lmn_error *error);
 
 #endif

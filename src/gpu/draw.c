@@ -298,6 +298,14 @@ static void draw_indices(gpu *g, uint32_t first, uint32_t count)
         gpu_finish(g);
 }
 
+void gpu_draw_indices(gpu *g, uint32_t count)
+{
+    uint32_t most = g->facts.software ? SOFTWARE_INDICES_IN_FLIGHT : count;
+    for (uint32_t first = 0; first < count; first += most)
+        draw_indices(g, first, count - first < most ? count - first : most);
+    g->draws++;
+}
+
 void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count)
 {
     if (g->failed || !g->program || !m || !count)
@@ -339,8 +347,5 @@ void gpu_draw_mesh(gpu *g, gpu_mesh *m)
     glBindVertexArray(m->array);
     if (!m->has_colours)
         glVertexAttrib4f(4, 1, 1, 1, 1);
-    uint32_t most = g->facts.software ? SOFTWARE_INDICES_IN_FLIGHT : m->index_count;
-    for (uint32_t first = 0; first < m->index_count; first += most)
-        draw_indices(g, first, m->index_count - first < most ? m->index_count - first : most);
-    g->draws++;
+    gpu_draw_indices(g, m->index_count);
 }

@@ -15,6 +15,7 @@ typedef struct gpu_texture gpu_texture;
 typedef struct gpu_program gpu_program;
 typedef struct gpu_mesh    gpu_mesh;
 typedef struct gpu_buffer  gpu_buffer;
+typedef struct gpu_marks   gpu_marks;
 
 typedef enum gpu_format {
     GPU_R8, GPU_RG8, GPU_RG16F, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_DEPTH32F_STENCIL8, GPU_FORMAT_COUNT
@@ -104,6 +105,15 @@ void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
 bool      gpu_mesh_has_tensors(const gpu_mesh *m);
 
+/* --- marks --------------------------------------------------------------------------------------------------------- */
+
+/* Records drawn as quads: strokes, dots, pieces of lines. A record is `vectors` times four floats, attributes 0 and up, the same in all four
+ * corners of its quad; which one a vertex is, is gl_VertexID & 3. Corners 0 1 2 and 2 1 3 are its triangles. NULL after an error. */
+enum { MARK_VECTORS_MAX = 8 };
+gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t count);
+void       gpu_marks_destroy(gpu *g, gpu_marks **m);
+size_t     gpu_marks_count(const gpu_marks *m);
+
 /* --- storage buffers (only where gpu_facts.lists) ------------------------------------------------------------------ */
 
 /* A buffer of at least this size from a pool; its content is undefined. NULL after an error. */
@@ -183,6 +193,8 @@ void gpu_watch_end(gpu *g);
 bool gpu_watched(gpu *g, int watch);
 /* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
+/* All of the marks, in their order. */
+void gpu_draw_marks(gpu *g, gpu_marks *m);
 /* Draw calls since the context was made. */
 uint64_t gpu_draw_count(const gpu *g);
 

@@ -44,6 +44,11 @@ struct gpu_mesh {
     bool     has_colours, has_tensors;
 };
 
+struct gpu_marks {
+    GLuint array, buffers[2]; /* corners, indices */
+    size_t count;
+};
+
 /* A framebuffer object for one set of attachments. */
 typedef struct framebuffer {
     GLuint       name;
@@ -73,6 +78,8 @@ struct gpu {
 };
 
 void gpu_buffers_trim(gpu *g);
+/* Triangles of the vertex array that is bound, from the first index on; at most as many at once as the driver holds well. */
+void gpu_draw_indices(gpu *g, uint32_t count);
 void gpu_forget_framebuffers(gpu *g, const gpu_texture *t);
 
 #endif

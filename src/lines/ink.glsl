@@ -45,6 +45,11 @@ vec4 ink_of(vec4 edge, vec4 colour, vec4 inner_colour, vec4 id_colour)
     float inner = clamp((1.0 - edge.g) * u_line_inner_weight, 0.0, 1.0) * inner_colour.a;
     float id = clamp((1.0 - edge.a) * u_line_id_weight, 0.0, 1.0) * id_colour.a;
     vec4 ink = vec4(inner_colour.rgb, 1.0) * inner;
+#if defined(HIDDEN) && HIDDEN > 0
+    /* Lines behind surfaces are in the channel of all lines alone, and below the others. */
+    float others = min(edge.r, edge.g), hidden = clamp(1.0 - edge.b / max(others, 1e-3), 0.0, 1.0) * u_line_hidden_colour.a;
+    ink = over(ink, vec4(u_line_hidden_colour.rgb, 1.0) * hidden);
+#endif
     ink = over(vec4(id_colour.rgb, 1.0) * id, ink);
     return over(vec4(colour.rgb, 1.0) * profile, ink);
 }

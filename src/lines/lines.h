@@ -30,6 +30,13 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
 /* Lines wider than this, in pixels, are grown from the detected map. */
 enum { LINES_GROW_FROM = 2 };
 
+/* What contrast-aware lines look at. */
+#define LINES_PASSES_CONTRAST                                                                                         \
+    {.name = "ground", .shader = "lines/ground.frag", .reads = {TARGET_SHADE, TARGET_PAGE},                           \
+     .writes = TARGET_GROUND, .when = "contrast>1"},                                                                  \
+    {.name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,           \
+     .repeat = 2, .when = "contrast>1"}
+
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they grow: thin ones are
  * traced best, and dashes know where lines end. */
 #define LINES_PASSES_BEFORE                                                                                           \
@@ -51,12 +58,9 @@ enum { LINES_GROW_FROM = 2 };
      .stylised = true},                                                                                               \
     {.name = "grow", .shader = "lines/edge/grow.frag", .reads = {TARGET_EDGE}, .writes = TARGET_EDGE,                 \
      .when = "width>2"},                                                                                              \
-    {.name = "ground", .shader = "lines/ground.frag", .reads = {TARGET_SHADE, TARGET_PAGE},                           \
-     .writes = TARGET_GROUND, .when = "contrast>1"},                                                                  \
-    {.name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,           \
-     .repeat = 2, .when = "contrast>1"}
+    LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
-    lines_denormal, lines_id, lines_colour, lines_shadow;
+    lines_denormal, lines_id, lines_colour, lines_shadow, lines_strokes;
 
 #endif

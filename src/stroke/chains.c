@@ -12,6 +12,8 @@
 /* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK -0.7
+/* Lines of form must be longer than others by this factor. */
+#define FORM_SHORTEST 16.0
 enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
@@ -318,14 +320,23 @@ static void find_marks(chainer *c)
     }
 }
 
-/* A chain runs the way of its least edge, so that it does not turn round from one frame to the next. */
+/* Does the chain run against its way? Outlines have what is seen from the front to one side; other chains run the way of their least edge, which stays with them. */
+static bool runs_back(const chainer *c)
+{
+    const view_line *lines = c->lines->lines;
+    size_t least = 0, back = 0;
+    for (size_t i = 0; i < c->path_count; i++) {
+        back += (c->path[i] & 1) != lines[c->path[i] / 2].turned;
+        if (lines[c->path[i] / 2].id < lines[c->path[least] / 2].id)
+            least = i;
+    }
+    return lines[c->path[0] / 2].kind == STROKE_CONTOUR ? 2 * back > c->path_count : c->path[least] & 1;
+}
+
+/* So that chains do not turn round from one frame to the next. */
 static void orient(chainer *c)
 {
-    size_t least = 0;
-    for (size_t i = 1; i < c->path_count; i++)
-        if (c->lines->lines[c->path[i] / 2].id < c->lines->lines[c->path[least] / 2].id)
-            least = i;
-    if (!(c->path[least] & 1))
+    if (!runs_back(c))
         return;
     for (size_t i = 0, k = c->path_count - 1; i <= k && k < c->path_count; i++, k--) {
         uint32_t other = c->path[i] ^ 1;
@@ -343,6 +354,16 @@ static double measure(chainer *c)
         c->points[i].arc = arc;
     }
     return arc;
+}
+
+/* Lines of form that are short for how faint they are say nothing: their visible length, each stretch by its weight. */
+static bool is_crumb(const chainer *c, stroke_class kind)
+{
+    double ink = 0;
+    for (size_t i = 0; i + 1 < c->point_count; i++)
+        if (c->points[i].count == 0 || (c->wishes->hidden && c->points[i].count > 0))
+            ink += (c->points[i + 1].arc - c->points[i].arc) * 0.5 * (c->points[i].weight + c->points[i + 1].weight);
+    return kind >= STROKE_SUGGESTIVE && ink < FORM_SHORTEST * c->wishes->shortest;
 }
 
 /* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */
@@ -376,22 +397,27 @@ static size_t stretch_end(const chainer *c, size_t begin)
     return end;
 }
 
-/* Stretches too short to be seen take the visibility of the longer neighbour. */
+/* What a short stretch becomes between two others: like the one that is visible, or hidden, as it is itself; else like the one before. */
+static int32_t calm_count(int32_t own, int32_t before, int32_t after)
+{
+    if (before == OUTSIDE)
+        return after == OUTSIDE ? own : after;
+    if (after == OUTSIDE)
+        return before;
+    return (before == 0) != (own == 0) && (after == 0) == (own == 0) ? after : before;
+}
+
+/* Stretches too short to be seen take the visibility of a neighbour. */
 static void calm(chainer *c)
 {
-    size_t before = SIZE_MAX; /* the last stretch that stays */
+    int32_t before = OUTSIDE;
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
-        if (c->points[end].arc - c->points[begin].arc >= FLICKER || c->points[begin].count == OUTSIDE) {
-            before = begin;
-            continue;
-        }
-        bool has_next = end + 1 < c->point_count && c->points[end].count != OUTSIDE;
-        int32_t count = before != SIZE_MAX && c->points[before].count != OUTSIDE ? c->points[before].count
-                        : has_next                                               ? c->points[end].count
-                                                                                 : c->points[begin].count;
-        for (size_t i = begin; i < end; i++)
-            c->points[i].count = count;
+        int32_t own = c->points[begin].count, after = end + 1 < c->point_count ? c->points[end].count : OUTSIDE;
+        bool brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < FLICKER;
+        for (size_t i = begin; i < end && brief; i++)
+            c->points[i].count = calm_count(own, before, after);
+        before = c->points[begin].count;
     }
 }
 
@@ -501,7 +527,7 @@ static bool make_chain(chainer *c, uint32_t line)
     if (!put_path(c, closed) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
-    if (length < c->wishes->shortest || length <= 0)
+    if (length < c->wishes->shortest || length <= 0 || is_crumb(c, c->lines->lines[line].kind))
         return true;
     calm(c);
     return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
@@ -555,6 +581,9 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
         status = chains_make(out, v, &lines, &seen, wishes, error);
     if (status == LMN_OK)
         status = strokes_join(out, v, error);
+    if (status == LMN_OK)
+        status = strokes_thin(out, wishes->crowd, error);
+    out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)
         stroke_set_release(out);
     visibility_release(&seen);

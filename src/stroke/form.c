@@ -58,7 +58,7 @@ static bool collect_suggestive(form_view *f, double strength)
             double growth = radials[a].growth + share * (radials[b].growth - radials[a].growth), facing = f->facing[a] + share * (f->facing[b] - f->facing[a]);
             ends[count++].weight = suggestive_weight(side * growth, side * facing, unit, limit);
         }
-        good = count < 2 || form_put(f, STROKE_SUGGESTIVE, face, ends[0], ends[1]);
+        good = count < 2 || form_put(f, STROKE_SUGGESTIVE, face, ends[0], ends[1], false);
     }
     mem_free(radials);
     return good;

@@ -144,7 +144,7 @@ static bool take_face(crest_finder *w, uint32_t face, int side)
     }
     for (uint32_t k = 0; k < 3; k++)
         count += find_end(w, 3 * face + k, &c[k], &c[(k + 1) % 3], side, &ends[count]);
-    return count < 2 || form_put(f, w->kind, face, ends[0], ends[1]);
+    return count < 2 || form_put(f, w->kind, face, ends[0], ends[1], false);
 }
 
 bool ridges_collect(form_view *f, stroke_class kind, double strength)

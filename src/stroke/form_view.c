@@ -10,6 +10,7 @@ static bool bring_eye(form_view *f)
 {
     mat4 whole = mat4_multiply(&f->v->camera.view, &f->item->world);
     double cofactors[9], whole_volume = mat4_cofactors(&whole, cofactors), out[3];
+    f->mirrored = whole_volume < 0;
     double from[3] = {-whole.m[12], -whole.m[13], -whole.m[14]};
     if (f->v->camera.orthographic) {
         from[0] = from[1] = 0;
@@ -100,7 +101,7 @@ static form_end cut_end(form_view *f, form_end gone, form_end other)
     return (form_end){{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)}, f->out->end_count++, 0};
 }
 
-bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b)
+bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned)
 {
     if (a.weight <= 0 && b.weight <= 0)
         return true;
@@ -111,7 +112,7 @@ bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_e
     uint32_t number = f->v->items[f->index].first_face + face;
     const uint32_t faces[2] = {number, EDGE_NO_FACE};
     view_line line = {kind, f->index, {a.number, b.number}, line_id((uint64_t)f->index << 32 | f->item->part_index, (uint64_t)kind << 40 | UINT64_C(1) << 56 | face),
-                      {fminf(a.weight, 1), fminf(b.weight, 1)}, false};
+                      {fminf(a.weight, 1), fminf(b.weight, 1)}, false, turned};
     return lines_put(f->out, f->v, line, to_world(f, a.place), to_world(f, b.place), faces);
 }
 

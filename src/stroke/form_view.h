@@ -14,6 +14,7 @@ typedef struct form_view {
     uint32_t            index;    /* of the item */
     double3             eye;      /* of the eye; in parallel projection the direction towards it */
     double             *facing;   /* per knot: cosine between normal and direction to the eye */
+    bool                mirrored; /* its world turns left into right */
     uint32_t           *numbers;  /* per half-edge: what lines end with that cross it; NO_VERTEX: none yet */
 } form_view;
 
@@ -35,8 +36,8 @@ int     form_side(const form_view *f, uint32_t face);
 
 /* Where a half-edge is crossed by what is `begin` at its begin and `end` at its end: the same place and number from either side. Also the share from its begin. */
 form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *share);
-/* Adds a line across a face. False when memory is gone. */
-bool     form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b);
+/* Adds a line across a face; `turned` as in view_line. False when memory is gone. */
+bool     form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned);
 
 /* --- smooth.c --- */
 /* Outlines by normals. */

@@ -375,3 +375,16 @@ lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *u
     }
     return status;
 }
+
+size_t stroke_scene_crossing_count(const stroke_scene *s)
+{
+    return s->crossings ? s->crossings->count : 0;
+}
+
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3])
+{
+    const face_crossing *c = &s->crossings->crossings[index];
+    for (int i = 0; i < 2; i++)
+        memcpy(ends[i], (double[]){c->ends[i].x, c->ends[i].y, c->ends[i].z}, sizeof ends[i]);
+    return c->items[0];
+}

@@ -9,8 +9,10 @@
 #include "base/memory.h"
 
 /* Ends this far apart are joined, pixels; those closer than OVERLAP even where one runs past the other. */
-#define GAP 1.6f
+#define GAP 1.0f
 #define OVERLAP 0.7f
+/* Sharp lines whose ends are closer than this have been ended there, at a corner. */
+#define TOUCH 0.02f
 /* How much of a stroke says which way its end points, pixels. */
 #define REACH 2.5f
 /* Cosine of how much a joined stroke may turn, and how much deeper it may go on, in pixels. */
@@ -94,7 +96,8 @@ static float cost_of(const joiner *j, uint32_t a, uint32_t b)
         return -1;
     float x = q->x - p->x, y = q->y - p->y, length = sqrtf(x * x + y * y), turn = -(p->out_x * q->out_x + p->out_y * q->out_y);
     double deeper = fabs((double)p->depth - q->depth) * j->focal / (j->orthographic ? 1 : p->depth);
-    if (length > GAP || turn < TURN || deeper > DEPTH)
+    bool corner = length < TOUCH && (s->kind == STROKE_CREASE || s->kind == STROKE_BORDER || s->kind == STROKE_MATERIAL);
+    if (length > GAP || turn < TURN || deeper > DEPTH || corner)
         return -1;
     bool ahead = x * p->out_x + y * p->out_y >= TURN * length && -x * q->out_x - y * q->out_y >= TURN * length;
     return ahead || length < OVERLAP ? length + 1 - turn : -1;

@@ -100,7 +100,8 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     const view_item *at = &v->items[index];
     uint32_t a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
     const uint32_t faces[2] = {at->first_face + e->face[0], e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
-    view_line line = {kind, index, {a, b}, id, {1, 1}, (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0};
+    view_line line = {kind, index, {a, b}, id, {1, 1}, (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0,
+                      kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
     if (v->outside[a] & v->outside[b])
         return true;
     if (v->outside[a] | v->outside[b])
@@ -207,7 +208,7 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
         if (c->parts && !c->parts[item->part_index] && !c->parts[v->scene->items[x->items[1]].part_index])
             continue;
         const uint32_t faces[2] = {v->items[x->items[0]].first_face + x->faces[0], v->items[x->items[1]].first_face + x->faces[1]};
-        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, line_id((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), {1, 1}, false};
+        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, line_id((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), {1, 1}, false, false};
         good = numbers[i][0] == numbers[i][1] || lines_put(c->out, v, line, x->ends[0], x->ends[1], faces);
     }
     mem_free(numbers);

@@ -45,7 +45,7 @@ typedef struct ribbon {
     colour       ink;          /* straight alpha, linear */
     int32_t      brush;
     uint32_t     first, count; /* points */
-    bool         closed, even; /* even: one width and opacity all along */
+    bool         closed, even; /* closed: ends where it began, the first point once more; even: one width and opacity all along */
     ribbon_end   end;
 } ribbon;
 

@@ -98,7 +98,8 @@ static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
 {
     form_view *f = w->f;
     size_t before = f->out->count, listed = w->count;
-    if (!form_put(f, STROKE_CONTOUR, face, a, b))
+    uint32_t piece = f->m->pieces[face];
+    if (!form_put(f, STROKE_CONTOUR, face, a, b, f->mirrored != (f->m->closed[piece] && f->m->inward[piece])))
         return false;
     if (f->out->count == before)
         return true;
@@ -107,7 +108,7 @@ static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
         return false;
     window_segment *s = &f->out->segments[before];
     s->ignored_count = (uint32_t)(w->count - listed);
-    s->least = f->m->closed[f->m->pieces[face]] && is_hollow(f, face, middle);
+    s->least = f->m->closed[piece] && is_hollow(f, face, middle);
     return true;
 }
 
@@ -125,12 +126,11 @@ bool smooth_collect(form_view *f)
             front[k] = f->facing[knots[k]] >= 0;
         if (front[0] == front[1] && front[1] == front[2])
             continue;
-        form_end ends[2];
-        int count = 0;
+        form_end ends[2]; /* from where the winding passes from the front to the back to where it comes again: what is in front lies to the left */
         double share;
         for (uint32_t k = 0; k < 3; k++)
             if (front[k] != front[(k + 1) % 3])
-                ends[count++] = form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &share);
+                ends[front[k] ? 0 : 1] = form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &share);
         good = put_piece(&w, face, ends[0], ends[1]);
     }
     mem_free(w.stamps);

@@ -59,6 +59,7 @@ typedef struct stroke_set {
     stroke_point *points;
     stroke_mark  *marks;   /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
+    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
     uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
@@ -97,6 +98,9 @@ lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *u
 /* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT,
  * LMN_CANCELLED. */
 lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
+/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. */
+size_t   stroke_scene_crossing_count(const stroke_scene *s);
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3]);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
@@ -125,15 +129,16 @@ typedef enum contour_kind {
 /* Which lines are wanted. */
 typedef struct stroke_wishes {
     int32_t contours; /* contour_kind */
-    int32_t creases, borders, materials, intersections; /* bool */
+    bool    creases, borders, materials, intersections;
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
-    int32_t hidden;    /* bool: stretches behind surfaces too */
+    bool    hidden;    /* stretches behind surfaces too */
     float   simplify;  /* by how much points may be moved, pixels */
     float   shortest;  /* chains shorter than this are left out, pixels */
+    float   crowd;     /* strokes that run all their length this close to more important ones are left out, pixels */
     int32_t refine;    /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve;     /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_wishes;
-#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0, 0}
+#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0}
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */

@@ -177,6 +177,7 @@ typedef struct view_line {
     uint64_t     id;
     float        weights[2]; /* at its ends */
     bool         sharp;      /* runs along a sharp edge */
+    bool         turned;   /* outlines: what is seen from the front lies to its other side */
 } view_line;
 
 typedef struct view_lines {
@@ -206,5 +207,9 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 /* --- join.c --- */
 /* Joins strokes of one kind whose ends almost touch. */
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
+
+/* --- crowd.c --- */
+/* Leaves out strokes that run all their length within this many pixels of more important ones. */
+lmn_status strokes_thin(stroke_set *set, float apart, lmn_error *error);
 
 #endif

@@ -31,6 +31,7 @@ typedef enum target {
     TARGET_OUTLINES,   /* RGBA16F: r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
+    TARGET_STROKES,    /* depth of what strokes were drawn, 1 elsewhere */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_ENLARGED,   /* RGBA32F: the figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty) */
     TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */
@@ -46,7 +47,7 @@ typedef enum target {
     TARGET_COUNT
 } target;
 
-enum { PASS_READS_MAX = 11, NUMBERS_MAX = 96, DIRECTION_APART = 4 };
+enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96, DIRECTION_APART = 4 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
@@ -73,6 +74,7 @@ typedef struct pass {
     /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of the figure's line
      * techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
     bool      (*process)(const pass_pixels *in, void *out, const void *values);
+    bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
     int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     const char *when;   /* condition on the technique's parameters; NULL: always */
     bool        prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded with its geometry */
@@ -125,6 +127,7 @@ typedef struct technique {
     const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
                                * technique's `detect` itself instead of reading its map; NULL: never */
     const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */
+    bool         own_ink;     /* lines: compositions get its own parameters too, with which it is inked */
     bool         layered;     /* layers: gives several, nearest first; compose: takes them one by one */
     bool         perturbable; /* compose: its passes onto the page look maps up where compose/places.glsl says */
     bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */

@@ -495,6 +495,80 @@ group_halftones() {
     rm -r "$kept"
 }
 
+# has FILE PATTERN: the file has it.
+has() {
+    grep -Eq -- "$2" "$1" || complain "$1 lacks: $2"
+}
+
+group_vectors() {
+    local sheet=(--look technical)
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg; has x.svg '^<svg xmlns="http://www.w3.org/2000/svg" width="270.933mm"'; cp x.svg in-first.svg
+    has x.svg '<g id="view-iso-visible-part-1-contour" class="visible contour">'
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg
+    cmp -s x.svg in-first.svg || complain "two runs give different files"
+    row 0 '' '' draw "$gear" "${sheet[@]}" -o - --format svg; cmp -s .stdout in-first.svg || complain "standard output gets another drawing"
+    row 0 '' 'gearbox.svg' draw "$gear" "${sheet[@]}" --format svg
+    row 0 '' 'x.pdf' draw "$gear" "${sheet[@]}" -o x.pdf; has x.pdf '^%PDF-1'; cp x.pdf in-first.pdf
+    row 0 '' 'x.pdf' draw "$gear" "${sheet[@]}" -o x.pdf
+    cmp -s x.pdf in-first.pdf || complain "two runs give different files"
+    row 0 '' 'x.dxf' draw "$gear" "${sheet[@]}" -o x.dxf; has x.dxf '^AC1009$'; has x.dxf '^VISIBLE-CONTOUR$'; has x.dxf '^HIDDEN-CREASE$'
+    row 0 '' 'a.svg b.json' draw "$box" "${sheet[@]}" -o a.svg --report b.json --verify; documented b.json report.md
+    has b.json '"strokes": \{'; has b.json '"samples": [0-9]{2}'; has b.json '"bytes": [0-9]{3}'; has b.json '"unit": "m"'
+    # Pages, scales, views.
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A4-landscape; has x.svg 'width="297mm" height="210mm" viewBox="0 0 297 210"'
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page 120x80mm --scale 1:2; has x.svg '<desc>.*scale 1:2</desc>'
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>'
+    local view; for view in front top right iso; do has x.svg "<g id=\"view-$view\" class=\"view\">"; done
+    has x.svg '<title>A &amp; &lt;B&gt;</title>'; has x.svg '>A &amp; &lt;B&gt;</text>'; cp x.svg in-third.svg
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>' --projection first
+    cmp -s x.svg in-third.svg && complain "first angle is third angle"
+    row 0 'warning: at 100:1 the views do not fit on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100:1 --page A6
+    row 0 'warning: the file does not say its unit' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 50:1
+    row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:2 --unit cm
+    # Plotters, areas, surfaces.
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen">'
+    row 0 '' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
+    row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
+    row 0 '' 'x.dxf' draw "$box" --look toon -o x.dxf
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --set compose.technique=wire --set layers.count=1
+    grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
+    # What has no strokes is said.
+    row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x
+    row 0 'warning: 1 solids of set operations have no lines in vector drawings and are left out' 'x.svg' draw "$examples/csg/widget.csg" "${sheet[@]}" -o x.svg
+    # Wrong arguments, before any work.
+    row 1 '--views goes with vector drawings' '' draw nosuch.stl --views front -o x.png
+    row 1 '--plotter goes with vector drawings' '' draw nosuch.stl --plotter
+    row 1 '--aov goes with pictures' '' draw nosuch.stl -o x.svg --aov maps
+    row 1 '--page and --size exclude' '' draw nosuch.stl -o x.svg --page A4 --size 10x10
+    row 1 '--views excludes' '' draw nosuch.stl -o x.svg --views front --view top
+    row 1 '--scale is for parallel' '' draw nosuch.stl -o x.svg --scale 1:2 --fov 20
+    row 1 "the page is 'A44'; allowed is" '' draw "$gear" -o x.svg "${sheet[@]}" --page A44
+    row 1 "the scale is '1:0'; allowed is PAPER:MODEL" '' draw "$gear" -o x.svg "${sheet[@]}" --scale 1:0
+    row 1 "the views are 'front,tip'; allowed is iso" '' draw "$gear" -o x.svg "${sheet[@]}" --views front,tip
+    row 1 "the unit is 'ell'; allowed is mm" '' draw "$gear" -o x.svg "${sheet[@]}" --unit ell --scale 1:1
+    row 1 "--projection is 'second'" '' draw "$gear" -o x.svg --projection second
+    row 1 "the selection 'Nosuch\*' matches none" '' draw "$gear" -o x.svg "${sheet[@]}" --select 'Nosuch*'
+    row 4 '^limner: nosuch/x.svg: ' '' draw "$gear" -o nosuch/x.svg "${sheet[@]}"
+    row 2 '^limner: nosuch.stl: ' '' draw nosuch.stl -o x.svg
+    # Lines alone need no OpenGL.
+    __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg
+    cmp -s x.svg in-first.svg || complain "without OpenGL lines are others"
+    __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing row 3 '^limner: ' '' draw "$box" --look toon -o x.svg
+    # Ctrl-C between drawings and in them.
+    row="draw vectors with Ctrl-C"
+    rows=$((rows + 1))
+    local got=0 waited=0
+    "$limner" draw "$gear" "${sheet[@]}" --frames 0:9999:24 -o 'f-{frame}.svg' 2> .stderr &
+    until [ -e f-0000.svg ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
+    kill -INT $!
+    wait $! || got=$?
+    [ $got = 5 ] || complain "exit status $got, expected 5"
+    find . -type f ! -name 'f-[0-9][0-9][0-9][0-9].svg' ! -name 'in-*' ! -name '.*' | grep -q . && complain "a half-written file stays behind"
+    local last; last=$(ls f-*.svg | tail -n 1)
+    tail -n 1 "$last" | grep -q '^</svg>$' || complain "$last is not whole"
+    rm -f f-*.svg
+}
+
 group_doctor() {
     row 0 '' '' doctor; out 'Limner can draw here'
     row 0 '' '' doctor --json; documented .stdout doctor.md

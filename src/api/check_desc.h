@@ -1,0 +1,10 @@
+/* Inside the api folder: is a description of a drawing in order? */
+#ifndef LIMNER_API_CHECK_DESC_H
+#define LIMNER_API_CHECK_DESC_H
+
+#include "limner/draw.h"
+
+/* Errors: LMN_USAGE. */
+lmn_status check_draw_desc(const lmn_draw_desc *desc, lmn_error *error);
+
+#endif

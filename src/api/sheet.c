@@ -1,0 +1,128 @@
+/* Sheets: checks arguments and forwards. */
+#include "limner/sheet.h"
+
+#include <string.h>
+
+#include "api/check_desc.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "draw/vector.h"
+#include "export/export.h"
+
+static lmn_status missing(const char *caller, const char *what, lmn_error *error)
+{
+    return error_set(error, LMN_USAGE, "%s: `%s` is NULL", caller, what);
+}
+
+bool lmn_look_needs_pixels(const lmn_look *look)
+{
+    return look && vector_needs_pixels(look);
+}
+
+/* What was given, as far as its caller knows the struct. */
+static lmn_status complete(lmn_sheet_desc *full, const lmn_sheet_desc *given, lmn_error *error)
+{
+    size_t size = 0;
+    if (!given)
+        return LMN_OK;
+    memcpy(&size, given, sizeof size);
+    if (size < sizeof size) {
+        error_set(error, LMN_USAGE, "lmn_draw_sheet: the sheet description's struct_size is not set");
+        error_hint(error, "initialise it with LMN_SHEET_DESC_INIT");
+        return LMN_USAGE;
+    }
+    memcpy(full, given, size < sizeof *full ? size : sizeof *full);
+    if ((int)full->angle < 0 || full->angle > LMN_FIRST_ANGLE)
+        return error_set(error, LMN_USAGE, "lmn_draw_sheet: there is no angle %d", (int)full->angle);
+    return LMN_OK;
+}
+
+lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                          const lmn_sheet_desc *sheet, lmn_error *error)
+{
+    lmn_sheet_desc full = LMN_SHEET_DESC_INIT;
+    if (!out)
+        return missing("lmn_draw_sheet", "out", error);
+    *out = NULL;
+    if (!scene || !look)
+        return missing("lmn_draw_sheet", scene ? "look" : "scene", error);
+    lmn_status status = check_draw_desc(desc, error);
+    if (status == LMN_OK)
+        status = complete(&full, sheet, error);
+    return status == LMN_OK ? vector_draw(out, renderer, scene, look, desc, &full, error) : status;
+}
+
+typedef lmn_status (*export_fn)(export_bytes *out, const sheet *s, lmn_error *error);
+
+static const struct {
+    const char *ending;
+    export_fn   write;
+} formats[] = {{".svg", export_svg}, {".pdf", export_pdf}, {".dxf", export_dxf}};
+
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+static lmn_status unknown_format(const char *path, const char *format, lmn_error *error)
+{
+    const char *known[FORMATS];
+    for (size_t i = 0; i < FORMATS; i++)
+        known[i] = formats[i].ending;
+    lmn_status  status = error_in_file(error, LMN_USAGE, path, 0, "cannot write '%s' sheets", format);
+    const char *nearest = text_nearest(format, known, FORMATS);
+    error_hint(error, nearest ? "did you mean '%s'?" : "sheets are written as .svg, .pdf or .dxf%s", nearest ? nearest : "");
+    return status;
+}
+
+lmn_status lmn_sheet_write(const lmn_sheet *s, const char *path, const char *format, uint64_t *bytes, lmn_error *error)
+{
+    char ending[16];
+    if (!s || !path || !*path)
+        return missing("lmn_sheet_write", s ? "path" : "sheet", error);
+    if (!format) {
+        file_ending(path, ending, sizeof ending);
+        format = strcmp(path, "-") == 0 ? ".svg" : ending;
+    }
+    const char *name = *format == '.' ? format + 1 : format;
+    size_t      which = 0;
+    while (which < FORMATS && strcmp(formats[which].ending + 1, name) != 0)
+        which++;
+    if (which == FORMATS)
+        return unknown_format(path, format, error);
+    export_bytes data;
+    lmn_status   status = formats[which].write(&data, &s->page, error);
+    if (status != LMN_OK)
+        return status;
+    status = file_store(path, data.data, data.size, error);
+    if (bytes)
+        *bytes = data.size;
+    mem_free(data.data);
+    return status;
+}
+
+char *lmn_sheet_report_json(const lmn_sheet *s)
+{
+    return s ? vector_report_json(s) : NULL;
+}
+
+size_t lmn_sheet_warning_count(const lmn_sheet *s)
+{
+    return s ? s->warnings.count : 0;
+}
+
+const char *lmn_sheet_warning_at(const lmn_sheet *s, size_t index, const char **code, size_t *count)
+{
+    if (!s || index >= s->warnings.count)
+        return NULL;
+    const warning *w = &s->warnings.items[index];
+    if (code)
+        *code = warning_code_text(w->code);
+    if (count)
+        *count = w->count;
+    return w->text;
+}
+
+void lmn_sheet_destroy(lmn_sheet **s)
+{
+    vector_destroy(s);
+}

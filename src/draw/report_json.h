@@ -1,0 +1,16 @@
+/* What reports of pictures and of sheets have in common, as JSON. */
+#ifndef LIMNER_DRAW_REPORT_JSON_H
+#define LIMNER_DRAW_REPORT_JSON_H
+
+#include <jansson.h>
+
+#include "base/warnings.h"
+#include "draw/camera.h"
+
+json_t *report_box_json(box3 b);
+json_t *report_camera_json(const view_camera *c);
+json_t *report_warnings_json(const warnings *list);
+/* The text of a report, whose reference it takes over; NULL when memory is gone. */
+char   *report_dump(json_t *root);
+
+#endif

@@ -1,0 +1,522 @@
+#include "draw/vector.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/limits.h"
+#include "base/memory.h"
+#include "draw/vector_private.h"
+#include "export/export.h"
+#include "finish/finish.h"
+#include "light/light.h"
+
+static const double gap_between_views = 12; /* mm */
+static const double verify_apart = 2;       /* pixels between samples */
+
+/* What one drawing needs while it is made. */
+typedef struct vector_job {
+    lmn_sheet            *out;
+    lmn_renderer         *renderer;
+    const lmn_scene      *scene;
+    const lmn_look       *look;
+    const lmn_draw_desc  *desc;
+    const lmn_sheet_desc *wanted;
+    bool                  lines_only, pixels, usual_scale;
+    double                scale;    /* 0: as large as fits */
+    double                unit_mm;
+    mat4                 *worlds;
+    bool                 *selected; /* per part: drawn by some rule */
+    const rule          **rules;    /* of each part; NULL: not drawn */
+    box3                  box;      /* of what the picture is fitted to */
+    stroke_scene          strokes;
+    colour                ground;
+    double                begun, share; /* progress: of the stage at hand */
+    lmn_look              bare;     /* the look without lines and sections; its arrays are borrowed or in `bare_rules` */
+    rule                 *bare_rules;
+    void                 *bare_scene;
+} vector_job;
+
+static lmn_status check_cancelled(const vector_job *j, double fraction, const char *stage, lmn_error *error)
+{
+    if (!j->desc->progress || j->desc->progress(fraction, stage, j->desc->progress_user))
+        return LMN_OK;
+    return error_set(error, LMN_CANCELLED, "cancelled");
+}
+
+/* Progress of a part of the work, as a part of the whole. */
+static bool report_part(double fraction, const char *stage, void *user)
+{
+    const vector_job *j = user;
+    return !j->desc->progress || j->desc->progress(j->begun + fraction * j->share, stage, j->desc->progress_user);
+}
+
+/* --- what is drawn --------------------------------------------------------------------------------------------------- */
+
+/* Gives each selected part to the last rule that selects it. Solids have no strokes. */
+static lmn_status share_parts(vector_job *j, lmn_error *error)
+{
+    const lmn_scene *scene = j->scene;
+    selector        *wanted = NULL;
+    size_t           count = 0, solids = 0;
+    lmn_status       status = j->desc->select ? selector_parse(&wanted, j->desc->select, error) : LMN_OK;
+    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
+        if (wanted && !selector_matches(wanted, scene, i))
+            continue;
+        count++;
+        j->box = box3_union(j->box, part_bounds(scene, j->worlds, i));
+        for (size_t r = j->look->rule_count; r-- > 0 && !j->rules[i];) {
+            const selector *s = j->look->rules[r].selector;
+            if (!s || selector_matches(s, scene, i))
+                j->rules[i] = &j->look->rules[r];
+        }
+        bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
+        solids += solid;
+        j->selected[i] = j->rules[i] != NULL && !solid;
+    }
+    selector_destroy(&wanted);
+    if (status != LMN_OK)
+        return status;
+    if (count == 0 && j->desc->select) {
+        status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", j->desc->select, scene->part_count);
+        error_hint(error, "`limner info` lists the parts with their names and paths");
+        return status;
+    }
+    if (count == 0)
+        return error_set(error, LMN_FORMAT, "the scene has no parts to draw");
+    if (solids)
+        warnings_add(&j->out->warnings, WARNING_NO_STROKES, "%zu solids of set operations have no lines in vector drawings%s", solids,
+                     j->pixels ? "" : " and are left out");
+    return LMN_OK;
+}
+
+/* The look as the renderer gets it: without lines, and without what lines do not show. */
+static lmn_status make_bare(vector_job *j, lmn_error *error)
+{
+    const technique_use *own = &j->look->wide[KIND_SCENE];
+    j->bare = *j->look;
+    j->bare_rules = mem_copy(j->look->rules, j->look->rule_count * sizeof *j->bare_rules);
+    scene_values *values = j->bare_scene = mem_copy(own->values, own->technique->params_size);
+    if (!j->bare_rules || !values)
+        return error_memory(error);
+    for (size_t i = 0; i < j->look->rule_count; i++)
+        j->bare_rules[i].use_counts[KIND_LINES] = 0;
+    if (values->cut.text[0])
+        warnings_add(&j->out->warnings, WARNING_NO_STROKES, "sections have no lines in vector drawings: the model is drawn whole");
+    values->cut.text[0] = '\0';
+    j->bare.rules = j->bare_rules;
+    j->bare.wide[KIND_SCENE].values = values;
+    return LMN_OK;
+}
+
+static lmn_status find_ground(vector_job *j, lmn_error *error)
+{
+    const sheet_values *finish = j->look->wide[KIND_FINISH].values;
+    j->ground = finish->ground;
+    if (j->desc->background && !colour_parse(j->desc->background, &j->ground)) {
+        lmn_status status = error_set(error, LMN_USAGE, "'%s' is not a colour", j->desc->background);
+        error_hint(error, "give #rgb, #rrggbb, #rrggbbaa, a basic colour name, or none");
+        return status;
+    }
+    colour c = j->ground;
+    j->out->page.ground = (colour){colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), c.a};
+    if (finish->paper && !j->pixels)
+        warnings_add(&j->out->warnings, WARNING_UNUSED, "finish.paper: the grain of paper is left out of drawings of lines alone");
+    return LMN_OK;
+}
+
+/* --- views ------------------------------------------------------------------------------------------------------------- */
+
+/* The description that a view's camera is placed by. */
+static lmn_draw_desc view_desc(const vector_job *j, const vector_view *v)
+{
+    lmn_draw_desc d = *j->desc;
+    d.width = v->width;
+    d.height = v->height;
+    if (j->wanted->views) {
+        d.view = v->direction;
+        d.eye_given = false;
+        d.camera = NULL;
+        d.orthographic = true;
+    }
+    d.orthographic = d.orthographic || j->scale > 0;
+    return d;
+}
+
+/* Width and height of the model as a view shows it, its unit. */
+static lmn_status measure_view(const vector_job *j, const vector_view *v, double out[2], lmn_error *error)
+{
+    vector_view   square = *v;
+    view_camera   c;
+    square.width = square.height = 64;
+    lmn_draw_desc d = view_desc(j, &square);
+    lmn_status    status = camera_place(&c, &d, j->scene, j->worlds, j->box, error);
+    out[0] = out[1] = 0;
+    for (int i = 0; i < 8 && status == LMN_OK && !box3_is_empty(j->box); i++) {
+        const double *m = c.view.m, corner[3] = {(double)(i & 1 ? j->box.max.x : j->box.min.x), (double)(i & 2 ? j->box.max.y : j->box.min.y),
+                                                 (double)(i & 4 ? j->box.max.z : j->box.min.z)}, middle[3] = {c.target[0], c.target[1], c.target[2]};
+        for (int k = 0; k < 2; k++) {
+            double from_middle = 0;
+            for (int n = 0; n < 3; n++)
+                from_middle += m[4 * n + k] * (corner[n] - middle[n]);
+            out[k] = fmax(out[k], 2 * fabs(from_middle));
+        }
+    }
+    return status;
+}
+
+/* Whole pixels around the same middle; far more than the page has is of no use. */
+static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error)
+{
+    int *sides[2] = {&v->width, &v->height};
+    for (int k = 0; k < 2; k++) {
+        double most = 2 * (k ? page->height : page->width), over = fmax(v->box[2 + k] - most, 0);
+        v->box[k] += over / 2;
+        v->box[2 + k] -= over;
+        double pixels = fmax(round(v->box[2 + k] * VECTOR_PIXELS_PER_MM), 1);
+        if (!(pixels <= LIMIT_PICTURE_SIDE))
+            return error_set(error, LMN_LIMIT, "a view is %.0f mm wide or high on the sheet, the limit is %.0f mm", v->box[2 + k], LIMIT_PICTURE_SIDE / VECTOR_PIXELS_PER_MM);
+        *sides[k] = (int)pixels;
+        double size = pixels / VECTOR_PIXELS_PER_MM;
+        v->box[k] += (v->box[2 + k] - size) / 2;
+        v->box[2 + k] = size;
+    }
+    return LMN_OK;
+}
+
+static lmn_status place_camera(vector_job *j, vector_view *v, lmn_error *error)
+{
+    lmn_draw_desc d = view_desc(j, v);
+    lmn_status    status = camera_place(&v->camera, &d, j->scene, j->worlds, j->box, error);
+    if (status != LMN_OK)
+        return status;
+    double scale = j->out->scale; /* paper over model */
+    if (scale > 0 && !v->camera.orthographic) {
+        error_set(error, LMN_USAGE, "a scale needs parallel projection, and the camera '%s' has perspective", d.camera ? d.camera : "");
+        return LMN_USAGE;
+    }
+    if (scale > 0)
+        v->camera.half_height = v->height / (2 * scale * j->unit_mm * VECTOR_PIXELS_PER_MM);
+    else if (v->camera.orthographic && j->unit_mm > 0)
+        j->out->scale = v->height / (2 * v->camera.half_height * j->unit_mm * VECTOR_PIXELS_PER_MM);
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (size_t i = 0; i < j->scene->part_count; i++) {
+        box3 box = j->rules[i] ? part_bounds(j->scene, j->worlds, i) : box3_empty();
+        if (!box3_is_empty(box))
+            camera_depth_range(&v->camera, box, &nearest, &farthest);
+    }
+    if (!(farthest >= nearest))
+        nearest = farthest = 1;
+    camera_set_range(&v->camera, nearest, farthest);
+    return LMN_OK;
+}
+
+/* Several views on one sheet, or one at a scale of its own. */
+static lmn_status arrange_views(vector_job *j, const double area[4], lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    double     sizes[VIEWS_MOST][2];
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
+        status = measure_view(j, &s->views[i], sizes[i], error);
+        sizes[i][0] *= j->unit_mm;
+        sizes[i][1] *= j->unit_mm;
+    }
+    if (status != LMN_OK)
+        return status;
+    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12), .angle = j->wanted->angle, .scale = j->scale, .usual = j->usual_scale, .fit = 1};
+    memcpy(how.area, area, sizeof how.area);
+    s->scale = vector_place_views(&how, s->views, s->view_count, (const double (*)[2])sizes);
+    for (size_t i = 0; i < s->view_count; i++) {
+        const double *box = s->views[i].box;
+        if (box[0] < area[0] - how.gap || box[1] < area[1] - how.gap || box[0] + box[2] > area[0] + area[2] + how.gap || box[1] + box[3] > area[1] + area[3] + how.gap) {
+            char scale[32];
+            vector_print_scale(scale, s->scale);
+            warnings_add(&s->warnings, WARNING_PAGE, "at %s the views do not fit on the page", scale);
+            break;
+        }
+    }
+    return LMN_OK;
+}
+
+static lmn_status place_views(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    double     area[4];
+    lmn_status status = LMN_OK;
+    vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
+    if (j->wanted->views) {
+        status = vector_parse_views(j->wanted->views, s->views, &s->view_count, error);
+        if (status == LMN_OK)
+            status = arrange_views(j, area, error);
+    } else {
+        bool eye = j->desc->eye_given || j->desc->camera;
+        s->views[0] = (vector_view){.name = eye ? "view" : vector_view_name(j->desc->view), .direction = j->desc->view};
+        memcpy(s->views[0].box, area, sizeof area);
+        s->view_count = 1;
+        s->scale = j->scale;
+    }
+    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
+        status = settle_box(&s->views[i], &s->page, error);
+        if (status == LMN_OK)
+            status = place_camera(j, &s->views[i], error);
+    }
+    if (status == LMN_OK && s->scale > 0)
+        vector_print_scale(s->scale_text, s->scale);
+    return status;
+}
+
+static lmn_status begin_page(vector_job *j, lmn_error *error)
+{
+    double     size[2] = {j->desc->width / VECTOR_PIXELS_PER_MM, j->desc->height / VECTOR_PIXELS_PER_MM};
+    bool       stated = true;
+    lmn_status status = j->wanted->page ? vector_parse_page(j->wanted->page, size, error) : LMN_OK;
+    if (status == LMN_OK && j->wanted->scale)
+        status = vector_parse_scale(j->wanted->scale, &j->scale, error);
+    if (status == LMN_OK)
+        status = vector_parse_unit(j->wanted->unit, j->scene, &j->unit_mm, &j->out->unit, &stated, error);
+    if (status != LMN_OK)
+        return status;
+    if (!stated && (j->scale > 0 || j->wanted->frame))
+        warnings_add(&j->out->warnings, WARNING_PAGE, "the file does not say its unit; it is taken for millimetres");
+    j->usual_scale = j->wanted->frame;
+    sheet_begin(&j->out->page, size[0], size[1], VECTOR_PIXELS_PER_MM);
+    return LMN_OK;
+}
+
+/* --- drawing --------------------------------------------------------------------------------------------------------------- */
+
+/* The surfaces of a view as pixels. The eye is given, so that the camera is the same. */
+static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
+{
+    lmn_drawing  *drawing = NULL;
+    lmn_draw_desc d = view_desc(j, v);
+    char          ground[10];
+    colour_print(j->ground, ground);
+    d.background = ground;
+    d.maps = d.profile = false;
+    d.progress = NULL;
+    if (!d.camera) {
+        double distance = v->camera.orthographic ? v->camera.half_height / tan(d.fov_deg * (3.14159265358979323846 / 360)) : 0;
+        for (int k = 0; k < 3; k++) {
+            double forward = -v->camera.view.m[4 * k + 2];
+            d.eye[k] = v->camera.orthographic ? v->camera.target[k] - forward * distance : v->camera.eye[k];
+            d.target[k] = v->camera.target[k];
+            d.up[k] = v->camera.up[k];
+        }
+        d.eye_given = true;
+        d.orthographic = v->camera.orthographic;
+    }
+    lmn_status   status = renderer_draw(&drawing, j->renderer, j->scene, &j->bare, &d, error);
+    export_bytes png = {0};
+    if (status == LMN_OK)
+        status = export_png(&png, drawing->pixels, drawing->width, drawing->height, error);
+    if (status == LMN_OK)
+        sheet_add_image(&j->out->page, group, png.data, png.size, v->box[0], v->box[1], v->box[2], v->box[3]);
+    mem_free(png.data);
+    drawing_destroy(&drawing);
+    return status;
+}
+
+static void count_strokes(vector_job *j, const stroke_set *set, const stroke_style *style)
+{
+    for (size_t i = 0; i < set->stroke_count; i++) {
+        const stroke *s = &set->strokes[i];
+        bool drawn = s->hidden_by == 0 || (style->hidden != HIDDEN_NONE && (style->hidden_depth <= 0 || s->hidden_by <= (uint32_t)style->hidden_depth));
+        j->out->counts[s->kind] += drawn;
+        j->out->hidden += drawn && s->hidden_by > 0;
+        if (s->hidden_by == 0 && s->part > 0 && s->part <= j->out->part_count)
+            j->out->part_strokes[s->part - 1]++;
+    }
+}
+
+/* The strokes of one rule's parts, as ribbons. */
+static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
+{
+    stroke_wishes wishes;
+    stroke_style  style;
+    stroke_set    set = {0};
+    size_t        count = 0;
+    *out = (ribbon_set){0};
+    if (!vector_rule_strokes(r, &wishes, &style))
+        return LMN_OK;
+    bool *parts = mem_calloc(j->scene->part_count, sizeof *parts);
+    if (!parts)
+        return error_memory(error);
+    for (size_t i = 0; i < j->scene->part_count; i++) {
+        parts[i] = j->selected[i] && j->rules[i] == r;
+        count += parts[i];
+    }
+    lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
+    mem_free(parts);
+    if (status == LMN_OK)
+        status = ribbons_make(out, &set, &style, j->desc->seed, error);
+    if (status == LMN_OK)
+        count_strokes(j, &set, &style);
+    if (status == LMN_OK && j->wanted->verify && set.stroke_count) {
+        stroke_check check = {0};
+        status = stroke_verify(&check, &set, view, (float)verify_apart, report_part, j, error);
+        j->out->check.samples += check.samples;
+        j->out->check.wrong += check.wrong;
+        j->out->verified = true;
+    }
+    stroke_set_release(&set);
+    return status;
+}
+
+static lmn_status draw_lines(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
+{
+    stroke_view  *view = NULL;
+    size_t        rules = j->look->rule_count;
+    stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width, v->height};
+    ribbon_set   *sets = mem_calloc(rules, sizeof *sets);
+    lmn_status    status = sets ? stroke_view_create(&view, &j->strokes, &camera, report_part, j, error) : error_memory(error);
+    for (size_t i = 0; i < rules && status == LMN_OK; i++)
+        status = draw_rule(j, view, &j->look->rules[i], &sets[i], error);
+    if (status == LMN_OK)
+        status = vector_put_ribbons(ink, sets, rules, error);
+    for (size_t i = 0; sets && i < rules; i++)
+        ribbon_set_release(&sets[i]);
+    mem_free(sets);
+    stroke_view_destroy(&view);
+    return status;
+}
+
+static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *error)
+{
+    sheet     *page = &j->out->page;
+    char       name[32];
+    lmn_status status = LMN_OK;
+    snprintf(name, sizeof name, "view-%s", v->name);
+    uint32_t   group = sheet_add_group(page, -1, strcmp(v->name, "view") == 0 ? "view" : name, "view", 0);
+    vector_ink ink = {page, j->scene, group, {v->box[0], v->box[1]}, j->lines_only};
+    if (j->pixels)
+        status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
+    if (status == LMN_OK && j->wanted->fill && !j->lines_only)
+        status = vector_put_fills(j->out, &ink, v, &j->strokes, j->rules, j->worlds, error);
+    return status == LMN_OK ? draw_lines(j, v, &ink, error) : status;
+}
+
+/* Lines of frames: as dark as the page is light. */
+static colour frame_ink(colour ground)
+{
+    float light = 0.2126f * ground.r + 0.7152f * ground.g + 0.0722f * ground.b;
+    return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
+}
+
+static lmn_status draw_sheet(vector_job *j, lmn_error *error)
+{
+    lmn_sheet          *s = j->out;
+    const scene_values *scene = j->look->wide[KIND_SCENE].values;
+    double              crease = (double)scene->crease_angle * (3.14159265358979323846 / 180);
+    lmn_status          status = check_cancelled(j, 0.3, "drawing", error);
+    j->begun = 0.3;
+    j->share = 0.2;
+    if (status == LMN_OK)
+        status = stroke_scene_create(&j->strokes, j->scene, j->worlds, j->selected, crease, report_part, j, error);
+    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
+        j->share = 0.45 / (double)s->view_count;
+        j->begun = 0.5 + j->share * (double)i;
+        status = draw_view(j, &s->views[i], error);
+    }
+    if (status == LMN_OK)
+        vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+    if (status == LMN_OK && j->wanted->plotter)
+        status = vector_order_for_plotter(&s->page, error);
+    if (status == LMN_OK && s->page.failed)
+        status = error_memory(error);
+    return status == LMN_OK ? check_cancelled(j, 0.95, "drawing", error) : status;
+}
+
+static lmn_status keep_facts(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    size_t     count = j->scene->part_count;
+    s->look = mem_copy_text(j->look->name ? j->look->name : "");
+    s->seed = j->desc->seed;
+    s->bounds = j->box;
+    s->load_ms = j->scene->load_ms;
+    s->part_names = mem_calloc(count, sizeof *s->part_names);
+    s->part_strokes = mem_calloc(count, sizeof *s->part_strokes);
+    if (!s->look || !s->part_names || !s->part_strokes)
+        return error_memory(error);
+    s->part_count = count;
+    for (size_t i = 0; i < count; i++) {
+        const part *p = &j->scene->parts[i];
+        s->triangles += p->triangles * node_draw_count(&j->scene->nodes[p->node]);
+        if (!(s->part_names[i] = mem_copy_text(p->name)))
+            return error_memory(error);
+    }
+    char description[256];
+    snprintf(description, sizeof description, "Look %.100s; %zu parts%s%s", s->look, count, *s->scale_text ? "; scale " : "", s->scale_text);
+    const char *file = j->scene->file_count ? strrchr(j->scene->files[0], '/') : NULL, *title = j->wanted->title;
+    file = file ? file + 1 : j->scene->file_count ? j->scene->files[0] : NULL;
+    sheet_set_title(&s->page, title && *title ? title : file, description);
+    if (j->desc->time_s != 0 && j->scene->animation_count)
+        warnings_add(&s->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
+    return LMN_OK;
+}
+
+lmn_status vector_draw(lmn_sheet **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, const lmn_sheet_desc *wanted,
+                       lmn_error *error)
+{
+    double start = clock_ms();
+    bool   surfaces = vector_needs_pixels(look);
+    *out = NULL;
+    vector_job j = {.renderer = r, .scene = scene, .look = look, .desc = desc, .wanted = wanted, .lines_only = wanted->lines_only || wanted->plotter,
+                    .box = box3_empty()};
+    j.out = mem_calloc(1, sizeof *j.out);
+    j.worlds = scene_world_matrices(scene);
+    j.selected = mem_calloc(scene->part_count, sizeof *j.selected);
+    j.rules = mem_calloc(scene->part_count, sizeof *j.rules);
+    j.pixels = surfaces && r && !j.lines_only && !wanted->fill;
+    lmn_status status = j.out && j.worlds && j.selected && j.rules ? LMN_OK : error_memory(error);
+    if (status == LMN_OK) {
+        warnings_append(&j.out->warnings, &scene->warnings);
+        if (surfaces && !r && !j.lines_only && !wanted->fill)
+            warnings_add(&j.out->warnings, WARNING_NO_STROKES, "the surfaces of the look '%s' need pixels and a renderer; lines alone are drawn", look->name ? look->name : "");
+        status = share_parts(&j, error);
+    }
+    if (status == LMN_OK)
+        status = begin_page(&j, error);
+    if (status == LMN_OK)
+        status = find_ground(&j, error);
+    if (status == LMN_OK)
+        status = make_bare(&j, error);
+    if (status == LMN_OK)
+        status = place_views(&j, error);
+    if (status == LMN_OK)
+        status = keep_facts(&j, error);
+    if (status == LMN_OK)
+        status = draw_sheet(&j, error);
+    stroke_scene_release(&j.strokes);
+    mem_free(j.worlds);
+    mem_free(j.selected);
+    mem_free((void *)j.rules);
+    mem_free(j.bare_rules);
+    mem_free(j.bare_scene);
+    if (status != LMN_OK) {
+        vector_destroy(&j.out);
+        return status;
+    }
+    j.out->frame_ms = clock_ms() - start;
+    *out = j.out;
+    return LMN_OK;
+}
+
+void vector_destroy(lmn_sheet **sheet)
+{
+    if (!sheet || !*sheet)
+        return;
+    lmn_sheet *s = *sheet;
+    sheet_release(&s->page);
+    warnings_release(&s->warnings);
+    mem_free(s->look);
+    for (size_t i = 0; i < s->part_count; i++)
+        mem_free(s->part_names[i]);
+    mem_free(s->part_names);
+    mem_free(s->part_strokes);
+    mem_free(s);
+    *sheet = NULL;
+}

@@ -1,0 +1,574 @@
+/* SVG of a sheet: millimetres, a group for each of the sheet's groups, styles as classes. Numbers have three decimals at most, so that files are small; between points of a
+ * path it is their rounded differences that are written, which add up without drift. */
+#include "export/export.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "sheet/sheet.h"
+
+/* How a path is drawn: what becomes a class. */
+typedef struct svg_style {
+    colour    ink;
+    bool      filled, dots;
+    float     width, dash, gap, phase;
+    sheet_cap cap;
+} svg_style;
+
+typedef struct svg_writer {
+    text         out;
+    const sheet *s;
+    char       **ids;      /* of groups */
+    bool        *opened;   /* groups whose id is out */
+    uint32_t    *id_slots; /* hash of ids: group + 1 */
+    size_t       slot_count;
+    svg_style   *styles;
+    size_t       style_count, style_capacity;
+    uint32_t    *style_slots; /* hash of styles: style + 1 */
+    size_t       style_slot_count;
+    int32_t      open;     /* the innermost group that is open, −1: none */
+} svg_writer;
+
+/* --- text and numbers ---------------------------------------------------------------------------------------------- */
+
+static void put(svg_writer *w, const char *words)
+{
+    text_append_bytes(&w->out, words, strlen(words));
+}
+
+/* Thousandths as a decimal number without what is not needed: "-.5", "12", "0". */
+static size_t print_thousandths(char *to, long long value)
+{
+    char   digits[24];
+    size_t count = 0, at = 0;
+    unsigned long long left = value < 0 ? (unsigned long long)-value : (unsigned long long)value, whole = left / 1000, part = left % 1000;
+    if (value < 0)
+        to[at++] = '-';
+    for (; whole; whole /= 10)
+        digits[count++] = (char)('0' + whole % 10);
+    while (count)
+        to[at++] = digits[--count];
+    if (part) {
+        to[at++] = '.';
+        for (unsigned long long unit = 100; part; unit /= 10) {
+            to[at++] = (char)('0' + part / unit);
+            part %= unit;
+        }
+    }
+    if (left == 0)
+        to[at++] = '0';
+    return at;
+}
+
+static long long thousandths(double value)
+{
+    return isfinite(value) ? llround(value * 1000) : 0;
+}
+
+static void put_number(svg_writer *w, double value)
+{
+    char room[32];
+    text_append_bytes(&w->out, room, print_thousandths(room, thousandths(value)));
+}
+
+/* The length of a UTF-8 sequence that XML allows, 0 when there is none here. */
+static size_t xml_sequence(const unsigned char *at)
+{
+    if (at[0] < 0x80)
+        return at[0] >= 0x20 && at[0] != 0x7F;
+    size_t length = at[0] >= 0xF0 ? 4 : at[0] >= 0xE0 ? 3 : 2;
+    if (at[0] < 0xC2 || at[0] > 0xF4)
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((at[i] & 0xC0) != 0x80)
+            return 0;
+    uint32_t low = at[1];
+    bool beyond = (at[0] == 0xE0 && low < 0xA0) || (at[0] == 0xED && low > 0x9F) || (at[0] == 0xF0 && low < 0x90) || (at[0] == 0xF4 && low > 0x8F);
+    bool none = at[0] == 0xEF && low == 0xBF && at[2] >= 0xBE; /* U+FFFE, U+FFFF */
+    return beyond || none || (at[0] == 0xC2 && low < 0xA0) ? 0 : length;
+}
+
+/* Text with what is special escaped; bytes that XML cannot hold become U+FFFD, control characters blanks. */
+static void put_escaped(svg_writer *w, const char *words)
+{
+    for (const unsigned char *at = (const unsigned char *)words; *at;) {
+        size_t length = xml_sequence(at);
+        switch (*at) {
+        case '<': put(w, "&lt;"); break;
+        case '>': put(w, "&gt;"); break;
+        case '&': put(w, "&amp;"); break;
+        case '"': put(w, "&quot;"); break;
+        default:
+            if (length)
+                text_append_bytes(&w->out, (const char *)at, length);
+            else
+                put(w, *at < 0x80 ? " " : "\xEF\xBF\xBD");
+        }
+        at += length ? length : 1;
+    }
+}
+
+static void put_element(svg_writer *w, const char *name, const char *words)
+{
+    if (!words || !*words)
+        return;
+    text_append(&w->out, "<%s>", name);
+    put_escaped(w, words);
+    text_append(&w->out, "</%s>\n", name);
+}
+
+static void put_base64(svg_writer *w, const unsigned char *data, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t bits = (uint32_t)data[i] << 16 | (uint32_t)(i + 1 < size ? data[i + 1] : 0) << 8 | (i + 2 < size ? data[i + 2] : 0);
+        char four[4] = {digits[bits >> 18], digits[bits >> 12 & 63], digits[bits >> 6 & 63], digits[bits & 63]};
+        if (i + 2 >= size)
+            four[3] = '=';
+        if (i + 1 >= size)
+            four[2] = '=';
+        text_append_bytes(&w->out, four, 4);
+    }
+}
+
+/* "#rrggbb" of a linear colour. */
+static void print_colour(char out[10], colour ink)
+{
+    colour_print((colour){colour_from_linear(ink.r), colour_from_linear(ink.g), colour_from_linear(ink.b), 1}, out);
+}
+
+/* Opaque unless it says otherwise; what is no number is opaque too. */
+static double opacity_of(colour ink)
+{
+    return ink.a < 1 ? fmax((double)ink.a, 0) : 1;
+}
+
+/* --- styles ---------------------------------------------------------------------------------------------------------- */
+
+static uint64_t hash_bytes(const void *bytes, size_t size)
+{
+    uint64_t hash = UINT64_C(0xCBF29CE484222325);
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const unsigned char *)bytes)[i]) * UINT64_C(0x100000001B3);
+    return hash ^ hash >> 29;
+}
+
+/* Padding is zero, so that bytes can be compared. */
+static void style_of(svg_style *out, const sheet_item *item, const sheet_path *path)
+{
+    memset(out, 0, sizeof *out);
+    out->ink = item->ink;
+    out->dots = item->kind == SHEET_DOTS;
+    out->filled = path->filled && !out->dots;
+    if (out->filled)
+        return;
+    out->width = path->width;
+    out->cap = out->dots ? SHEET_CAP_ROUND : path->cap;
+    if (path->dash > 0 && !out->dots) {
+        out->dash = path->dash;
+        out->gap = path->gap;
+        out->phase = path->phase;
+    }
+}
+
+static bool grow_style_slots(svg_writer *w)
+{
+    size_t count = w->style_slot_count ? 4 * w->style_slot_count : 256;
+    uint32_t *slots = mem_calloc(count, sizeof *slots);
+    if (!slots)
+        return false;
+    for (size_t i = 0; i < w->style_count; i++) {
+        size_t at = hash_bytes(&w->styles[i], sizeof w->styles[i]) & (count - 1);
+        while (slots[at])
+            at = (at + 1) & (count - 1);
+        slots[at] = (uint32_t)i + 1;
+    }
+    mem_free(w->style_slots);
+    w->style_slots = slots;
+    w->style_slot_count = count;
+    return true;
+}
+
+/* The number of a style, which is added when it is new. */
+static size_t find_style(svg_writer *w, const svg_style *style)
+{
+    if (2 * w->style_count >= w->style_slot_count && !grow_style_slots(w)) {
+        w->out.failed = true;
+        return 0;
+    }
+    size_t at = hash_bytes(style, sizeof *style) & (w->style_slot_count - 1);
+    for (; w->style_slots[at]; at = (at + 1) & (w->style_slot_count - 1))
+        if (memcmp(&w->styles[w->style_slots[at] - 1], style, sizeof *style) == 0)
+            return w->style_slots[at] - 1;
+    if (!mem_grow((void **)&w->styles, &w->style_capacity, w->style_count + 1, sizeof *w->styles)) {
+        w->out.failed = true;
+        return 0;
+    }
+    w->styles[w->style_count] = *style;
+    w->style_slots[at] = (uint32_t)++w->style_count;
+    return w->style_count - 1;
+}
+
+static void find_styles(svg_writer *w)
+{
+    for (size_t i = 0; i < w->s->item_count; i++) {
+        const sheet_item *item = &w->s->items[i];
+        for (uint32_t k = 0; k < item->count; k++) {
+            svg_style style;
+            style_of(&style, item, &w->s->paths[item->first + k]);
+            find_style(w, &style);
+        }
+    }
+}
+
+static void put_style(svg_writer *w, size_t index)
+{
+    const svg_style *style = &w->styles[index];
+    char ink[10];
+    print_colour(ink, style->ink);
+    text_append(&w->out, ".s%zu{", index);
+    if (style->filled) {
+        text_append(&w->out, "fill:%s", ink);
+        if (opacity_of(style->ink) < 1) {
+            put(w, ";fill-opacity:");
+            put_number(w, opacity_of(style->ink));
+        }
+    } else {
+        text_append(&w->out, "stroke:%s;stroke-width:", ink);
+        put_number(w, (double)style->width);
+        if (opacity_of(style->ink) < 1) {
+            put(w, ";stroke-opacity:");
+            put_number(w, opacity_of(style->ink));
+        }
+        if (style->cap == SHEET_CAP_BUTT)
+            put(w, ";stroke-linecap:butt");
+    }
+    if (style->dash > 0) {
+        put(w, ";stroke-dasharray:");
+        put_number(w, (double)style->dash);
+        put(w, ",");
+        put_number(w, (double)style->gap);
+        put(w, ";stroke-dashoffset:");
+        put_number(w, (double)style->phase);
+    }
+    put(w, "}\n");
+}
+
+static void put_styles(svg_writer *w)
+{
+    put(w, "<style>\npath{fill:none;stroke-linecap:round;stroke-linejoin:round}\ntext{font-family:'Liberation Sans',Arial,Helvetica,sans-serif}\n");
+    for (size_t i = 0; i < w->style_count && !w->out.failed; i++)
+        put_style(w, i);
+    put(w, "</style>\n");
+}
+
+/* --- groups ---------------------------------------------------------------------------------------------------------- */
+
+/* Letters that every reader of ids takes. */
+static void append_id(text *id, const char *name)
+{
+    for (const char *at = name ? name : ""; *at; at++) {
+        bool plain = (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || (*at >= '0' && *at <= '9') || *at == '-' || *at == '_';
+        text_append_bytes(id, plain ? at : "_", 1);
+    }
+}
+
+/* The slot of an id: of the group that has it, or a free one. */
+static size_t id_slot(const svg_writer *w, const char *id)
+{
+    size_t at = hash_bytes(id, strlen(id)) & (w->slot_count - 1);
+    while (w->id_slots[at] && strcmp(w->ids[w->id_slots[at] - 1], id) != 0)
+        at = (at + 1) & (w->slot_count - 1);
+    return at;
+}
+
+/* The parent's id and the group's own name; where another group has it already a number is added until none has. */
+static bool name_group(svg_writer *w, size_t index)
+{
+    const sheet_group *g = &w->s->groups[index];
+    text id = {0};
+    if (g->parent >= 0)
+        text_append(&id, "%s-", w->ids[g->parent]);
+    if (g->part)
+        text_append(&id, "part-%u", g->part);
+    else
+        append_id(&id, g->name && *g->name ? g->name : "group");
+    if (id.data && !((*id.data | 0x20) >= 'a' && (*id.data | 0x20) <= 'z') && *id.data != '_') {
+        text lettered = {0};
+        text_append(&lettered, "g%s", id.data);
+        text_release(&id);
+        id = lettered;
+    }
+    if (id.failed || !id.data) {
+        text_release(&id);
+        return false;
+    }
+    size_t length = id.size;
+    for (size_t again = 2; w->id_slots[id_slot(w, id.data)]; again++) {
+        id.size = length;
+        text_append(&id, "-%zu", again);
+        if (id.failed) {
+            text_release(&id);
+            return false;
+        }
+    }
+    w->id_slots[id_slot(w, id.data)] = (uint32_t)index + 1;
+    w->ids[index] = text_take(&id);
+    return w->ids[index] != NULL;
+}
+
+static bool name_groups(svg_writer *w)
+{
+    size_t count = w->s->group_count;
+    w->slot_count = 16;
+    while (w->slot_count < 2 * count)
+        w->slot_count *= 2;
+    w->ids = mem_calloc(count, sizeof *w->ids);
+    w->opened = mem_calloc(count, sizeof *w->opened);
+    w->id_slots = mem_calloc(w->slot_count, sizeof *w->id_slots);
+    bool good = w->ids && w->opened && w->id_slots;
+    for (size_t i = 0; i < count && good; i++)
+        good = name_group(w, i);
+    return good;
+}
+
+static void open_group(svg_writer *w, uint32_t index)
+{
+    const sheet_group *g = &w->s->groups[index];
+    put(w, "<g");
+    if (!w->opened[index])
+        text_append(&w->out, " id=\"%s\"", w->ids[index]);
+    w->opened[index] = true;
+    if (g->css_class && *g->css_class) {
+        put(w, " class=\"");
+        put_escaped(w, g->css_class);
+        put(w, "\"");
+    }
+    if (g->part) {
+        text_append(&w->out, " data-part=\"%u\" data-name=\"", g->part);
+        put_escaped(w, g->name ? g->name : "");
+        put(w, "\"");
+    }
+    if (g->clip[2] > 0)
+        text_append(&w->out, " clip-path=\"url(#%s.clip)\"", w->ids[index]);
+    put(w, ">\n");
+    w->open = (int32_t)index;
+}
+
+/* Is `above` the group or one that it lies in? */
+static bool lies_in(const sheet *s, int32_t group, int32_t above)
+{
+    while (group > above)
+        group = s->groups[group].parent;
+    return group == above;
+}
+
+/* Closes what the group does not lie in, and opens what it lies in. */
+static void go_to_group(svg_writer *w, int32_t group)
+{
+    while (w->open >= 0 && !lies_in(w->s, group, w->open)) {
+        put(w, "</g>\n");
+        w->open = w->s->groups[w->open].parent;
+    }
+    while (w->open != group) {
+        int32_t next = group;
+        while (w->s->groups[next].parent != w->open)
+            next = w->s->groups[next].parent;
+        open_group(w, (uint32_t)next);
+    }
+}
+
+static void put_clips(svg_writer *w)
+{
+    bool any = false;
+    for (size_t i = 0; i < w->s->group_count; i++) {
+        const sheet_group *g = &w->s->groups[i];
+        if (!(g->clip[2] > 0))
+            continue;
+        put(w, any ? "" : "<defs>\n");
+        any = true;
+        text_append(&w->out, "<clipPath id=\"%s.clip\"><rect x=\"", w->ids[i]);
+        put_number(w, g->clip[0]);
+        put(w, "\" y=\"");
+        put_number(w, g->clip[1]);
+        put(w, "\" width=\"");
+        put_number(w, g->clip[2]);
+        put(w, "\" height=\"");
+        put_number(w, g->clip[3]);
+        put(w, "\"/></clipPath>\n");
+    }
+    put(w, any ? "</defs>\n" : "");
+}
+
+/* --- items ------------------------------------------------------------------------------------------------------------- */
+
+/* A command letter and two numbers. */
+static size_t print_pair(char *to, char letter, long long x, long long y)
+{
+    size_t at = 0;
+    if (letter)
+        to[at++] = letter;
+    else if (x >= 0)
+        to[at++] = ' ';
+    at += print_thousandths(to + at, x);
+    if (y >= 0)
+        to[at++] = ' ';
+    return at + print_thousandths(to + at, y);
+}
+
+static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
+{
+    char room[64];
+    long long before[2] = {0, 0};
+    bool lined = false;
+    for (uint32_t i = 0; i < path->count; i++) {
+        const float *p = w->s->points[path->first + i];
+        long long x = thousandths((double)p[0]), y = thousandths((double)p[1]);
+        size_t size;
+        if (dots || i == 0)
+            size = print_pair(room, 'M', x, y);
+        else if (x == before[0] && y == before[1] && !(i == 1 && path->count == 2))
+            continue; /* nothing at this many decimals; a line of no length is a dot all the same */
+        else
+            size = print_pair(room, lined ? '\0' : 'l', x - before[0], y - before[1]);
+        lined = i > 0;
+        if (dots) {
+            memcpy(room + size, "h0", 2);
+            size += 2;
+        }
+        text_append_bytes(&w->out, room, size);
+        before[0] = x;
+        before[1] = y;
+    }
+    if (path->closed || path->filled)
+        text_append_bytes(&w->out, "z", dots ? 0 : 1);
+}
+
+/* Paths that follow each other in one style are one element. */
+static void put_paths(svg_writer *w, const sheet_item *item)
+{
+    size_t current = SIZE_MAX;
+    for (uint32_t k = 0; k < item->count; k++) {
+        const sheet_path *path = &w->s->paths[item->first + k];
+        svg_style style;
+        style_of(&style, item, path);
+        size_t index = find_style(w, &style);
+        if (index != current) {
+            put(w, current == SIZE_MAX ? "" : "\"/>\n");
+            text_append(&w->out, "<path class=\"s%zu\"", index);
+            if (item->id)
+                text_append(&w->out, " data-line=\"%llx\"", (unsigned long long)item->id);
+            put(w, " d=\"");
+            current = index;
+        }
+        put_path_data(w, path, item->kind == SHEET_DOTS);
+    }
+    put(w, item->count ? "\"/>\n" : "");
+}
+
+static void put_attribute(svg_writer *w, const char *name, double value)
+{
+    text_append(&w->out, " %s=\"", name);
+    put_number(w, value);
+    put(w, "\"");
+}
+
+static void put_image(svg_writer *w, const sheet_item *item)
+{
+    static const char *const names[4] = {"x", "y", "width", "height"};
+    put(w, "<image");
+    for (int i = 0; i < 4; i++)
+        put_attribute(w, names[i], item->box[i]);
+    put(w, " preserveAspectRatio=\"none\" href=\"data:image/png;base64,");
+    put_base64(w, item->png, item->png_size);
+    put(w, "\"/>\n");
+}
+
+static void put_text(svg_writer *w, const sheet_item *item)
+{
+    char ink[10];
+    print_colour(ink, item->ink);
+    put(w, "<text");
+    put_attribute(w, "x", item->box[0]);
+    put_attribute(w, "y", item->box[1]);
+    put_attribute(w, "font-size", item->box[3]);
+    text_append(&w->out, " fill=\"%s\"", ink);
+    if (opacity_of(item->ink) < 1)
+        put_attribute(w, "fill-opacity", opacity_of(item->ink));
+    if (item->anchor >= 0)
+        text_append(&w->out, " text-anchor=\"%s\"", item->anchor == 0 ? "middle" : "end");
+    put(w, ">");
+    put_escaped(w, item->text);
+    put(w, "</text>\n");
+}
+
+static void put_item(svg_writer *w, const sheet_item *item)
+{
+    if (item->kind == SHEET_IMAGE ? item->png == NULL : item->kind == SHEET_TEXT ? item->text == NULL : item->count == 0)
+        return;
+    if (item->group < w->s->group_count)
+        go_to_group(w, (int32_t)item->group);
+    switch (item->kind) {
+    case SHEET_PATH:
+    case SHEET_DOTS: put_paths(w, item); break;
+    case SHEET_IMAGE: put_image(w, item); break;
+    case SHEET_TEXT: put_text(w, item); break;
+    }
+}
+
+static void put_head(svg_writer *w)
+{
+    const sheet *s = w->s;
+    put(w, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"");
+    put_number(w, s->width);
+    put(w, "mm\" height=\"");
+    put_number(w, s->height);
+    put(w, "mm\" viewBox=\"0 0 ");
+    put_number(w, s->width);
+    put(w, " ");
+    put_number(w, s->height);
+    put(w, "\">\n");
+    put_element(w, "title", s->title);
+    put_element(w, "desc", s->description);
+    put_styles(w);
+    put_clips(w);
+    if (!(s->ground.a > 0))
+        return;
+    char ground[10];
+    print_colour(ground, s->ground);
+    text_append(&w->out, "<rect class=\"ground\" width=\"100%%\" height=\"100%%\" fill=\"%s\"", ground);
+    if (opacity_of(s->ground) < 1)
+        put_attribute(w, "fill-opacity", opacity_of(s->ground));
+    put(w, "/>\n");
+}
+
+lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error)
+{
+    svg_writer w = {.s = s, .open = -1};
+    *out = (export_bytes){NULL, 0};
+    if (name_groups(&w)) {
+        find_styles(&w);
+        put_head(&w);
+        for (size_t i = 0; i < s->item_count && !w.out.failed; i++)
+            put_item(&w, &s->items[i]);
+        go_to_group(&w, -1);
+        put(&w, "</svg>\n");
+    } else {
+        w.out.failed = true;
+    }
+    for (size_t i = 0; w.ids && i < s->group_count; i++)
+        mem_free(w.ids[i]);
+    mem_free(w.ids);
+    mem_free(w.opened);
+    mem_free(w.id_slots);
+    mem_free(w.styles);
+    mem_free(w.style_slots);
+    out->size = w.out.size;
+    out->data = s->failed ? NULL : (unsigned char *)text_take(&w.out);
+    text_release(&w.out);
+    return out->data ? LMN_OK : error_memory(error);
+}

@@ -1,0 +1,84 @@
+/* Marks: records drawn as quads. Each record is there once a corner, and an index buffer makes triangles of them (seed 001, section 5.4.1; row EX-29): on the
+ * software driver instances of four corners take a quarter to a half longer. */
+#include "gpu/gpu_private.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { CORNERS = 4, INDICES = 6, MARKS_MAX = UINT32_MAX / INDICES };
+
+static void add_records(GLuint buffer, size_t size, int vectors, const char *records, size_t count, char *corners)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < CORNERS; k++)
+            memcpy(corners + (CORNERS * i + k) * size, records + i * size, size);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * CORNERS * size), corners, GL_STATIC_DRAW);
+    for (int i = 0; i < vectors; i++) {
+        glVertexAttribPointer((GLuint)i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size, (const void *)(4 * sizeof(float) * (size_t)i));
+        glEnableVertexAttribArray((GLuint)i);
+    }
+}
+
+static void add_indices(GLuint buffer, size_t count, uint32_t *indices)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t first = (uint32_t)(CORNERS * i);
+        memcpy(&indices[INDICES * i], (uint32_t[]){first, first + 1, first + 2, first + 2, first + 1, first + 3}, INDICES * sizeof *indices);
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * INDICES * sizeof *indices), indices, GL_STATIC_DRAW);
+}
+
+gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t count)
+{
+    if (g->failed)
+        return NULL;
+    size_t size = 4 * sizeof(float) * (size_t)vectors;
+    gpu_marks *m = count <= MARKS_MAX ? mem_calloc(1, sizeof *m) : NULL;
+    char *corners = m ? mem_alloc(count * CORNERS * size) : NULL;
+    uint32_t *indices = m ? mem_alloc(count * INDICES * sizeof *indices) : NULL;
+    if (corners && indices) {
+        m->count = count;
+        glGenVertexArrays(1, &m->array);
+        glBindVertexArray(m->array);
+        glGenBuffers(2, m->buffers);
+        add_records(m->buffers[0], size, vectors, (const char *)records, count, corners);
+        add_indices(m->buffers[1], count, indices);
+        glBindVertexArray(0);
+        if (glGetError() == GL_OUT_OF_MEMORY)
+            gpu_fail(g, LMN_MEMORY, "the driver has no memory for %zu marks", count);
+    } else {
+        mem_free(m);
+        m = NULL;
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+    }
+    mem_free(corners);
+    mem_free(indices);
+    return m;
+}
+
+void gpu_marks_destroy(gpu *g, gpu_marks **m)
+{
+    (void)g;
+    if (!*m)
+        return;
+    glDeleteVertexArrays(1, &(*m)->array);
+    glDeleteBuffers(2, (*m)->buffers);
+    mem_free(*m);
+    *m = NULL;
+}
+
+size_t gpu_marks_count(const gpu_marks *m)
+{
+    return m ? m->count : 0;
+}
+
+void gpu_draw_marks(gpu *g, gpu_marks *m)
+{
+    if (g->failed || !g->program || !m || !m->count)
+        return;
+    glBindVertexArray(m->array);
+    gpu_draw_indices(g, (uint32_t)(INDICES * m->count));
+}

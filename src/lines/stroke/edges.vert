@@ -1,0 +1,47 @@
+/* Edges of a mesh as quads. Those that are no lines are moved out of sight, which costs least (row EX-13). */
+#include "lines/stroke/decide.glsl"
+#include "lines/stroke/quad.glsl"
+#include "lines/stroke/visible.glsl"
+uniform mat4  u_clip; /* from the mesh's axes to clip space */
+uniform vec2  u_half_widths; /* of outlines, of all others */
+
+/* An edge no longer than this, in pixels, is seen as a whole or not at all. */
+const float SHORT = 2.5;
+const float SEEN = 1.0; /* in the place of the bits */
+
+/* Pixels and window depth. */
+vec3 on_page(vec4 clip)
+{
+    vec3 place = 0.5 * clip.xyz / clip.w + 0.5;
+    return vec3(place.xy * u_size, place.z);
+}
+
+/* The quad's corner, of what lies beyond the near plane. */
+vec4 place_edge(int line)
+{
+    vec4 begin = u_clip * vec4(a_begin.xyz, 1.0), end = u_clip * vec4(a_end.xyz, 1.0);
+    float first = begin.z + begin.w, second = end.z + end.w;
+    if (first <= 0.0 && second <= 0.0)
+        return NOWHERE;
+    if (first <= 0.0)
+        begin = mix(end, begin, second / (second - first));
+    else if (second <= 0.0)
+        end = mix(begin, end, first / (first - second));
+    float half_width = line == PROFILE ? u_half_widths.x : u_half_widths.y;
+    v_begin = vec4(on_page(begin), half_width);
+    v_end = vec4(on_page(end), half_width);
+    v_look = vec4(1.0, 1.0, float(line), distance(v_begin.xy, v_end.xy) <= SHORT ? SEEN : 0.0);
+    return corner_of(v_begin, v_end);
+}
+
+void main()
+{
+    int line = line_of_edge();
+    gl_Position = NOWHERE;
+    v_begin = v_end = v_look = vec4(0.0);
+    if (line != NO_LINE)
+        gl_Position = place_edge(line);
+    bool is_short = v_look.w == SEEN;
+    if (!is_visible(0.5 * (v_begin.xyz + v_end.xyz), is_short) && is_short)
+        gl_Position = NOWHERE;
+}

@@ -1,0 +1,41 @@
+/* Is a place of a line seen? It is compared with the surfaces around its axis, not around the pixel, so that lines are as wide as they are wherever surfaces bend away (row
+ * EX-14). Window depth is affine on planes: a surface is carried on from the middle of its pixel to the axis. Where one of the nine pixels around shows nothing that is
+ * nearer, the line is seen: an outline lies beside the pixels of its surface as often as in them. */
+uniform vec2 u_far_corner; /* the last pixel */
+
+/* What surfaces and lines may differ by on the same plane: rounding, and a share of how steep the surface is in a pixel. */
+const float ROUNDING = 2e-6, SLOPE = 0.05;
+
+float depth_at(vec2 pixel)
+{
+    return texelFetch(t_depth, ivec2(clamp(pixel, vec2(0.0), u_far_corner)), 0).r;
+}
+
+float smaller(float a, float b)
+{
+    return abs(a) < abs(b) ? a : b;
+}
+
+/* One pixel a turn, the middle one first, so that most places are decided after one; software drivers run the first turn in any case. `wanted`: whether the answer
+ * matters. */
+bool is_visible(vec3 axis, bool wanted)
+{
+    const vec2 X = vec2(1.0, 0.0), Y = vec2(0.0, 1.0);
+    vec2 middle = floor(axis.xy), beside = vec2(0.0), next = X;
+    bool seen = false;
+    int turns = wanted ? 9 : 0;
+    for (int i = 0; i < turns; i++) {
+        vec2 pixel = middle + beside, off = axis.xy - pixel - 0.5;
+        float here = depth_at(pixel), left = depth_at(pixel - X), right = depth_at(pixel + X), below = depth_at(pixel - Y), above = depth_at(pixel + Y);
+        vec2 slope = vec2(smaller(right - here, here - left), smaller(above - here, here - below));
+        float nearer = axis.z - here - dot(slope, off);
+        seen = here >= 1.0 || nearer <= ROUNDING + SLOPE * (abs(slope.x) + abs(slope.y));
+        /* What lies farther behind than any of these reach is hidden. */
+        float far = max(max(max(left, right), max(below, above)), here), near = min(min(min(left, right), min(below, above)), here);
+        bool hidden = axis.z > far + 4.0 * (far - near) + ROUNDING;
+        turns = seen || hidden ? 0 : turns;
+        beside = next;
+        next = vec2(sign(next.x - next.y), sign(next.x + next.y));
+    }
+    return seen;
+}

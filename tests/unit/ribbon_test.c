@@ -1,0 +1,692 @@
+/* Ribbons: how strokes made by hand are drawn. Every expectation is worked out from the lines' places, not from ribbons. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "stroke/ribbon.h"
+
+enum { POINTS_MOST = 4096, STROKES_MOST = 128 };
+
+typedef struct drawing {
+    stroke_point points[POINTS_MOST];
+    stroke       strokes[STROKES_MOST];
+    stroke_set   set;
+} drawing;
+
+static drawing d; /* large */
+
+static void begin(void)
+{
+    memset(&d, 0, sizeof d);
+    d.set = (stroke_set){.strokes = d.strokes, .points = d.points};
+}
+
+static stroke_style plain_style(void)
+{
+    stroke_style style = {.width = 2, .crease_width = 0.5f, .wobble_length = 30, .repeats = 1, .hidden = HIDDEN_SOLID, .hidden_colour = {NAN, 0, 0, 1}, .hidden_width = 1,
+                          .hidden_gap = 4, .hidden_fade = 1};
+    for (int i = 0; i < STROKE_CLASS_COUNT; i++)
+        style.colours[i] = (colour){NAN, 0, 0, 1};
+    style.colours[STROKE_CONTOUR] = (colour){0, 0, 0, 1};
+    return style;
+}
+
+/* A stroke through points {x, y, depth}; `goes_on`: of the same chain as the one before. */
+static stroke *add(const float (*places)[3], uint32_t count, uint32_t hidden_by, bool goes_on)
+{
+    stroke *s = &d.strokes[d.set.stroke_count];
+    float   arc = goes_on ? d.points[d.set.point_count - 1].arc : 0;
+    assert_true(d.set.stroke_count < STROKES_MOST && d.set.point_count + count <= POINTS_MOST);
+    if (!goes_on)
+        d.set.chain_count++;
+    *s = (stroke){.kind = STROKE_CONTOUR, .part = 1, .hidden_by = hidden_by, .chain = (uint32_t)d.set.chain_count - 1, .id = 77 * d.set.chain_count,
+                  .first = (uint32_t)d.set.point_count, .count = count};
+    for (uint32_t i = 0; i < count; i++) {
+        if (i > 0)
+            arc += hypotf(places[i][0] - places[i - 1][0], places[i][1] - places[i - 1][1]);
+        d.points[d.set.point_count++] = (stroke_point){places[i][0], places[i][1], places[i][2], arc, 1};
+    }
+    for (size_t k = d.set.stroke_count + 1; k-- > 0 && d.strokes[k].chain == s->chain;)
+        d.strokes[k].chain_length = arc;
+    d.set.stroke_count++;
+    return s;
+}
+
+static stroke *add_line(float x0, float y0, float x1, float y1, float depth, uint32_t hidden_by)
+{
+    const float ends[2][3] = {{x0, y0, depth}, {x1, y1, depth}};
+    return add(ends, 2, hidden_by, false);
+}
+
+static stroke *add_circle(float x, float y, float radius, int pieces, uint32_t hidden_by)
+{
+    float places[256][3];
+    for (int i = 0; i <= pieces; i++) {
+        double angle = 2 * 3.14159265358979 * (i % pieces) / pieces;
+        places[i][0] = x + radius * (float)cos(angle);
+        places[i][1] = y + radius * (float)sin(angle);
+        places[i][2] = 5;
+    }
+    stroke *s = add((const float (*)[3])places, (uint32_t)pieces + 1, hidden_by, false);
+    s->closed = true;
+    return s;
+}
+
+static ribbon_set make_seeded(const stroke_style *style, uint32_t seed)
+{
+    ribbon_set out;
+    lmn_error  error = {0};
+    assert_int_equal(ribbons_make(&out, &d.set, style, seed, &error), LMN_OK);
+    return out;
+}
+
+static ribbon_set make(const stroke_style *style)
+{
+    return make_seeded(style, 0);
+}
+
+static const ribbon_point *point_of(const ribbon_set *r, size_t ribbon_index, uint32_t i)
+{
+    return &r->points[r->ribbons[ribbon_index].first + i];
+}
+
+static const ribbon_point *end_of(const ribbon_set *r, size_t i)
+{
+    return point_of(r, i, r->ribbons[i].count - 1);
+}
+
+/* --- plain ---------------------------------------------------------------------------------------------------------- */
+
+static void test_plain(void **state)
+{
+    const float bent[4][3] = {{10, 10, 1}, {50, 10, 1}, {50, 40, 2}, {90, 80, 3}};
+    stroke_style style = plain_style();
+    (void)state;
+    begin();
+    add(bent, 4, 0, false);
+    add_line(0, 0, 100, 0, 9, 2);
+    d.strokes[0].kind = STROKE_CREASE;
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 2);
+    assert_int_equal(r.ribbons[0].hidden_by, 2); /* what is visible lies on it */
+    assert_float_equal(point_of(&r, 0, 0)->half, 0.5f, 1e-6);
+    assert_true(r.ribbons[1].even && !r.ribbons[1].closed);
+    assert_int_equal(r.ribbons[1].count, 4);
+    assert_int_equal(r.ribbons[1].end, RIBBON_ROUND);
+    for (uint32_t i = 0; i < 4; i++) {
+        assert_float_equal(point_of(&r, 1, i)->x, bent[i][0], 1e-5);
+        assert_float_equal(point_of(&r, 1, i)->y, bent[i][1], 1e-5);
+        assert_float_equal(point_of(&r, 1, i)->depth, bent[i][2], 1e-5);
+        assert_float_equal(point_of(&r, 1, i)->half, 0.5f, 1e-6); /* a crease: half of 2, and half the width to a side */
+    }
+    ribbon_set_release(&r);
+    style.hidden = HIDDEN_NONE;
+    r = make(&style);
+    assert_int_equal(r.ribbon_count, 1);
+    ribbon_set_release(&r);
+    style.hidden = HIDDEN_SOLID;
+    for (style.hidden_depth = 1; style.hidden_depth < 4; style.hidden_depth++) {
+        r = make(&style);
+        assert_int_equal(r.ribbon_count, style.hidden_depth < 2 ? 1 : 2);
+        ribbon_set_release(&r);
+    }
+}
+
+static void test_colours_and_fading(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    begin();
+    for (uint32_t k = 0; k < 6; k++)
+        add_line(0, 20 * (float)k, 50, 20 * (float)k, 5, k);
+    style.colours[STROKE_CREASE] = (colour){1, 0.5f, 0, 1};
+    d.strokes[0].kind = STROKE_CREASE;
+    style.hidden_colour = (colour){0, 0, 1, 0.5f};
+    style.hidden_fade = 0.5f;
+    ribbon_set r = make(&style);
+    const float wanted[6] = {1, 1, 0.5f, 0.5f, 0.25f, 1}; /* behind 1 … 5 surfaces, then the visible one */
+    for (size_t i = 0; i < 6; i++)
+        assert_float_equal(point_of(&r, i, 0)->alpha, wanted[i], 1e-6);
+    assert_float_equal(r.ribbons[0].ink.b, 1, 1e-6);
+    assert_float_equal(r.ribbons[0].ink.a, 0.5f, 1e-6);
+    assert_float_equal(r.ribbons[5].ink.r, 1, 1e-6);
+    assert_float_equal(r.ribbons[5].ink.g, 0.21404f, 1e-4); /* linear */
+    ribbon_set_release(&r);
+}
+
+/* --- dashes --------------------------------------------------------------------------------------------------------- */
+
+static void test_dashes(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    begin();
+    add_line(10, 10, 110, 10, 5, 0);
+    style.dash = 7;
+    style.gap = 4;
+    ribbon_set r = make(&style);
+    /* (100 + 4) / 11 rounds to 9 dashes; 9 · 7 + 8 · 4 = 95 is stretched to 100. */
+    assert_int_equal(r.ribbon_count, 9);
+    for (size_t i = 0; i < 9; i++) {
+        assert_float_equal(point_of(&r, i, 0)->x, 10 + 11 * (float)i * 100 / 95, 1e-3);
+        assert_float_equal(end_of(&r, i)->x, 10 + (11 * (float)i + 7) * 100 / 95, 1e-3);
+        assert_int_equal(r.ribbons[i].end, RIBBON_BUTT);
+    }
+    ribbon_set_release(&r);
+    /* What repeats stays where it was: the chain has grown at its beginning by 3. */
+    d.strokes[0].phase = 3;
+    ribbon_set moved = make(&style);
+    assert_float_equal(point_of(&moved, 2, 0)->x + 3, 10 + 11.0f * 2 * 100 / 95, 1e-3);
+    assert_float_equal(point_of(&moved, 0, 0)->x, 10, 1e-3);
+    assert_float_equal(end_of(&moved, moved.ribbon_count - 1)->x, 110, 1e-3);
+    ribbon_set_release(&moved);
+    /* A gap longer than all of it. */
+    d.strokes[0].phase = 0;
+    style.gap = 500;
+    r = make(&style);
+    assert_int_equal(r.ribbon_count, 1);
+    ribbon_set_release(&r);
+}
+
+static void test_closed_dashes(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    begin();
+    add_circle(100, 100, 40, 120, 0);
+    style.dash = 6;
+    style.gap = 6;
+    ribbon_set r = make(&style);
+    float length = d.strokes[0].chain_length, inked = 0;
+    for (size_t i = 0; i < r.ribbon_count; i++)
+        inked += end_of(&r, i)->arc - point_of(&r, i, 0)->arc;
+    assert_float_equal(inked, length / 2, 0.02f * length); /* as much ink as gaps, all around */
+    ribbon_set_release(&r);
+    style.dash = 0;
+    r = make(&style);
+    assert_int_equal(r.ribbon_count, 1);
+    assert_true(r.ribbons[0].closed);
+    assert_float_equal(point_of(&r, 0, 0)->x, end_of(&r, 0)->x, 1e-6);
+    ribbon_set_release(&r);
+}
+
+/* A chain that goes behind something: dashes there, which begin and end with ink where they meet the visible stretches. */
+static void test_hidden_dashes(void **state)
+{
+    const float one[2][3] = {{0, 0, 5}, {33, 0, 5}}, two[2][3] = {{33, 0, 5}, {151, 0, 5}}, three[2][3] = {{151, 0, 5}, {200, 0, 5}};
+    stroke_style style = plain_style();
+    (void)state;
+    style.hidden = HIDDEN_DASHED;
+    style.hidden_dash = 8;
+    style.hidden_gap = 5;
+    begin();
+    add(one, 2, 0, false);
+    add(two, 2, 1, true);
+    add(three, 2, 0, true);
+    ribbon_set r = make(&style);
+    assert_true(r.ribbon_count > 8);
+    assert_float_equal(point_of(&r, 0, 0)->x, 33, 1e-4);
+    assert_float_equal(end_of(&r, r.ribbon_count - 3)->x, 151, 1e-4);
+    float before = -1;
+    for (size_t i = 0; i < r.ribbon_count - 2; i++) {
+        float from = point_of(&r, i, 0)->x, to = end_of(&r, i)->x;
+        assert_true(r.ribbons[i].hidden_by == 1 && from > before + 2);
+        assert_true(to - from >= 4 - 1e-3f); /* half a dash at least */
+        before = to;
+    }
+    assert_float_equal(end_of(&r, r.ribbon_count - 1)->x, 200, 1e-4);
+    ribbon_set_release(&r);
+}
+
+/* --- halos ---------------------------------------------------------------------------------------------------------- */
+
+static void test_halos(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.halo = 3;
+    begin();
+    add_line(0, 50, 100, 50, 9, 0);  /* behind */
+    add_line(40, 0, 40, 100, 2, 0);  /* passes in front */
+    add_line(70, 0, 70, 100, 12, 1); /* passes behind, hidden */
+    add_line(90, 20, 90, 48, 1, 0);  /* in front, and does not reach it */
+    add_line(20, 0, 20, 100, 1, 1);  /* nearer, but hidden itself: nobody sees it */
+    ribbon_set r = make(&style);
+    float ends[4] = {0};
+    int   pieces = 0;
+    for (size_t i = 0; i < r.ribbon_count; i++)
+        if (r.ribbons[i].chain == 0 && pieces < 2) {
+            ends[2 * pieces] = point_of(&r, i, 0)->x;
+            ends[2 * pieces + 1] = end_of(&r, i)->x;
+            pieces++;
+        }
+    assert_int_equal(pieces, 2);
+    assert_float_equal(ends[1], 40 - 3 - 1, 1e-3); /* the gap beside the ink, which is 1 to a side */
+    assert_float_equal(ends[2], 40 + 3 + 1, 1e-3);
+    assert_float_equal(ends[3], 100, 1e-3);
+    /* The hidden line stops short of the visible one in front of it, and of nothing else. */
+    assert_int_equal(r.ribbons[0].chain, 2);
+    assert_int_equal(r.ribbons[2].chain, 4);
+    assert_float_equal(end_of(&r, 2)->y - point_of(&r, 2, 0)->y, 100, 1e-3);
+    assert_float_equal(end_of(&r, 0)->y, 46, 1e-3);
+    assert_float_equal(point_of(&r, 1, 0)->y, 54, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* Gaps leave no crumbs between them. */
+static void test_halo_crumbs(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.halo = 3;
+    begin();
+    add_line(0, 50, 100, 50, 9, 0);
+    add_line(40, 0, 40, 100, 2, 0);
+    add_line(49, 0, 49, 100, 2, 0); /* 36 … 44 and 45 … 53 */
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 4);
+    assert_float_equal(end_of(&r, 0)->x, 36, 1e-3);
+    assert_float_equal(point_of(&r, 1, 0)->x, 53, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* A stroke that ends at what hides it. And the edges of a corner, which meet at one place and leave no gaps. */
+static void test_halos_at_ends(void **state)
+{
+    const float corner[2][3] = {{200, 200, 5}, {260, 200, 7}}, other[2][3] = {{200, 200, 5}, {200, 260, 7}}, third[2][3] = {{200, 200, 5}, {150, 150, 7}};
+    stroke_style style = plain_style();
+    (void)state;
+    style.halo = 3;
+    begin();
+    add_line(0, 50, 39.2f, 50, 9, 0); /* ends up to a pixel before it */
+    add_line(40, 0, 40, 100, 2, 0);
+    add_line(40.8f, 70, 90, 70, 9, 0);
+    add(corner, 2, 0, false);
+    add(other, 2, 0, false);
+    add(third, 2, 0, false);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 6);
+    assert_float_equal(end_of(&r, 0)->x, 36, 1e-2);
+    assert_float_equal(point_of(&r, 2, 0)->x, 44, 1e-2);
+    for (size_t i = 1; i < 6; i += i == 1 ? 2 : 1)
+        assert_float_equal(end_of(&r, i)->arc - point_of(&r, i, 0)->arc, d.strokes[i].chain_length, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* Two lines that cross on the page, one from near to far: which is in front there depends on how depth runs between its ends. */
+static void test_halos_in_perspective(void **state)
+{
+    const float deep[2][3] = {{0, 50, 1}, {100, 50, 9}};
+    stroke_style style = plain_style();
+    (void)state;
+    style.halo = 3;
+    begin();
+    add(deep, 2, 0, false);         /* in the middle at depth 5, or in perspective at 2 / (1 + 1/9) = 1.8 */
+    add_line(50, 0, 50, 100, 3, 0); /* between */
+    for (int perspective = 0; perspective < 2; perspective++) {
+        d.set.perspective = perspective;
+        ribbon_set r = make(&style);
+        assert_int_equal(r.ribbon_count, 3);
+        assert_int_equal(r.ribbons[perspective ? 1 : 0].chain, perspective); /* the one that is cut has two pieces */
+        assert_int_equal(r.ribbons[perspective ? 2 : 1].chain, perspective);
+        ribbon_set_release(&r);
+    }
+}
+
+/* --- hidden lines that crowd ----------------------------------------------------------------------------------------- */
+
+static void test_crowds(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.hidden_crowd = 5;
+    begin();
+    for (int i = 0; i < 40; i++)
+        add_line(0, 100 + (float)i, 200, 100 + (float)i, 5, 1 + (uint32_t)(i % 3));
+    add_line(100, 0, 100, 300, 5, 1); /* runs across all, for the most part in the open */
+    add_line(0, 280, 200, 280, 5, 3); /* alone */
+    add_line(0, 60, 200, 60, 5, 0);   /* visible: stays, and so nothing is drawn beside it */
+    add_line(0, 63, 200, 63, 5, 1);
+    add_line(300, 20, 310, 20, 5, 1); /* a crumb, and what is just more */
+    add_line(300, 40, 314, 40, 5, 1);
+    ribbon_set r = make(&style);
+    float before = -100;
+    int   left = 0;
+    bool  across = false, alone = false, crumb = false, more = false;
+    for (size_t i = 0; i < r.ribbon_count; i++) {
+        const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
+        across = across || (a->x == b->x && b->y - a->y > 100);
+        crumb = crumb || (a->x == 300 && a->y == 20);
+        more = more || (a->x == 300 && a->y == 40);
+        alone = alone || (a->y == 280 && b->x - a->x == 200);
+        assert_false(r.ribbons[i].hidden_by > 0 && a->y == 63 && b->y == 63);
+        if (a->y != b->y || a->y < 90 || a->y > 150)
+            continue;
+        assert_true(a->y - before >= 5 - 1e-3f); /* apart */
+        assert_float_equal(b->x - a->x, 200, 1e-3); /* and whole */
+        assert_int_equal(r.ribbons[i].hidden_by, 1); /* the nearest */
+        before = a->y;
+        left++;
+    }
+    assert_in_range(left, 5, 8);
+    assert_true(across && alone && more && !crumb);
+    ribbon_set_release(&r);
+}
+
+/* A line that is crowded half of the time, in turns as long as what is judged together: whatever is decided, nothing short stays and nothing short goes. */
+static void check_turns(float length)
+{
+    stroke_style style = plain_style();
+    style.hidden_crowd = 5;
+    begin();
+    for (int i = 0; i < 20; i++)
+        add_line(41 * (float)i, 100, 41 * (float)i + length + (float)(i % 3), 100, 5, 0);
+    add_line(0, 102, 820, 102, 5, 1);
+    ribbon_set r = make(&style);
+    float before = 0;
+    for (size_t i = 0; i < r.ribbon_count && r.ribbons[i].hidden_by; i++) {
+        const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
+        assert_true(b->x - a->x > 40 - 2.6f);
+        assert_true(a->x == 0 || a->x - before > 40 - 2.6f);
+        before = b->x;
+    }
+    assert_true(r.ribbon_count > 20);
+    ribbon_set_release(&r);
+}
+
+static void test_crowds_in_turns(void **state)
+{
+    (void)state;
+    check_turns(10);
+    check_turns(12);
+}
+
+/* A spring seen from the side: one chain whose windings crowd each other. */
+static void test_spring(void **state)
+{
+    float places[1200][3];
+    stroke_style style = plain_style();
+    (void)state;
+    begin();
+    for (int i = 0; i < 1200; i++) {
+        double angle = i * 0.2;
+        places[i][0] = 100 + 60 * (float)cos(angle);
+        places[i][1] = 50 + 2.0f * (float)(angle / 6.2831853); /* 2 pixels a winding, 38 windings */
+        places[i][2] = 5;
+    }
+    add((const float (*)[3])places, 1200, 1, false);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 1);
+    ribbon_set_release(&r);
+    style.hidden_crowd = 6;
+    r = make(&style);
+    float inked = 0;
+    for (size_t i = 0; i < r.ribbon_count; i++) {
+        float length = end_of(&r, i)->arc - point_of(&r, i, 0)->arc;
+        assert_true(length > 40 - 3.1f); /* no crumbs */
+        inked += length;
+    }
+    assert_true(inked < 0.6f * d.strokes[0].chain_length);
+    assert_true(inked > 0.1f * d.strokes[0].chain_length);
+    ribbon_set_release(&r);
+}
+
+/* --- the hand --------------------------------------------------------------------------------------------------------- */
+
+static float place_at(const ribbon_set *r, uint32_t chain, float arc, float *y)
+{
+    for (size_t i = 0; i < r->ribbon_count; i++)
+        for (uint32_t k = 0; r->ribbons[i].chain == chain && k + 1 < r->ribbons[i].count; k++) {
+            const ribbon_point *a = point_of(r, i, k), *b = a + 1;
+            if (arc < a->arc || arc > b->arc || !(b->arc > a->arc))
+                continue;
+            float t = (arc - a->arc) / (b->arc - a->arc);
+            *y = a->y + t * (b->y - a->y);
+            return a->x + t * (b->x - a->x);
+        }
+    return NAN;
+}
+
+static void test_wobble(void **state)
+{
+    const float one[2][3] = {{0, 50, 5}, {90, 50, 5}}, two[2][3] = {{90, 50, 5}, {300, 50, 5}};
+    stroke_style style = plain_style();
+    (void)state;
+    style.wobble = 3;
+    begin();
+    add_line(0, 50, 300, 50, 5, 0);
+    ribbon_set whole = make(&style), other = make_seeded(&style, 1);
+    float most = 0, y = 0, other_y = 0, differ = 0;
+    for (uint32_t i = 0; i < whole.ribbons[0].count; i++)
+        most = fmaxf(most, fabsf(point_of(&whole, 0, i)->y - 50));
+    assert_true(most > 1 && most <= 3);
+    assert_true(whole.ribbons[0].count > 50 && whole.ribbons[0].even);
+    /* The same line in two strokes: nothing moves, and they meet. */
+    begin();
+    add(one, 2, 0, false);
+    add(two, 2, 0, true);
+    ribbon_set cut = make(&style);
+    assert_float_equal(end_of(&cut, 0)->y, point_of(&cut, 1, 0)->y, 1e-4);
+    for (float arc = 1; arc < 300; arc += 7) {
+        float x = place_at(&whole, 0, arc, &y), cut_x = place_at(&cut, 0, arc, &other_y);
+        assert_float_equal(x, cut_x, 0.15);
+        assert_float_equal(y, other_y, 0.15);
+        place_at(&other, 0, arc, &other_y);
+        differ = fmaxf(differ, fabsf(y - other_y));
+    }
+    assert_true(differ > 0.5f); /* another seed, another hand */
+    ribbon_set_release(&whole);
+    ribbon_set_release(&other);
+    ribbon_set_release(&cut);
+    /* Longer at its beginning by 45, and followed from there: the hand stays where it was. */
+    begin();
+    add_line(-45, 50, 300, 50, 5, 0);
+    d.strokes[0].phase = -45;
+    ribbon_set longer = make(&style);
+    begin();
+    add_line(0, 50, 300, 50, 5, 0);
+    ribbon_set usual = make(&style);
+    for (float arc = 1; arc < 300; arc += 7) {
+        place_at(&usual, 0, arc, &y);
+        place_at(&longer, 0, arc + 45, &other_y);
+        assert_float_equal(y, other_y, 0.15);
+    }
+    ribbon_set_release(&longer);
+    ribbon_set_release(&usual);
+    begin();
+    add_circle(100, 100, 40, 90, 0);
+    d.strokes[0].phase = -20;
+    ribbon_set round = make(&style);
+    assert_true(round.ribbons[0].closed);
+    const ribbon_point *a = point_of(&round, 0, 0), *b = end_of(&round, 0), *c = b - 1, *after = a + 1;
+    assert_float_equal(a->x, b->x, 1e-5);
+    assert_true((b->x - c->x) * (after->x - a->x) + (b->y - c->y) * (after->y - a->y) > 0); /* no kink where it closes */
+    ribbon_set_release(&round);
+}
+
+static void test_overshoot(void **state)
+{
+    float arc[40][3];
+    stroke_style style = plain_style();
+    (void)state;
+    style.overshoot = 10;
+    begin();
+    add_line(50, 50, 150, 50, 5, 0);
+    add_line(50, 80, 150, 80, 5, 1);
+    add_line(50, 90, 58, 90, 5, 0); /* short: runs on less */
+    for (int i = 0; i < 40; i++) {
+        arc[i][0] = 200 + 8 * cosf((float)i * 0.1f);
+        arc[i][1] = 200 + 8 * sinf((float)i * 0.1f);
+        arc[i][2] = 5;
+    }
+    add((const float (*)[3])arc, 40, 0, false);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 4);
+    assert_float_equal(point_of(&r, 0, 0)->x, 50, 1e-4); /* the hidden one */
+    assert_true(point_of(&r, 1, 0)->x <= 45 + 1e-3f && point_of(&r, 1, 0)->x >= 40 - 1e-3f);
+    assert_true(end_of(&r, 1)->x >= 155 - 1e-3f && end_of(&r, 1)->x <= 160 + 1e-3f);
+    assert_float_equal(point_of(&r, 1, 0)->y, 50, 1e-4);
+    assert_true(end_of(&r, 2)->x > 58 && end_of(&r, 2)->x < 62);
+    assert_float_equal(point_of(&r, 3, 0)->x, 208, 1e-4); /* bent */
+    ribbon_set_release(&r);
+}
+
+static void test_widths(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.taper = 30;
+    begin();
+    add_line(0, 50, 200, 50, 5, 0);
+    add_circle(100, 150, 40, 60, 0);
+    ribbon_set r = make(&style);
+    assert_false(r.ribbons[0].even);
+    assert_true(r.ribbons[1].even); /* has no ends */
+    assert_true(point_of(&r, 0, 0)->half < 0.2f && end_of(&r, 0)->half < 0.2f);
+    float before = 0;
+    for (uint32_t i = 0; i < r.ribbons[0].count && point_of(&r, 0, i)->arc <= 30; i++) {
+        assert_true(point_of(&r, 0, i)->half >= before);
+        before = point_of(&r, 0, i)->half;
+    }
+    assert_float_equal(before, 1, 1e-4);
+    ribbon_set_release(&r);
+    style.taper = 0;
+    style.pressure = 1;
+    r = make(&style);
+    float least = 10, most = 0;
+    for (uint32_t i = 0; i < r.ribbons[0].count; i++) {
+        least = fminf(least, point_of(&r, 0, i)->half);
+        most = fmaxf(most, point_of(&r, 0, i)->half);
+    }
+    assert_true(least >= 0.5f && most <= 1.5f && most - least > 0.2f);
+    ribbon_set_release(&r);
+    /* Lines that are not sure of themselves: a pen gets thin, a pencil faint. */
+    style.pressure = 0;
+    d.points[0].weight = 0;
+    r = make(&style);
+    assert_float_equal(point_of(&r, 0, 0)->half, 0, 1e-6);
+    assert_float_equal(end_of(&r, 0)->alpha, 1, 1e-6);
+    ribbon_set_release(&r);
+    style.brush = BRUSH_PENCIL;
+    r = make(&style);
+    assert_float_equal(point_of(&r, 0, 0)->half, 1, 1e-6);
+    assert_float_equal(point_of(&r, 0, 0)->alpha, 0, 1e-6);
+    ribbon_set_release(&r);
+}
+
+static void test_repeats(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.repeats = 3;
+    style.repeat_apart = 4;
+    begin();
+    add_line(0, 50, 200, 50, 5, 0);
+    add_line(0, 90, 200, 90, 5, 1);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 1 + 3);
+    float apart = 0;
+    for (size_t i = 1; i < 4; i++)
+        for (uint32_t k = 0; k < r.ribbons[i].count; k++) {
+            assert_true(fabsf(point_of(&r, i, k)->y - 50) <= 4 + 1e-3f);
+            apart = fmaxf(apart, fabsf(point_of(&r, i, k)->y - 50));
+        }
+    assert_true(apart > 1);
+    ribbon_set_release(&r);
+}
+
+/* --- hostile ---------------------------------------------------------------------------------------------------------- */
+
+static void everything(stroke_style *style)
+{
+    *style = plain_style();
+    style->hidden = HIDDEN_DASHED;
+    style->hidden_dash = 6;
+    style->dash = 9;
+    style->gap = 4;
+    style->halo = 3;
+    style->hidden_crowd = 4;
+    style->wobble = 2;
+    style->taper = 10;
+    style->pressure = 0.5f;
+    style->overshoot = 5;
+    style->repeats = 2;
+    style->repeat_apart = 2;
+}
+
+static void test_hostile(void **state)
+{
+    stroke_style style;
+    (void)state;
+    everything(&style);
+    begin();
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 0);
+    ribbon_set_release(&r);
+    add_line(0, 50, 200, 50, 5, 0);
+    add_line(NAN, 50, 200, 50, 5, 0);
+    add_line(0, INFINITY, 200, 50, 5, 1);
+    add_line(0, 60, 3e30f, 60, 5, 1);
+    add_line(7, 7, 7, 7, 5, 0);
+    add_line(0, 70, 200, 70, NAN, 1);
+    d.points[1].weight = NAN;
+    r = make(&style);
+    for (size_t i = 0; i < r.point_count; i++)
+        assert_true(isfinite(r.points[i].x) && isfinite(r.points[i].y) && isfinite(r.points[i].half) && isfinite(r.points[i].alpha));
+    assert_true(r.ribbon_count > 0);
+    ribbon_set_release(&r);
+}
+
+static void test_out_of_memory(void **state)
+{
+    stroke_style style;
+    lmn_status   status = LMN_MEMORY;
+    (void)state;
+    everything(&style);
+    begin();
+    for (int i = 0; i < 12; i++) {
+        add_line(0, 20 + 3 * (float)i, 200, 25 + 3 * (float)i, 9, (uint32_t)i % 3);
+        add_line(20 * (float)i, 0, 20 * (float)i + 5, 100, 5, 0);
+    }
+    ribbon_set good = make(&style);
+    long n = 1;
+    for (; status != LMN_OK && n < 10000; n++) {
+        ribbon_set r;
+        lmn_error  error = {0};
+        mem_fail_at(n);
+        status = ribbons_make(&r, &d.set, &style, 0, &error);
+        mem_fail_at(0);
+        if (status == LMN_OK) {
+            assert_int_equal(r.ribbon_count, good.ribbon_count);
+            assert_memory_equal(r.points, good.points, good.point_count * sizeof *good.points);
+        } else {
+            assert_int_equal(status, LMN_MEMORY);
+            assert_null(r.ribbons);
+            assert_null(r.points);
+        }
+        ribbon_set_release(&r);
+    }
+    assert_in_range(n, 10, 9999);
+    ribbon_set_release(&good);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_plain),     cmocka_unit_test(test_colours_and_fading),
+        cmocka_unit_test(test_dashes),    cmocka_unit_test(test_closed_dashes),
+        cmocka_unit_test(test_hidden_dashes), cmocka_unit_test(test_halos),
+        cmocka_unit_test(test_halos_at_ends), cmocka_unit_test(test_halo_crumbs), cmocka_unit_test(test_crowds_in_turns), cmocka_unit_test(test_halos_in_perspective),
+        cmocka_unit_test(test_crowds),    cmocka_unit_test(test_spring),
+        cmocka_unit_test(test_wobble),    cmocka_unit_test(test_overshoot),
+        cmocka_unit_test(test_widths),    cmocka_unit_test(test_repeats),
+        cmocka_unit_test(test_hostile),   cmocka_unit_test(test_out_of_memory),
+    };
+    return cmocka_run_group_tests_name("ribbon", tests, NULL, NULL);
+}
