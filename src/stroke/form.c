@@ -9,6 +9,9 @@
 /* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). */
 #define SUGGESTIVE_LIMIT 100.0
 
+/* What grows counts the more the further it turns away, as it looks foreshortened; not beyond this cosine. */
+#define NEAR_OUTLINE 0.1
+
 typedef struct radial {
     double curvature; /* along the view */
     double growth;    /* towards the eye */
@@ -32,7 +35,8 @@ static radial radial_at(const form_view *f, uint32_t knot)
 
 static float suggestive_weight(double growth, double facing, double unit, double limit)
 {
-    return form_fade(growth * unit * unit / fmax(facing, FORM_RIM), limit, facing);
+    float weight = form_fade(growth * unit * unit / fmax(facing, NEAR_OUTLINE), limit);
+    return facing > 0 ? weight : fminf(weight, 0);
 }
 
 static bool collect_suggestive(form_view *f, double strength)

@@ -10,12 +10,15 @@
 #define RIDGE_LIMIT    4.0
 #define APPARENT_LIMIT 8.0
 /* What turns away further than this is not seen to bend more: cosine. */
-#define STEEPEST 0.1
+#define STEEPEST 0.05
+/* Towards the outline ridges fade, so as not to run beside it: between this cosine and twice of it. */
+#define RIM 0.12
 
 /* At a knot: what is greatest on the line, along which way, and how it changes that way. */
 typedef struct crest {
     double3 way; /* its sign has no meaning, but that of the change goes with it */
     double  height, change;
+    double  edge; /* by how much more it bends this way than across; on a ball no way is better than another */
 } crest;
 
 typedef struct crest_finder {
@@ -53,8 +56,8 @@ static crest crest_of(const form_surface *s, uint32_t knot, bool hollow)
     const surface_bend *b = &s->bends[knot];
     double3 d = of_floats(b->direction);
     if (!hollow)
-        return (crest){d, b->greater > fabsf(b->lesser) ? b->greater : 0, b->change[0]};
-    return (crest){cross(of_floats(s->normals[knot]), d), -b->lesser > fabsf(b->greater) ? -b->lesser : 0, -b->change[3]};
+        return (crest){d, b->greater, b->change[0], b->greater - fabsf(b->lesser)};
+    return (crest){cross(of_floats(s->normals[knot]), d), -b->lesser, -b->change[3], -b->lesser - fabsf(b->greater)};
 }
 
 /* --- apparent ridges ----------------------------------------------------------------------------------------------- */
@@ -70,10 +73,11 @@ static crest apparent_at(const form_view *f, uint32_t knot)
     double ad = dot(a, d), ae = dot(a, e), cd = dot(c, d), ce = dot(c, e);
     double aa = b->greater * ad * ad + b->lesser * ae * ae, ac = b->greater * ad * cd + b->lesser * ae * ce, cc = b->greater * cd * cd + b->lesser * ce * ce;
     double xx = (aa * aa + ac * ac) * stretch * stretch, xy = ac * (aa + cc) * stretch, yy = ac * ac + cc * cc;
-    double angle = 0.5 * atan2(2 * xy, xx - yy), most = 0.5 * (xx + yy + sqrt((xx - yy) * (xx - yy) + 4 * xy * xy));
+    double angle = 0.5 * atan2(2 * xy, xx - yy), spread = sqrt((xx - yy) * (xx - yy) + 4 * xy * xy), most = sqrt(0.5 * (xx + yy + spread)),
+           least = sqrt(fmax(0.5 * (xx + yy - spread), 0));
     double3 way = {0, 0, 0};
     way = sum(way, cos(angle) * stretch, a);
-    return (crest){sum(way, sin(angle), c), sqrt(fmax(most, 0)), 0};
+    return (crest){sum(way, sin(angle), c), most, 0, most - least};
 }
 
 /* How the height changes along its way, from its slopes over the faces around. */
@@ -107,24 +111,27 @@ static bool find_changes(crest_finder *w)
 
 /* --- lines --------------------------------------------------------------------------------------------------------- */
 
-/* Between two knots the change passes through 0; is that where the height is greatest, not least? */
-static bool is_greatest(double3 step, const crest *a, const crest *b)
+/* Where the change passes through 0 over a face: is the height greatest there, not least? Then the change falls along its way. */
+static bool is_greatest(const form_view *f, uint32_t face, const crest c[3])
 {
-    return a->change * dot(step, a->way) > 0 || b->change * dot(step, b->way) < 0;
+    double3 p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p), v = sum(form_place(f, face, 2), -1, p), n = cross(u, v), slope = {0, 0, 0};
+    slope = sum(slope, c[1].change - c[0].change, cross(v, n));
+    slope = sum(slope, c[2].change - c[0].change, cross(n, u));
+    return dot(slope, c[0].way) + dot(slope, c[1].way) + dot(slope, c[2].way) < 0;
 }
 
 /* An end where the crest crosses a side of a face. */
 static bool find_end(crest_finder *w, uint32_t half, const crest *a, const crest *b, int side, form_end *out)
 {
     form_view *f = w->f;
-    double3 step = sum(form_place(f, half / 3, half % 3 + 1), -1, form_place(f, half / 3, half % 3));
-    if ((a->change >= 0) == (b->change >= 0) || !is_greatest(step, a, b))
+    if ((a->change >= 0) == (b->change >= 0))
         return false;
     double share;
     *out = form_cross(f, half, a->change, b->change, &share);
     double p = f->facing[f->s->corners[half / 3][half % 3]], q = f->facing[f->s->corners[half / 3][(half + 1) % 3]];
-    double height = a->height + share * (b->height - a->height);
-    out->weight = form_fade(height * w->unit, w->limit, side * (p + share * (q - p)));
+    double rim = (side * (p + share * (q - p)) - RIM) / RIM, edge = (a->edge + share * (b->edge - a->edge)) * w->unit;
+    float weight = form_fade(edge, w->limit);
+    out->weight = weight < 0 || rim > 1 ? weight : rim < 0 ? (float)rim : weight * (float)rim;
     return true;
 }
 
@@ -137,14 +144,14 @@ static bool take_face(crest_finder *w, uint32_t face, int side)
     for (int k = 0; k < 3; k++) {
         uint32_t knot = f->s->corners[face][k];
         c[k] = w->kind == STROKE_APPARENT ? w->crests[knot] : crest_of(f->s, knot, (w->kind == STROKE_VALLEY) == (side > 0));
-        if (c[k].height * w->unit < 0.25 * w->limit)
+        if (c[k].edge <= 0)
             return true;
         if (k > 0 && dot(c[k].way, c[0].way) < 0)
-            c[k] = (crest){{-c[k].way.x, -c[k].way.y, -c[k].way.z}, c[k].height, -c[k].change};
+            c[k] = (crest){{-c[k].way.x, -c[k].way.y, -c[k].way.z}, c[k].height, -c[k].change, c[k].edge};
     }
     for (uint32_t k = 0; k < 3; k++)
         count += find_end(w, 3 * face + k, &c[k], &c[(k + 1) % 3], side, &ends[count]);
-    return count < 2 || form_put(f, w->kind, face, ends[0], ends[1], false);
+    return count < 2 || !is_greatest(f, face, c) || form_put(f, w->kind, face, ends[0], ends[1], false);
 }
 
 bool ridges_collect(form_view *f, stroke_class kind, double strength)

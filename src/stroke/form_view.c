@@ -116,10 +116,7 @@ bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_e
     return lines_put(f->out, f->v, line, to_world(f, a.place), to_world(f, b.place), faces);
 }
 
-float form_fade(double measure, double limit, double facing)
+float form_fade(double measure, double limit)
 {
-    double strength = (measure - limit) / limit, rim = (facing - 0.1 * FORM_RIM) / (0.9 * FORM_RIM);
-    strength = strength < 1 ? strength : 1;
-    rim = rim < 1 ? rim : 1;
-    return (float)(strength < 0 || rim < 0 ? fmin(strength, rim) : strength * rim);
+    return (float)fmin((measure - limit) / limit, 1);
 }

@@ -48,8 +48,7 @@ bool ridges_collect(form_view *f, stroke_class kind, double strength);
 
 /* Lengths and curvatures are measured against this share of the size of a mesh. */
 #define FORM_UNIT 0.1
-/* Near the outline lines of form fade, so as not to run beside it: from this cosine down to a tenth of it. */
-#define FORM_RIM 0.2
-float form_fade(double measure, double limit, double facing);
+/* 0 at the limit, 1 at twice of it, below 0 where there is no line. */
+float form_fade(double measure, double limit);
 
 #endif

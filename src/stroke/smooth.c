@@ -10,9 +10,11 @@
 
 #include "base/memory.h"
 
-/* The fold: so many rings of faces around a face, as far as they come near it, in lengths of its longest edge. */
+/* The fold reaches so far, in lengths of the longest edge of the face. */
 #define FOLD_REACH 2.0
-enum { FOLD_RINGS = 3 };
+/* Cosine below which a knot may be an island. */
+#define ISLAND 0.15
+enum { FOLD_RINGS = 32 };
 
 typedef struct smoother {
     form_view *f;
@@ -34,6 +36,15 @@ static bool is_near(const form_view *f, uint32_t face, double3 place, double squ
     return false;
 }
 
+/* Is the face at most as far from grazing, somewhere, as that? */
+static bool is_grazed(const form_view *f, uint32_t face, double most)
+{
+    for (int k = 0; k < 3; k++)
+        if (fabs(f->facing[f->s->corners[face][k]]) <= most)
+            return true;
+    return false;
+}
+
 static int compare_numbers(const void *a, const void *b)
 {
     uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
@@ -48,12 +59,12 @@ static bool put_ignored(smoother *w, uint32_t face)
     return true;
 }
 
-/* Lists the faces of the fold behind those that are listed already. */
+/* Lists the faces of the fold behind those that are listed already: all that touch the face, and on from them those that are seen as steeply as these. */
 static bool put_fold(smoother *w, uint32_t face, double3 place)
 {
     const form_view *f = w->f;
     size_t first = w->count, ring = first;
-    double longest = 0;
+    double longest = 0, most = 0;
     for (uint32_t k = 0; k < 3; k++)
         longest = fmax(longest, square_apart(form_place(f, face, k), form_place(f, face, k + 1)));
     w->stamps[face] = face + 1;
@@ -61,6 +72,9 @@ static bool put_fold(smoother *w, uint32_t face, double3 place)
         return false;
     for (int r = 0; r < FOLD_RINGS; r++) {
         size_t end = w->count;
+        for (size_t i = first; i < end && r == 1; i++)
+            for (int k = 0; k < 3; k++)
+                most = fmax(most, fabs(f->facing[f->s->corners[f->out->ignored[i]][k]]));
         for (; ring < end; ring++)
             for (uint32_t k = 0; k < 3; k++) {
                 uint32_t vertex = f->m->faces[f->out->ignored[ring]][k];
@@ -69,7 +83,8 @@ static bool put_fold(smoother *w, uint32_t face, double3 place)
                     if (w->stamps[other] == face + 1)
                         continue;
                     w->stamps[other] = face + 1;
-                    if (is_near(f, other, place, FOLD_REACH * FOLD_REACH * longest) && !put_ignored(w, other))
+                    bool belongs = r == 0 || (is_grazed(f, other, most) && is_near(f, other, place, FOLD_REACH * FOLD_REACH * longest));
+                    if (belongs && !put_ignored(w, other))
                         return false;
                 }
             }
@@ -80,18 +95,31 @@ static bool put_fold(smoother *w, uint32_t face, double3 place)
     return true;
 }
 
-/* Is the surface hollow along the view? By how the cosine grows towards the eye, over the plane of the face. */
-static bool is_hollow(const form_view *f, uint32_t face, double3 place)
+/* How the cosine between normal and view grows towards the eye over a face, times its area. */
+static double growth_over(const form_view *f, uint32_t face, double3 d)
 {
-    double3 d = form_direction(f, place), p[3];
+    double3 p[3];
     for (uint32_t k = 0; k < 3; k++)
         p[k] = form_place(f, face, k);
     double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z, vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, vz = p[2].z - p[0].z;
     double uu = ux * ux + uy * uy + uz * uz, uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz, ud = ux * d.x + uy * d.y + uz * d.z,
-           vd = vx * d.x + vy * d.y + vz * d.z;
+           vd = vx * d.x + vy * d.y + vz * d.z, square = uu * vv - uv * uv;
     const uint32_t *knots = f->s->corners[face];
     double du = f->facing[knots[1]] - f->facing[knots[0]], dv = f->facing[knots[2]] - f->facing[knots[0]];
-    return du * (ud * vv - vd * uv) + dv * (vd * uu - ud * uv) < 0;
+    return square > 0 ? (du * (ud * vv - vd * uv) + dv * (vd * uu - ud * uv)) / sqrt(square) : 0;
+}
+
+/* Is the surface hollow along the view? There the cosine falls towards the eye. All faces around decide together, because narrow ones are easily mistaken. */
+static bool is_hollow(const form_view *f, uint32_t face, double3 place)
+{
+    double3 d = form_direction(f, place);
+    double sum = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t vertex = f->m->faces[face][k];
+        for (uint32_t i = f->s->fan_starts[vertex]; i < f->s->fan_starts[vertex + 1]; i++)
+            sum += growth_over(f, f->s->fan_faces[i], d);
+    }
+    return sum < 0;
 }
 
 static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
@@ -112,13 +140,30 @@ static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
     return true;
 }
 
+/* A single knot that barely turns to the other side than all around it is noise: it is taken to turn as they do. */
+static bool calm_islands(form_view *f)
+{
+    uint8_t *has_friend = mem_calloc((size_t)f->s->knot_count + 1, 1);
+    for (uint32_t h = 0; has_friend && h < 3 * f->s->face_count; h++) {
+        uint32_t a = f->s->corners[h / 3][h % 3], b = f->s->corners[h / 3][(h + 1) % 3];
+        if ((f->facing[a] >= 0) == (f->facing[b] >= 0))
+            has_friend[a] = has_friend[b] = 1;
+    }
+    for (uint32_t i = 0; has_friend && i < f->s->knot_count; i++)
+        if (!has_friend[i] && fabs(f->facing[i]) < ISLAND)
+            f->facing[i] *= -0.01;
+    bool good = has_friend != NULL;
+    mem_free(has_friend);
+    return good;
+}
+
 bool smooth_collect(form_view *f)
 {
     smoother w = {.f = f, .stamps = mem_calloc((size_t)f->s->face_count + 1, sizeof *w.stamps)};
     for (size_t i = 0; i < f->out->count; i++)
         w.count += f->out->segments[i].ignored_count;
     w.capacity = w.count;
-    bool good = w.stamps != NULL;
+    bool good = w.stamps && calm_islands(f);
     for (uint32_t face = 0; face < f->s->face_count && good; face++) {
         const uint32_t *knots = f->s->corners[face];
         bool front[3];
