@@ -11,6 +11,8 @@
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this share of its distance. */
 #define FLAT 1e-6f
+/* Nor does it when it is as near to the plane as rounding alone may take it, share of its largest coordinate. */
+#define ROUNDED 3e-7f
 
 enum { CONVEX = 1 << 16, SHORT_BUCKET = 24 }; /* CONVEX: a flag while edges are sorted */
 
@@ -315,9 +317,15 @@ static double *number_pieces(builder *b)
 static float height_above(const edge_mesh *m, uint32_t face, uint32_t neighbour_corner)
 {
     uint32_t beyond = next_corner(next_corner(neighbour_corner));
-    vec3 from_edge = minus(m->places[corner_vertex(m, beyond)], m->places[corner_vertex(m, neighbour_corner)]);
-    float height = dot(from_edge, m->normals[face]);
-    return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) ? 0 : height;
+    vec3 free = m->places[corner_vertex(m, beyond)], from_edge = minus(free, m->places[corner_vertex(m, neighbour_corner)]);
+    float height = dot(from_edge, m->normals[face]), rounding = ROUNDED * fmaxf(fmaxf(fabsf(free.x), fabsf(free.y)), fabsf(free.z));
+    return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) || fabsf(height) <= rounding ? 0 : height;
+}
+
+/* The same, unless the face lies in the neighbour's plane: a narrow face does not know its own. */
+static float height_between(const edge_mesh *m, uint32_t first, uint32_t second)
+{
+    return height_above(m, second / 3, first) == 0 ? 0 : height_above(m, first / 3, second);
 }
 
 /* Flags of an edge of two faces. `same_way`: both pass it in one direction, so one of them is inside out. */
@@ -330,7 +338,7 @@ static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bo
         flags |= EDGE_CREASE;
     if (m->materials && m->materials[f] != m->materials[g])
         flags |= EDGE_MATERIAL;
-    float height = height_above(m, f, second);
+    float height = height_between(m, first, second);
     if (!(flags & EDGE_CREASE) && height != 0)
         flags |= EDGE_CANDIDATE;
     if (flags && same_way)
@@ -353,6 +361,8 @@ static uint32_t obey(uint32_t flags, const uint8_t *said, const half_edge *group
         return flags;
     if (loudest == SAID_HIDDEN)
         return 0;
+    if (loudest == SAID_SILHOUETTE && flags & EDGE_BORDER) /* always a rim */
+        return flags;
     if (loudest == SAID_SILHOUETTE)
         return EDGE_CANDIDATE | (flags & (CONVEX | EDGE_TWISTED));
     return (flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE;
