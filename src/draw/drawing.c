@@ -430,6 +430,7 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
     d->frame_ms = clock_ms() - start;
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
+    memcpy(d->strokes, s->frame.strokes, sizeof d->strokes);
     d->layers = s->frame.producer ? s->frame.layers : 1;
     d->producer = s->frame.producer;
     if (s->frame.lists_full)

@@ -33,6 +33,7 @@ struct lmn_drawing {
     double      load_ms, frame_ms;
     pass_time   times[PASS_TIMES_MAX];
     size_t      time_count;
+    uint64_t    strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
     int         layers;
     const char *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
     size_t      programs; /* compiled by the renderer so far */

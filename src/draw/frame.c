@@ -119,6 +119,7 @@ void frame_draw(frame *f, gpu_texture *out)
 {
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
+    memset(f->strokes, 0, sizeof f->strokes);
     shadow_draw(f);
     if (!gpu_failed(f->g))
         visibility_draw(f);

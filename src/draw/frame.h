@@ -4,6 +4,7 @@
 
 #include "draw/camera.h"
 #include "draw/plan.h"
+#include "stroke/stroke.h"
 
 enum { PASS_TIMES_MAX = 64 };
 
@@ -37,6 +38,7 @@ typedef struct frame {
     const char      *producer;        /* of layers; NULL: there were none */
     bool             lists_full;      /* lists had no room, so that layers were peeled instead */
     const figure    *mirror;          /* whose view is drawn; NULL: the scene itself */
+    uint64_t         strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
     pass_time        times[PASS_TIMES_MAX];
     size_t           time_count;
 } frame;

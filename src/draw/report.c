@@ -72,6 +72,15 @@ static json_t *gpu_json(const char *vendor, const char *renderer, const char *ve
     return json_pack("{s:s, s:s, s:s}", "vendor", vendor, "renderer", renderer, "version", version);
 }
 
+json_t *report_strokes_json(const uint64_t counts[STROKE_CLASS_COUNT])
+{
+    json_t *out = json_object();
+    for (int i = 0; i < STROKE_CLASS_COUNT; i++)
+        if (counts[i])
+            json_object_set_new(out, stroke_class_name((stroke_class)i), json_integer((json_int_t)counts[i]));
+    return out;
+}
+
 char *report_dump(json_t *root)
 {
     char *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
@@ -97,7 +106,7 @@ char *drawing_report_json(const lmn_drawing *d)
     json_object_set_new(root, "passes", passes_json(d->times, d->time_count));
     json_object_set_new(root, "load_ms", json_real(d->load_ms));
     json_object_set_new(root, "frame_ms", json_real(d->frame_ms));
-    json_object_set_new(root, "strokes", json_object());
+    json_object_set_new(root, "strokes", report_strokes_json(d->strokes));
     json_object_set_new(root, "parts_visible", parts_json(d));
     json_object_set_new(root, "warnings", report_warnings_json(&d->warnings));
     return report_dump(root);

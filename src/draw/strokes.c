@@ -258,7 +258,8 @@ static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
     return stroke_view_create(&store->view, &store->scene, &camera, NULL, NULL, error);
 }
 
-/* Of several layers each has the lines with as many surfaces in front of them. */
+/* Of several layers each has the lines with as many surfaces in front of them. Bodies count once there, and twice among layers: lines of bodies behind others come a layer early,
+ * which shows in how much they fade. */
 static void keep_layer(stroke_set *set, uint32_t layer)
 {
     size_t kept = 0;
@@ -270,7 +271,7 @@ static void keep_layer(stroke_set *set, uint32_t layer)
     set->stroke_count = kept;
 }
 
-static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, const frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
+static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
 {
     stroke_wishes wishes = strokes_wishes_of(v);
     stroke_style style = strokes_style_of(v);
@@ -281,8 +282,11 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, const frame
     lmn_status status = look_at(store, f, error);
     if (status == LMN_OK)
         status = stroke_find(&set, store->view, &wishes, s->figure->designated, NULL, NULL, error);
+    set.perspective = !f->camera.orthographic;
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
+    for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)
+        f->strokes[set.strokes[i].kind]++;
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, f->seed, error);
     stroke_set_release(&set);

@@ -32,7 +32,7 @@ typedef struct vector_job {
     box3                  box;      /* of what the picture is fitted to */
     stroke_scene          strokes;
     colour                ground;
-    double                begun, share; /* progress: of the stage at hand */
+    double                begun, share, reported; /* progress: of the stage at hand, and the most that was told */
     lmn_look              bare;     /* the look without lines and sections; its arrays are borrowed or in `bare_rules` */
     rule                 *bare_rules;
     void                 *bare_scene;
@@ -48,8 +48,9 @@ static lmn_status check_cancelled(const vector_job *j, double fraction, const ch
 /* Progress of a part of the work, as a part of the whole. */
 static bool report_part(double fraction, const char *stage, void *user)
 {
-    const vector_job *j = user;
-    return !j->desc->progress || j->desc->progress(j->begun + fraction * j->share, stage, j->desc->progress_user);
+    vector_job *j = user;
+    j->reported = fmax(j->reported, fmin(j->begun + fraction * j->share, 1)); /* each rule begins anew */
+    return !j->desc->progress || j->desc->progress(j->reported, stage, j->desc->progress_user);
 }
 
 /* --- what is drawn --------------------------------------------------------------------------------------------------- */
@@ -394,7 +395,7 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
     if (j->pixels)
         status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
     if (status == LMN_OK && j->wanted->fill && !j->lines_only)
-        status = vector_put_fills(j->out, &ink, v, &j->strokes, j->rules, j->worlds, error);
+        status = vector_put_fills(page, &ink, v, &j->strokes, j->rules, report_part, j, error);
     return status == LMN_OK ? draw_lines(j, v, &ink, error) : status;
 }
 

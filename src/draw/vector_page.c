@@ -129,14 +129,29 @@ lmn_status vector_parse_unit(const char *text, const lmn_scene *scene, double *m
     return error_set(error, LMN_USAGE, "the unit is '%.40s'; allowed is mm, cm, m or in", wanted);
 }
 
-/* ISO 5455: 1, 2 and 5 times powers of ten. */
+/* The largest of these, times a power of ten, that is no larger. */
+static double from_series(const double *series, size_t count, double value)
+{
+    double unit = pow(10, floor(log10(value) + 1e-9)), best = unit;
+    for (size_t i = 0; i < count; i++)
+        if (unit * series[i] <= value * (1 + 1e-9))
+            best = unit * series[i];
+    return best;
+}
+
+/* ISO 5455 has 1, 2 and 5 times powers of ten. Where that would leave much of the page empty, the scales that drawing offices use between these. */
 double vector_usual_scale(double scale)
 {
+    static const double standard[] = {1, 2, 5}, larger[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+    /* Of 1:r, as shares of 10: 1:8, 1:6, 1:5 … 1:1.5. */
+    static const double smaller[] = {1, 10 / 8.0, 10 / 6.0, 2, 2.5, 10 / 3.0, 4, 5, 10 / 1.5};
+    const double        enough = 0.7;
     if (!(scale > 1e-9) || !(scale < 1e9))
         return scale;
-    double unit = pow(10, floor(log10(scale) + 1e-9)), share = scale / unit * (1 + 1e-9);
-    /* Below 1 the series is 1/2, 1/5 and 1/10: 0.5, 0.2 and 0.1. */
-    return unit * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+    double usual = from_series(standard, 3, scale);
+    if (usual >= enough * scale)
+        return usual;
+    return from_series(scale < 1 ? smaller : larger, 9, scale);
 }
 
 void vector_print_scale(char out[32], double scale)

@@ -18,7 +18,7 @@ lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], siz
 /* Millimetres of a unit; NULL text: what the scene's first file means. `*name` gets the unit's, `*stated` whether the format says it. Errors: LMN_USAGE. */
 lmn_status vector_parse_unit(const char *text, const lmn_scene *scene, double *mm, const char **name, bool *stated, lmn_error *error);
 const char *vector_view_name(lmn_view view);
-/* The largest scale of the usual series 1, 2, 5 … that is no larger. */
+/* The largest usual scale that is no larger. */
 double     vector_usual_scale(double scale);
 /* "1:20", "2:1", "1:3.7". */
 void       vector_print_scale(char out[32], double scale);
@@ -71,10 +71,8 @@ void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink
 
 /* --- vector_fill.c ---------------------------------------------------------------------------------------------------------- */
 
-enum { FILL_TRIANGLES_MOST = 20000 }; /* of one part */
-
-/* The areas of parts, the farthest first. Errors: LMN_MEMORY. */
-lmn_status vector_put_fills(lmn_sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules,
-                            const mat4 *worlds, lmn_error *error);
+/* What is seen of each part, as areas. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const rule *const *rules, lmn_progress_fn progress,
+                            void *user, lmn_error *error);
 
 #endif

@@ -27,15 +27,6 @@ static json_t *sheet_json(const lmn_sheet *s)
     return out;
 }
 
-static json_t *counts_json(const lmn_sheet *s)
-{
-    json_t *out = json_object();
-    for (int i = 0; i < STROKE_CLASS_COUNT; i++)
-        if (s->counts[i])
-            json_object_set_new(out, stroke_class_name((stroke_class)i), json_integer((json_int_t)s->counts[i]));
-    return out;
-}
-
 static json_t *parts_json(const lmn_sheet *s)
 {
     json_t *array = json_array();
@@ -59,7 +50,7 @@ char *vector_report_json(const lmn_sheet *s)
     json_object_set_new(root, "sheet", sheet_json(s));
     json_object_set_new(root, "load_ms", json_real(s->load_ms));
     json_object_set_new(root, "frame_ms", json_real(s->frame_ms));
-    json_object_set_new(root, "strokes", counts_json(s));
+    json_object_set_new(root, "strokes", report_strokes_json(s->counts));
     json_object_set_new(root, "hidden_strokes", json_integer((json_int_t)s->hidden));
     if (s->verified)
         json_object_set_new(root, "verify", json_pack("{s:I, s:I}", "samples", (json_int_t)s->check.samples, "wrong", (json_int_t)s->check.wrong));

@@ -7,13 +7,15 @@
 #include "finish/finish.h"
 #include "layer/layer.h"
 #include "lines/lines.h"
+#include "lines/stroke/strokes.h"
 #include "surface/surface.h"
 
 /* What a picture's lines do not say. */
 static const float inner_share = 0.75f;  /* width of creases beside outlines, as draughtsmen have it */
-static const float hidden_apart = 5;     /* hidden lines nearer than this turn into grey, pixels */
+static const float hidden_apart = 3;     /* hidden lines nearer than this turn into grey, pixels */
 static const float hidden_share = 0.6f;  /* width of hidden lines that have none of their own */
 static const float sway_share = 0.4f;    /* of a sketch's amount; most places move by much less than the most */
+enum { FILL_SAMPLES = 9973 };            /* of a texture, for its mean; a prime, so that they do not fall on columns */
 static const float taper_share = 8;      /* how many widths a sketched line takes to thin out */
 
 static float number_of(const technique_use *use, kind_id id, const char *key, float fallback)
@@ -110,8 +112,25 @@ static void take_hand(stroke_style *style, const rule *r)
         style->taper = style->width * taper_share;
 }
 
+/* The technique whose lines are strokes anyway. */
+static const strokes_values *own_strokes(const rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
+        if (r->uses[KIND_LINES][i].technique == &lines_strokes)
+            return r->uses[KIND_LINES][i].values;
+    return NULL;
+}
+
 bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *style)
 {
+    const strokes_values *own = own_strokes(r);
+    if (own) {
+        *wishes = strokes_wishes_of(own);
+        *style = strokes_style_of(own);
+        if (!(style->wobble > 0))
+            take_hand(style, r);
+        return true;
+    }
     *wishes = (stroke_wishes)STROKE_WISHES_INIT;
     *style = (stroke_style){.width = 2, .crease_width = 1, .wobble_length = 60, .repeats = 1, .gap = 4, .hidden = HIDDEN_NONE, .hidden_fade = 1, .hidden_gap = 4};
     if (r->use_counts[KIND_LINES] == 0)
@@ -157,6 +176,20 @@ bool vector_needs_pixels(const lmn_look *look)
     return false;
 }
 
+/* The mean colour of a picture, linear; white where there is none. */
+static vec4 mean_colour(const lmn_scene *scene, int32_t index)
+{
+    const image *picture = index >= 0 ? &scene->images[index] : NULL;
+    if (!picture || !picture->pixels)
+        return (vec4){1, 1, 1, 1};
+    size_t count = (size_t)picture->width * picture->height, step = count / FILL_SAMPLES + 1, taken = 0;
+    double sum[3] = {0};
+    for (size_t i = 0; i < count; i += step, taken++)
+        for (size_t k = 0; k < 3; k++)
+            sum[k] += (double)colour_to_linear((float)picture->pixels[4 * i + k] / 255);
+    return taken ? (vec4){(float)(sum[0] / (double)taken), (float)(sum[1] / (double)taken), (float)(sum[2] / (double)taken), 1} : (vec4){1, 1, 1, 1};
+}
+
 colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index)
 {
     const technique_use *surface = r->use_counts[KIND_SURFACE] ? &r->uses[KIND_SURFACE][0] : NULL;
@@ -167,6 +200,6 @@ colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_ind
     int32_t     material = n->mesh >= 0 && scene->meshes[n->mesh].primitive_count ? scene->meshes[n->mesh].primitives[0].material : NONE;
     if (material < 0)
         return (colour){0.6f, 0.6f, 0.6f, 1};
-    vec4 c = scene->materials[material].base_colour;
-    return (colour){c.x, c.y, c.z, c.w};
+    vec4 c = scene->materials[material].base_colour, mean = mean_colour(scene, scene->materials[material].base_texture.image);
+    return (colour){c.x * mean.x, c.y * mean.y, c.z * mean.z, c.w};
 }

@@ -138,6 +138,19 @@ static void draw_image(pdf_writer *w, const sheet_item *item)
     cairo_surface_destroy(image);
 }
 
+/* Letters stand where the font has them, not on whole units: these are millimetres. */
+static void set_true_metrics(PangoLayout *layout)
+{
+    PangoContext         *context = pango_layout_get_context(layout);
+    cairo_font_options_t *options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(context, options);
+    pango_context_set_round_glyph_positions(context, FALSE);
+    cairo_font_options_destroy(options);
+    pango_layout_context_changed(layout);
+}
+
 static void draw_text(pdf_writer *w, const sheet_item *item)
 {
     cairo_t *c = w->context;
@@ -147,6 +160,7 @@ static void draw_text(pdf_writer *w, const sheet_item *item)
         return;
     }
     PangoLayout *layout = pango_cairo_create_layout(c);
+    set_true_metrics(layout);
     PangoFontDescription *font = pango_font_description_from_string("Liberation Sans, Arial, Helvetica, sans-serif");
     int width, height;
     pango_font_description_set_absolute_size(font, item->box[3] * PANGO_SCALE);

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-typedef enum condition_type { CONDITION_NAME, CONDITION_PATH, CONDITION_ATTRIBUTE, CONDITION_REMOVED } condition_type;
+typedef enum condition_type { CONDITION_NAME, CONDITION_PATH, CONDITION_ATTRIBUTE, CONDITION_REMOVED, CONDITION_SOLID } condition_type;
 
 /* One condition. Those of one alternative follow each other; all of them must hold. */
 typedef struct condition {
@@ -97,12 +97,13 @@ static lmn_status read_condition(reader *r, condition *c)
     if (status == LMN_OK && r->at == start)
         return wrong(r, "a name, a path or [attribute] is missing");
     bool keyword = *start == '@'; /* in quotes it is a name */
-    if (status == LMN_OK && keyword && strcmp(c->pattern, "@removed") != 0) {
+    bool solid = keyword && status == LMN_OK && strcmp(c->pattern, "@solid") == 0;
+    if (status == LMN_OK && keyword && !solid && strcmp(c->pattern, "@removed") != 0) {
         r->at = start;
-        return wrong(r, "after '@' only 'removed' is known; put names that begin with '@' into quotes");
+        return wrong(r, "after '@' only 'removed' and 'solid' are known; put names that begin with '@' into quotes");
     }
     if (status == LMN_OK)
-        c->type = keyword ? CONDITION_REMOVED : strchr(c->pattern, '/') ? CONDITION_PATH : CONDITION_NAME;
+        c->type = solid ? CONDITION_SOLID : keyword ? CONDITION_REMOVED : strchr(c->pattern, '/') ? CONDITION_PATH : CONDITION_NAME;
     return status;
 }
 
@@ -196,6 +197,7 @@ static bool condition_holds(const condition *c, const lmn_scene *scene, size_t p
     case CONDITION_NAME: return text_glob(c->pattern, p->name ? p->name : "");
     case CONDITION_PATH: return text_glob(c->pattern, p->path ? p->path : "");
     case CONDITION_REMOVED: return p->ghost;
+    case CONDITION_SOLID: return scene->nodes[p->node].solid >= 0;
     case CONDITION_ATTRIBUTE: break;
     }
     if (strcmp(c->key, "id") == 0) {

@@ -4,6 +4,7 @@
  *   [key]        has the attribute      [key=glob]    and its value matches; [material=glob] and [id=N] are built in
  *   a, b         either                 a [key=x]     both          !a   not
  *   @removed         what a solid's differences take away (ghosts); only selectors that say so match it, '*' does not
+ *   @solid           parts that are solids: of set operations, not of triangles
  * Quotes keep blanks and commas: "Front Axle", [material="a, b"]. '*' and '?' work inside quotes too, and '*' also runs
  * over '/'. An attribute of a node holds for what is below it.
  */

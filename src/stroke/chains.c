@@ -414,7 +414,8 @@ static void calm(chainer *c)
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
         int32_t own = c->points[begin].count, after = end + 1 < c->point_count ? c->points[end].count : OUTSIDE;
-        bool brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < FLICKER;
+        double limit = before == OUTSIDE || after == OUTSIDE ? FLICKER / 2 : FLICKER; /* no place farther than half of it from one that is so */
+        bool brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < limit;
         for (size_t i = begin; i < end && brief; i++)
             c->points[i].count = calm_count(own, before, after);
         before = c->points[begin].count;
@@ -582,7 +583,7 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishe
     if (status == LMN_OK)
         status = strokes_join(out, v, error);
     if (status == LMN_OK)
-        status = strokes_thin(out, wishes->crowd, error);
+        status = strokes_thin(out, wishes->crowd, v->camera.width, v->camera.height, error);
     out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)
         stroke_set_release(out);

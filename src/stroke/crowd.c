@@ -8,58 +8,64 @@
 
 #include "base/memory.h"
 
-/* Lines are looked at so often, pixels. */
-#define STEP 0.5f
+/* Where strokes that stay run is marked in cells of this share of the distance; a place is near one when its own or a neighbouring cell is marked. */
+#define CELL (2.0f / 3)
+enum { BLOCK = 64 }; /* cells a side of the blocks that marks are kept in */
 
-typedef struct trace_point {
-    float    x, y;
-    uint32_t next;
-} trace_point;
+typedef struct block {
+    uint64_t rows[BLOCK];
+} block;
 
 typedef struct crowd {
-    stroke_set  *set;
-    float        apart;
-    uint32_t    *heads; /* hash table of cells */
-    size_t       mask;
-    trace_point *traces; /* along strokes that stay */
-    size_t       trace_count, trace_capacity;
+    stroke_set *set;
+    float       cell;      /* pixels */
+    int32_t     columns, rows; /* of blocks */
+    uint32_t   *numbers;   /* per block: 1 + its place in `blocks`, 0: nothing in it is marked */
+    block      *blocks;
+    size_t      block_count, block_capacity;
 } crowd;
 
-static size_t cell_hash(int32_t column, int32_t row)
+static bool is_marked(const crowd *c, int32_t column, int32_t row)
 {
-    return (size_t)(((uint64_t)(uint32_t)column * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)(uint32_t)row * UINT64_C(0xC2B2AE3D27D4EB4F)) >> 24);
+    if (column < 0 || row < 0 || column >= c->columns * BLOCK || row >= c->rows * BLOCK)
+        return false;
+    uint32_t number = c->numbers[(size_t)(row / BLOCK) * (size_t)c->columns + (size_t)(column / BLOCK)];
+    return number && c->blocks[number - 1].rows[row % BLOCK] >> (column % BLOCK) & 1;
 }
 
 static bool is_traced(const crowd *c, float x, float y)
 {
-    int32_t c0 = (int32_t)floorf(x - c->apart), c1 = (int32_t)floorf(x + c->apart), r0 = (int32_t)floorf(y - c->apart), r1 = (int32_t)floorf(y + c->apart);
-    for (int32_t r = r0; r <= r1; r++)
-        for (int32_t k = c0; k <= c1; k++)
-            for (uint32_t i = c->heads[cell_hash(k, r) & c->mask]; i != NO_VERTEX; i = c->traces[i].next) {
-                float dx = c->traces[i].x - x, dy = c->traces[i].y - y;
-                if (dx * dx + dy * dy <= c->apart * c->apart)
-                    return true;
-            }
+    int32_t column = (int32_t)(x / c->cell), row = (int32_t)(y / c->cell);
+    for (int32_t r = row - 1; r <= row + 1; r++)
+        for (int32_t k = column - 1; k <= column + 1; k++)
+            if (is_marked(c, k, r))
+                return true;
     return false;
 }
 
 static bool put_trace(crowd *c, float x, float y)
 {
-    if (!mem_grow((void **)&c->traces, &c->trace_capacity, c->trace_count + 1, sizeof *c->traces))
-        return false;
-    uint32_t *head = &c->heads[cell_hash((int32_t)floorf(x), (int32_t)floorf(y)) & c->mask];
-    c->traces[c->trace_count] = (trace_point){x, y, *head};
-    *head = (uint32_t)c->trace_count++;
+    int32_t column = (int32_t)(x / c->cell), row = (int32_t)(y / c->cell);
+    if (column < 0 || row < 0 || column >= c->columns * BLOCK || row >= c->rows * BLOCK)
+        return true;
+    uint32_t *number = &c->numbers[(size_t)(row / BLOCK) * (size_t)c->columns + (size_t)(column / BLOCK)];
+    if (!*number) {
+        if (!mem_grow((void **)&c->blocks, &c->block_capacity, c->block_count + 1, sizeof *c->blocks))
+            return false;
+        memset(&c->blocks[c->block_count++], 0, sizeof *c->blocks);
+        *number = (uint32_t)c->block_count;
+    }
+    c->blocks[*number - 1].rows[row % BLOCK] |= UINT64_C(1) << (column % BLOCK);
     return true;
 }
 
-/* Steps along a stroke. Tracing: puts every place; else: asks whether all are traced. False: out of memory, or one is not. */
+/* Steps along a stroke. Tracing: marks every place; else: asks whether all are near marked ones. False: out of memory, or one is not. */
 static bool step_along(crowd *c, const stroke *s, bool trace)
 {
     const stroke_point *p = &c->set->points[s->first];
     for (uint32_t i = 0; i + 1 < s->count; i++) {
         float x = p[i + 1].x - p[i].x, y = p[i + 1].y - p[i].y, length = sqrtf(x * x + y * y);
-        int steps = (int)(length / STEP) + 1;
+        int steps = (int)(length / c->cell) + 1;
         for (int k = 0; k < steps; k++) {
             float share = (float)k / (float)steps;
             if (trace ? !put_trace(c, p[i].x + share * x, p[i].y + share * y) : !is_traced(c, p[i].x + share * x, p[i].y + share * y))
@@ -99,19 +105,18 @@ static bool mark_kept(crowd *c, const ranked *ranks, uint8_t *kept)
     return true;
 }
 
-lmn_status strokes_thin(stroke_set *set, float apart, lmn_error *error)
+lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error)
 {
-    if (!(apart > 0) || set->stroke_count < 2)
+    if (!(apart > 0.01f) || set->stroke_count < 2)
         return LMN_OK;
-    size_t slots = 1024;
-    while (slots < set->point_count * 8)
-        slots *= 2;
-    crowd c = {.set = set, .apart = apart, .heads = mem_alloc(slots * sizeof *c.heads), .mask = slots - 1};
+    crowd c = {.set = set, .cell = apart * CELL};
+    c.columns = (int32_t)((float)width / (c.cell * BLOCK)) + 1;
+    c.rows = (int32_t)((float)height / (c.cell * BLOCK)) + 1;
+    c.numbers = mem_calloc((size_t)c.columns * (size_t)c.rows, sizeof *c.numbers);
     ranked *ranks = mem_alloc(set->stroke_count * sizeof *ranks);
     uint8_t *kept = mem_calloc(set->stroke_count, 1);
-    bool good = c.heads && ranks && kept;
+    bool good = c.numbers && ranks && kept;
     if (good) {
-        memset(c.heads, 0xFF, slots * sizeof *c.heads);
         for (uint32_t i = 0; i < set->stroke_count; i++) {
             const stroke *s = &set->strokes[i];
             ranks[i] = (ranked){i, s->hidden_by, (int)s->kind, set->points[s->first + s->count - 1].arc - set->points[s->first].arc};
@@ -125,8 +130,8 @@ lmn_status strokes_thin(stroke_set *set, float apart, lmn_error *error)
             set->strokes[count++] = set->strokes[i];
     if (good)
         set->stroke_count = count;
-    mem_free(c.heads);
-    mem_free(c.traces);
+    mem_free(c.numbers);
+    mem_free(c.blocks);
     mem_free(ranks);
     mem_free(kept);
     return good ? LMN_OK : error_memory(error);

@@ -209,7 +209,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
 
 /* --- crowd.c --- */
-/* Leaves out strokes that run all their length within this many pixels of more important ones. */
-lmn_status strokes_thin(stroke_set *set, float apart, lmn_error *error);
+/* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's size in pixels. */
+lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error);
 
 #endif

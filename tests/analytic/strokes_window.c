@@ -386,6 +386,36 @@ static void limits(void)
     }
 }
 
+/* A ball with lines, half behind a plate of another rule that has none, half in front of another plate. */
+static void figures(void)
+{
+    shape s = {0};
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, false);
+    shape_box(&s, "plate", dvec_of(-2, -2, 1.2), dvec_of(0, 2, 1.3));
+    shape_box(&s, "back", dvec_of(-0.2, -2, -1.5), dvec_of(2, 2, -1.3));
+    for (int way = 0; way < 2; way++) {
+        char look[900];
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"}},"
+                 "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"strokes\",\"colour\":\"#000000\",\"width\":10,"
+                 "\"visibility\":\"%s\"}}]}", ways[way]);
+        shot_view view = {.width = 300, .height = 300, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
+        shot t;
+        if (shot_of_shape(&t, &s, "figures.glb", look, NULL, &view)) {
+            dvec middle = shot_project(&t, dvec_of(0, 0, 0)), right = shot_project(&t, dvec_of(1, 0, 0)), top = shot_project(&t, dvec_of(0.6, 0.8, 0));
+            double covered = 0;
+            for (int y = 0; y < t.height; y++)
+                for (int x = 0; x < (int)middle.x - 1; x++)
+                    covered = fmax(covered, darkness(&t, x, y));
+            check_at_most("EX-14", covered, 0, "%s: ink on a plate of another rule in front", ways[way]);
+            check_near("EX-14", width_at(&t, right, dvec_of(0, 1, 0), 12), 10, 0.25, "%s: width in front of a plate of another rule", ways[way]);
+            check_near("EX-14", width_at(&t, top, dvec_of(0.8, 0.6, 0), 12), 10, 0.25, "%s: and higher up", ways[way]);
+        }
+        shot_release(&t);
+    }
+    shape_release(&s);
+}
+
 /* More samples a pixel: lines of the same width, smoother. ES: the same picture. */
 static void samples_and_dialects(void)
 {
@@ -420,7 +450,7 @@ static void samples_and_dialects(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"widths", widths}, {"near", near_plane}, {"joints", joints}, {"whole", whole_lines}, {"full", full_width}, {"ways", both_ways}, {"limits", limits}, {"samples", samples_and_dialects},
+        {"widths", widths}, {"near", near_plane}, {"joints", joints}, {"whole", whole_lines}, {"full", full_width}, {"ways", both_ways}, {"limits", limits}, {"figures", figures}, {"samples", samples_and_dialects},
     };
     int status = check_main(argc, argv, "strokes_window", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -530,7 +530,8 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
     row 0 '' 'x.dxf' draw "$box" --look toon -o x.dxf
-    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --set compose.technique=wire --set layers.count=1
+    row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg; has x.svg 'class="hidden crease"'
+    row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
     # What has no strokes is said.
     row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x

@@ -13,11 +13,11 @@
 
 static attribute vehicle[] = {{"kind", "vehicle"}}, spare[] = {{"kind", "spare part"}, {"stock", ""}};
 static node nodes[] = {
-    {.parent = NONE, .mesh = NONE, .attributes = vehicle, .attribute_count = 1},
-    {.parent = 0, .mesh = 0},
-    {.parent = 0, .mesh = 1},
-    {.parent = 0, .mesh = 1, .attributes = spare, .attribute_count = 2},
-    {.parent = 1, .mesh = NONE, .ghost = true},
+    {.parent = NONE, .mesh = NONE, .solid = NONE, .attributes = vehicle, .attribute_count = 1},
+    {.parent = 0, .mesh = 0, .solid = NONE},
+    {.parent = 0, .mesh = 1, .solid = NONE},
+    {.parent = 0, .mesh = 1, .solid = 0, .attributes = spare, .attribute_count = 2},
+    {.parent = 1, .mesh = NONE, .solid = NONE, .ghost = true},
 };
 static primitive painted = {.material = 0}, rubber = {.material = 1};
 static mesh meshes[] = {{.primitives = &painted, .primitive_count = 1}, {.primitives = &rubber, .primitive_count = 1}};
@@ -50,6 +50,7 @@ static void test_matches(void **state)
         {"@removed", "0001"},            {"!@removed", "1110"},          {"!!@removed", "0001"},
         {"*, @removed", "1111"},         {"Wheel* @removed", "0000"},    {"@removed Truck/Body/*", "0001"},
         {"@removed !Truck/Body/*", "0000"}, {"@removed[kind=vehicle]", "0001"}, {"Body, @removed removed", "1001"},
+        {"@solid", "0010"},              {"!@solid", "1100"},            {"\"@solid\"", "0000"},
         {"\"@removed\"", "0000"},        {"@removed !removed, *", "1110"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {

@@ -192,11 +192,17 @@ static void test_without_renderer(void **state)
 
 /* --- what stops a drawing ------------------------------------------------------------------------------------------- */
 
+typedef struct progress_state {
+    int    left;
+    double before;
+} progress_state;
+
 static bool stop_at(double fraction, const char *stage, void *user)
 {
-    int *left = user;
-    assert_true(fraction >= 0 && fraction <= 1 && stage && *stage);
-    return (*left)-- > 0;
+    progress_state *state = user;
+    assert_true(fraction >= state->before && fraction <= 1 && stage && *stage);
+    state->before = fraction;
+    return state->left-- > 0;
 }
 
 static void test_cancelled(void **state)
@@ -208,9 +214,9 @@ static void test_cancelled(void **state)
         lmn_draw_desc how = LMN_DRAW_DESC_INIT;
         lmn_sheet    *s = NULL;
         lmn_error     error = {0};
-        int           left = calls;
+        progress_state told = {calls, 0};
         how.progress = stop_at;
-        how.progress_user = &left;
+        how.progress_user = &told;
         status = lmn_draw_sheet(&s, NULL, f->scene, f->look, &how, NULL, &error);
         assert_true(status == LMN_OK ? s != NULL : status == LMN_CANCELLED && s == NULL);
         lmn_sheet_destroy(&s);

@@ -5,8 +5,9 @@
 uniform mat4  u_clip; /* from the mesh's axes to clip space */
 uniform vec2  u_half_widths; /* of outlines, of all others */
 
-/* An edge no longer than this, in pixels, is seen as a whole or not at all. */
-const float SHORT = 2.5;
+/* An edge no longer than SHORT, in pixels, is seen as a whole or not at all. Of others some place must be seen, STEP apart, so that those wholly hidden cost no fragments; it
+ * would take too long for those longer than LONG. */
+const float SHORT = 2.5, STEP = 2.0, LONG = 240.0;
 const float SEEN = 1.0; /* in the place of the bits */
 
 /* Pixels and window depth. */
@@ -41,7 +42,13 @@ void main()
     v_begin = v_end = v_look = vec4(0.0);
     if (line != NO_LINE)
         gl_Position = place_edge(line);
-    bool is_short = v_look.w == SEEN;
-    if (!is_visible(0.5 * (v_begin.xyz + v_end.xyz), is_short) && is_short)
+    float size = distance(v_begin.xy, v_end.xy);
+    int   places = line == NO_LINE || size > LONG ? 0 : v_look.w == SEEN ? 1 : int(ceil(size / STEP)), left = places;
+    bool  seen = false;
+    for (int i = 0; i < left; i++) {
+        seen = is_visible(mix(v_begin.xyz, v_end.xyz, (float(i) + 0.5) / float(places)), true);
+        left = seen ? 0 : left;
+    }
+    if (places > 0 && !seen)
         gl_Position = NOWHERE;
 }

@@ -1,0 +1,169 @@
+/* Records of edges and ribbons: what the GPU is told about them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "lines/stroke/strokes.h"
+#include "scene/scene.h"
+
+static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+/* Each side of the cube as two triangles, anticlockwise from outside. */
+static const uint32_t sides[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+
+static void make_edges(edge_mesh *out, uint32_t corners, bool turned)
+{
+    uint32_t indices[36];
+    lmn_error error = {0};
+    memcpy(indices, sides, sizeof indices);
+    for (uint32_t i = 0; i < corners && turned; i += 3) {
+        uint32_t kept = indices[i + 1];
+        indices[i + 1] = indices[i + 2];
+        indices[i + 2] = kept;
+    }
+    primitive p = {.vertex_count = 8, .positions = (vec3 *)(uintptr_t)places, .index_count = corners, .indices = indices, .material = NONE};
+    mesh m = {.primitives = &p, .primitive_count = 1};
+    assert_int_equal(edge_mesh_create(out, &m, NULL, 0.5, &error), LMN_OK);
+}
+
+/* Away from the middle of the cube? */
+static bool is_outward(const float *record, const float *normal)
+{
+    float sum = 0;
+    for (int k = 0; k < 3; k++)
+        sum += normal[k] * (0.5f * (record[k] + record[4 + k]) - 0.5f);
+    return sum > 0;
+}
+
+static void test_cube(void **state)
+{
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        edge_mesh m;
+        make_edges(&m, 36, turned);
+        float *records = strokes_edge_records(&m);
+        assert_non_null(records);
+        assert_int_equal(m.edge_count, 12);
+        for (uint32_t i = 0; i < m.edge_count; i++) {
+            const float *r = &records[EDGE_RECORD_FLOATS * i];
+            assert_int_equal((int)r[3], RECORD_CREASE | RECORD_PAIR | RECORD_CLOSED);
+            assert_true(is_outward(r, r + 8) && is_outward(r, r + 12)); /* also of what is inside out */
+        }
+        mem_free(records);
+        edge_mesh_release(&m);
+    }
+}
+
+static void test_triangle(void **state)
+{
+    (void)state;
+    edge_mesh m;
+    make_edges(&m, 3, false);
+    float *records = strokes_edge_records(&m);
+    assert_int_equal(m.edge_count, 3);
+    for (uint32_t i = 0; i < m.edge_count; i++) {
+        const float *r = &records[EDGE_RECORD_FLOATS * i];
+        assert_int_equal((int)r[3], RECORD_BORDER);
+        for (int k = 0; k < 3; k++) /* a border: always between front and back */
+            assert_true(r[8 + k] == -r[12 + k]);
+    }
+    mem_free(records);
+    edge_mesh_release(&m);
+}
+
+static void test_creases_come_first(void **state)
+{
+    (void)state;
+    mesh_edge edges[3] = {{{0, 1}, {0, 1}, EDGE_CANDIDATE}, {{1, 2}, {0, 1}, EDGE_CREASE}, {{2, 3}, {0, 1}, EDGE_CANDIDATE}};
+    vec3 normals[2] = {{0, 0, 1}, {0, 1, 0}};
+    uint32_t faces[2][3] = {{0, 1, 2}, {1, 2, 3}}, pieces[2] = {0, 0};
+    bool closed = false;
+    box3 box = {.min = {0, 0, 0}, .max = {1, 1, 1}};
+    edge_mesh m = {.vertex_count = 8, .face_count = 2, .edge_count = 3, .piece_count = 1, .places = (vec3 *)(uintptr_t)places, .faces = faces, .normals = normals,
+                   .edges = edges, .pieces = pieces, .closed = &closed, .boxes = &box};
+    float *records = strokes_edge_records(&m);
+    assert_int_equal((int)records[3], RECORD_CREASE | RECORD_PAIR);
+    assert_int_equal((int)records[EDGE_RECORD_FLOATS + 3], RECORD_PAIR);
+    assert_int_equal((int)records[2 * EDGE_RECORD_FLOATS + 3], RECORD_PAIR);
+    mem_free(records);
+}
+
+/* A ribbon of three points, a dot, and a hidden one. */
+static void test_ribbons(void **state)
+{
+    (void)state;
+    ribbon_point points[6] = {{10, 20, 0.5f, 7, 1, 1}, {20, 20, 0.6f, 17, 2, 0.5f}, {20, 30, 0.7f, 27, 1, 0}, {5, 6, 0.1f, 0, 3, 1}, {0, 0, 0, 0, 1, 1}, {1, 0, 0, 1, 1, 1}};
+    ribbon ribbons[3] = {{.kind = STROKE_CREASE, .first = 0, .count = 3, .end = RIBBON_BUTT, .brush = BRUSH_PENCIL},
+                         {.kind = STROKE_CONTOUR, .first = 3, .count = 1},
+                         {.kind = STROKE_CONTOUR, .first = 4, .count = 2, .hidden_by = 1}};
+    ribbon_set set = {.ribbons = ribbons, .points = points, .ribbon_count = 3, .point_count = 6};
+    size_t count;
+    float *records = strokes_ribbon_records(&set, 100, &count);
+    assert_int_equal(count, 4);
+    const float first[RIBBON_RECORD_FLOATS - 1] = {10, 80, 0.5f, 1, 20, 80, 0.6f, 2, 1, 0.5f, 1, 1 + 4 * BRUSH_PENCIL, 0, 10, 20};
+    assert_memory_equal(records, first, sizeof first);
+    assert_true(records[RIBBON_RECORD_FLOATS + 11] == 2 + 4 * BRUSH_PENCIL && records[RIBBON_RECORD_FLOATS + 13] == 20);
+    const float *dot = records + 2 * RIBBON_RECORD_FLOATS, *hidden = records + 3 * RIBBON_RECORD_FLOATS;
+    assert_true(dot[0] == 5 && dot[4] == 5 && dot[1] == 94 && dot[10] == 0);
+    assert_true(hidden[10] == CHANNEL_HIDDEN);
+    mem_free(records);
+}
+
+static void test_without_memory(void **state)
+{
+    (void)state;
+    edge_mesh m;
+    ribbon_set none = {0};
+    size_t count;
+    make_edges(&m, 36, false);
+    for (long n = 1; n <= 2; n++) {
+        mem_fail_at(n);
+        assert_null(strokes_edge_records(&m));
+    }
+    mem_fail_at(1);
+    assert_null(strokes_ribbon_records(&none, 10, &count));
+    mem_fail_at(0);
+    edge_mesh_release(&m);
+}
+
+static void test_what_needs_chains(void **state)
+{
+    (void)state;
+    strokes_values v = {.wishes = STROKE_WISHES_INIT, .style = {.repeats = 1}};
+    assert_false(strokes_need_chains(&v));
+    strokes_values changed[] = {v, v, v, v, v, v};
+    changed[0].style.taper = 1;
+    changed[1].common.dash = 1;
+    changed[2].wishes.contours = CONTOURS_SMOOTH;
+    changed[3].style.hidden = HIDDEN_SOLID;
+    changed[4].style.repeats = 2;
+    changed[5].common.halo = 1;
+    for (size_t i = 0; i < sizeof changed / sizeof *changed; i++)
+        assert_true(strokes_need_chains(&changed[i]));
+}
+
+static void test_style(void **state)
+{
+    (void)state;
+    strokes_values v = {.common = {.colour = {1, 0, 0, 1}, .inner_colour = {0, 1, 0, 1}, .id_colour = {0, 0, 1, 1}, .width = 3, .dash = 4, .gap = 5, .overshoot = 6, .halo = 7},
+                        .style = {.hidden = HIDDEN_DASHED}};
+    stroke_style s = strokes_style_of(&v);
+    assert_true(s.width == 3 && s.dash == 4 && s.gap == 5 && s.overshoot == 6 && s.halo == 7);
+    assert_true(s.colours[STROKE_CONTOUR].r == 1 && s.colours[STROKE_BORDER].r == 1 && s.colours[STROKE_CREASE].g == 1 && s.colours[STROKE_VALLEY].g == 1 &&
+                s.colours[STROKE_INTERSECTION].b == 1 && s.colours[STROKE_MATERIAL].b == 1);
+    assert_true(strokes_wishes_of(&v).hidden);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cube),           cmocka_unit_test(test_triangle), cmocka_unit_test(test_creases_come_first),
+        cmocka_unit_test(test_ribbons),        cmocka_unit_test(test_without_memory),
+        cmocka_unit_test(test_what_needs_chains), cmocka_unit_test(test_style),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
