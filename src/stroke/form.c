@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "stroke/form_view.h"
 
-/* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). */
-#define SUGGESTIVE_LIMIT 100.0
+/* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). It goes with the square of the strength, so that a quarter is a good start. */
+#define SUGGESTIVE_LIMIT 60.0
 
 /* What grows counts the more the further it turns away, as it looks foreshortened; not beyond this cosine. */
 #define NEAR_OUTLINE 0.1
@@ -42,7 +42,7 @@ static float suggestive_weight(double growth, double facing, double unit, double
 static bool collect_suggestive(form_view *f, double strength)
 {
     radial *radials = mem_alloc(((size_t)f->s->knot_count + 1) * sizeof *radials);
-    double unit = FORM_UNIT * f->s->size, limit = SUGGESTIVE_LIMIT * strength;
+    double unit = FORM_UNIT * f->s->size, limit = SUGGESTIVE_LIMIT * strength * strength;
     bool good = radials != NULL;
     for (uint32_t i = 0; i < f->s->knot_count && good; i++)
         radials[i] = radial_at(f, i);

@@ -6,9 +6,9 @@
 #include "base/memory.h"
 #include "stroke/form_view.h"
 
-/* Curvature times FORM_UNIT from which lines of strength 1 are drawn. */
-#define RIDGE_LIMIT    4.0
-#define APPARENT_LIMIT 8.0
+/* Curvature times FORM_UNIT from which lines of strength 1 are drawn; it goes with the square of the strength. */
+#define RIDGE_LIMIT    10.0
+#define APPARENT_LIMIT 20.0
 /* What turns away further than this is not seen to bend more: cosine. */
 #define STEEPEST 0.05
 /* Towards the outline ridges fade, so as not to run beside it: between this cosine and twice of it. */
@@ -156,7 +156,7 @@ static bool take_face(crest_finder *w, uint32_t face, int side)
 
 bool ridges_collect(form_view *f, stroke_class kind, double strength)
 {
-    crest_finder w = {.f = f, .kind = kind, .unit = FORM_UNIT * f->s->size, .limit = (kind == STROKE_APPARENT ? APPARENT_LIMIT : RIDGE_LIMIT) * strength};
+    crest_finder w = {.f = f, .kind = kind, .unit = FORM_UNIT * f->s->size, .limit = (kind == STROKE_APPARENT ? APPARENT_LIMIT : RIDGE_LIMIT) * strength * strength};
     bool good = true;
     if (kind == STROKE_APPARENT) {
         w.crests = mem_alloc(((size_t)f->s->knot_count + 1) * sizeof *w.crests);

@@ -2,7 +2,8 @@
  * away runs one straight piece, so that outlines of closed surfaces are closed and never run back and forth.
  *
  * Such an outline lies beside the mesh's own, on faces that may look away from the eye, and is covered by the very fold of the mesh that it is the edge of. That fold is told from all other surfaces by
- * lying next to it on the mesh: faces around it do not count. Where the surface is hollow along the view, as beyond the end of a fold, an outline of a body is always hidden, if only by its own neighbours. */
+ * lying next to it on the mesh: faces around it do not count. Where the surface is hollow along the view, as beyond the end of a fold, an outline of a body is always
+ * hidden, if only by its own neighbours; of what is open only the nearest faces do not count there. */
 #include "stroke/form_view.h"
 
 #include <math.h>
@@ -60,7 +61,7 @@ static bool put_ignored(smoother *w, uint32_t face)
 }
 
 /* Lists the faces of the fold behind those that are listed already: all that touch the face, and on from them those that are seen as steeply as these. */
-static bool put_fold(smoother *w, uint32_t face, double3 place)
+static bool put_fold(smoother *w, uint32_t face, double3 place, int rings)
 {
     const form_view *f = w->f;
     size_t first = w->count, ring = first;
@@ -70,7 +71,7 @@ static bool put_fold(smoother *w, uint32_t face, double3 place)
     w->stamps[face] = face + 1;
     if (!put_ignored(w, face))
         return false;
-    for (int r = 0; r < FOLD_RINGS; r++) {
+    for (int r = 0; r < rings; r++) {
         size_t end = w->count;
         for (size_t i = first; i < end && r == 1; i++)
             for (int k = 0; k < 3; k++)
@@ -132,11 +133,12 @@ static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
     if (f->out->count == before)
         return true;
     double3 middle = {0.5 * (a.place.x + b.place.x), 0.5 * (a.place.y + b.place.y), 0.5 * (a.place.z + b.place.z)};
-    if (!put_fold(w, face, middle))
+    bool hollow = is_hollow(f, face, middle);
+    if (!put_fold(w, face, middle, hollow ? 1 : FOLD_RINGS))
         return false;
     window_segment *s = &f->out->segments[before];
     s->ignored_count = (uint32_t)(w->count - listed);
-    s->least = f->m->closed[piece] && is_hollow(f, face, middle);
+    s->least = f->m->closed[piece] && hollow;
     return true;
 }
 

@@ -409,7 +409,7 @@ static void suggestive_contours_of_a_torus(void **state)
         const double ways[4][3] = {{0.3, 0.2, -1}, {1, 0.3, -1}, {0, 1, -0.7}, {1, 1, -2}};
         stroke_camera c = look_along(ways[i / 2][0], ways[i / 2][1], ways[i / 2][2], origin, 20, i % 4 < 2 ? 5 : 0.25, i % 4 < 2, PAGE, PAGE);
         stroke_wishes w = only(CONTOURS_NONE);
-        w.suggestive = 0.0002f;
+        w.suggestive = 0.02f;
         w.shortest = 0.01f; /* crumbs as well */
         form_shot f = take(s, c, w);
         for (size_t n = 0; n < f.set.stroke_count; n++)
@@ -455,7 +455,7 @@ static void ellipsoids_have_no_suggestive_contours(void **state)
         primitive p = i % 2 ? ball(24, 0.5, (place3){3, 2, 1.5}) : grid_surface(ellipsoid_at, 64, 32, true, false, 0);
         add_primitive(s, &p);
         stroke_wishes w = only(CONTOURS_NONE);
-        w.suggestive = 0.01f;
+        w.suggestive = 0.02f;
         form_shot f = take(s, camera_number(i, i < 4), w);
         assert_int_equal(f.set.stroke_count, 0);
         form_shot_release(&f);
@@ -484,8 +484,8 @@ static void a_bump_has_a_crest_and_two_feet(void **state)
             add_primitive(s, &p);
             stroke_camera c = look_along(0.2, 0.1, -1, origin, 20, 5, true, PAGE, PAGE);
             stroke_wishes w = only(CONTOURS_NONE);
-            w.ridges = wanted ? 0 : 0.1f;
-            w.valleys = wanted ? 0.1f : 0;
+            w.ridges = wanted ? 0 : 0.2f;
+            w.valleys = wanted ? 0.2f : 0;
             form_shot f = take(s, c, w);
             double most = 0, lengths[2] = {0, 0};
             for (size_t n = 0; n < f.set.stroke_count; n++) {
@@ -514,7 +514,7 @@ static void apparent_ridges_seen_from_above(void **state)
     add_primitive(s, &p);
     stroke_camera c = look_along(0, 0, -1, origin, 20, 5, true, PAGE, PAGE);
     stroke_wishes w = only(CONTOURS_NONE);
-    w.apparent = 0.05f;
+    w.apparent = 0.15f;
     form_shot f = take(s, c, w);
     double crest = 0;
     for (size_t n = 0; n < f.set.stroke_count; n++)
@@ -528,7 +528,7 @@ static void apparent_ridges_seen_from_above(void **state)
     s = stroke_scene_begin();
     p = ball(24, 0.5, (place3){3, 3, 3});
     add_primitive(s, &p);
-    w.ridges = w.valleys = 0.05f;
+    w.ridges = w.valleys = 0.1f;
     f = take(s, camera_number(1, true), w);
     double length;
     count_strokes(&f.set, STROKE_CLASS_COUNT, 0, &length);
