@@ -89,6 +89,21 @@ static void sharp_edges_part_the_surface(void **state)
     primitive_release(&p);
 }
 
+/* On a coarse ball, normals of neighbours differ by more than twenty degrees; it is round all the same. */
+static void a_coarse_ball_bends_as_it_should(void **state)
+{
+    (void)state;
+    primitive p = ball(4, 0, (place3){1, 1, 1});
+    edge_mesh e = edges_of(&p, 1.5);
+    form_surface s;
+    assert_int_equal(form_surface_make(&s, &e, true, NULL), LMN_OK);
+    for (uint32_t i = 0; i < s.knot_count; i++)
+        assert_true(fabsf(s.bends[i].greater - 1) < 0.03f && fabsf(s.bends[i].lesser - 1) < 0.03f);
+    form_surface_release(&s);
+    edge_mesh_release(&e);
+    primitive_release(&p);
+}
+
 /* --- scenes -------------------------------------------------------------------------------------------------------- */
 
 static void add_primitive(lmn_scene *s, primitive *p)
@@ -169,6 +184,8 @@ static place3 direction_to_eye(const stroke_camera *c, place3 p)
     double l = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
     return (place3){d.x / l, d.y / l, d.z / l};
 }
+
+static double torus_radial(const stroke_camera *c, double a, double b);
 
 /* --- outlines by normals ------------------------------------------------------------------------------------------- */
 
@@ -286,6 +303,82 @@ static void outlines_of_a_torus_are_hidden_where_it_hides_them(void **state)
     printf("torus: %zu of %zu samples are wrong, %zu of %d outlines are open\n", wrong, samples, open, VIEWS);
     assert_int_equal(open, 0);
     assert_true(wrong * 50 < samples);
+}
+
+/* Two bodies, the second one inside out: both outlines are whole. */
+static void every_body_has_its_own_fold(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 6; i++) {
+        lmn_scene *s = stroke_scene_begin();
+        for (int k = 0; k < 2; k++) {
+            primitive p = ball(9, 0.3, (place3){1, 1, 1});
+            for (uint32_t v = 0; v < p.vertex_count; v++)
+                p.positions[v].x += k ? 2.0f : -2.0f;
+            for (uint32_t c = 0; c < p.index_count && k; c += 3) {
+                uint32_t other = p.indices[c];
+                p.indices[c] = p.indices[c + 1];
+                p.indices[c + 1] = other;
+            }
+            add_primitive(s, &p);
+        }
+        stroke_camera c = look_along(0.1 * i, 1, -0.4, origin, 20, i % 2 ? 5 : 0.25, i % 2, PAGE, PAGE);
+        stroke_wishes w = only(CONTOURS_SMOOTH);
+        w.hidden = true;
+        w.suggestive = 0.02f;
+        form_shot f = take(s, c, w);
+        assert_int_equal(f.set.stroke_count, 2);
+        for (int k = 0; k < 2; k++)
+            assert_true(f.set.strokes[k].kind == STROKE_CONTOUR && f.set.strokes[k].closed && f.set.strokes[k].hidden_by == 0);
+        form_shot_release(&f);
+    }
+}
+
+/* Where the torus is hollow along the view, no outline of it is ever visible, not even next to where it ends. */
+static void hollow_outlines_are_hidden(void **state)
+{
+    (void)state;
+    size_t hollow = 0;
+    for (uint32_t i = 0; i < VIEWS; i++) {
+        lmn_scene *s = stroke_scene_begin();
+        primitive p = grid_surface(torus_at, 96, 32, true, true, 0.25 * (i % 3));
+        add_primitive(s, &p);
+        stroke_camera c = camera_number(i + 50, i % 2);
+        stroke_wishes w = only(CONTOURS_SMOOTH);
+        w.hidden = true;
+        form_shot f = take(s, c, w);
+        for (size_t n = 0; n < f.set.stroke_count; n++)
+            for (uint32_t m = 1; m + 1 < f.set.strokes[n].count; m++) {
+                place3 at = world_of(&c, &f.set.points[f.set.strokes[n].first + m]);
+                double radial = torus_radial(&c, atan2(at.y, at.x), atan2(at.z, hypot(at.x, at.y) - 3));
+                hollow += radial < -0.1;
+                assert_true(radial > -0.1 || f.set.strokes[n].hidden_by > 0);
+            }
+        form_shot_release(&f);
+    }
+    printf("%zu places of hollow outlines, all hidden\n", hollow);
+    assert_true(hollow > 100);
+}
+
+/* A ball whose vertices are a little off in all directions has one outline all the same. */
+static void noise_makes_no_islands(void **state)
+{
+    (void)state;
+    size_t strokes = 0;
+    for (uint32_t i = 0; i < VIEWS; i++) {
+        lmn_scene *s = stroke_scene_begin();
+        primitive p = ball(24, 0, (place3){3, 3, 3});
+        for (uint32_t v = 0; v < p.vertex_count; v++) {
+            float share = 1 + 0.006f * (float)(hashed(v + 1000 * i) - 0.5);
+            p.positions[v] = (vec3){p.positions[v].x * share, p.positions[v].y * share, p.positions[v].z * share};
+        }
+        add_primitive(s, &p);
+        form_shot f = take(s, camera_number(i, i % 2), only(CONTOURS_SMOOTH));
+        strokes += f.set.stroke_count;
+        form_shot_release(&f);
+    }
+    printf("noisy ball: %zu strokes in %d views\n", strokes, VIEWS);
+    assert_true(strokes < 2 * VIEWS);
 }
 
 /* A plate between ball and eye hides what lies behind it, a handle that passes in front as well. */
@@ -444,6 +537,32 @@ static void suggestive_contours_of_a_torus(void **state)
     assert_true(samples > 300 && there > 300);
     assert_true(most < 0.03 && growth_least > -0.03); /* how the curvature changes is known to 0.05 where the mesh is uneven */
     assert_true(missed * 100 < there);
+}
+
+/* Faint and short lines say nothing: what is left of a chain is as long as it must be, counted by weight. */
+static void crumbs_are_left_out(void **state)
+{
+    (void)state;
+    size_t crumbs[2] = {0, 0};
+    for (int i = 0; i < 2; i++) {
+        lmn_scene *s = stroke_scene_begin();
+        primitive p = grid_surface(torus_at, 60, 24, true, true, 0.5);
+        add_primitive(s, &p);
+        stroke_wishes w = only(CONTOURS_NONE);
+        w.ridges = w.valleys = w.suggestive = 0.1f;
+        w.shortest = i ? 0.01f : 1;
+        form_shot f = take(s, camera_number(3, true), w);
+        for (size_t n = 0; n < f.set.stroke_count; n++) {
+            double ink = 0;
+            const stroke_point *q = &f.set.points[f.set.strokes[n].first];
+            for (uint32_t k = 1; k < f.set.strokes[n].count; k++)
+                ink += hypot(q[k].x - q[k - 1].x, q[k].y - q[k - 1].y) * 0.5 * (q[k].weight + q[k - 1].weight);
+            crumbs[i] += ink < 8; /* a chain may be cut in two by what lies in front */
+        }
+        form_shot_release(&f);
+    }
+    printf("%zu crumbs left out, %zu stay\n", crumbs[1], crumbs[0]);
+    assert_true(crumbs[1] > 3 && crumbs[0] == 0);
 }
 
 /* What is convex everywhere has none, whatever the mesh. */
@@ -622,6 +741,32 @@ static void corners_stay_corners(void **state)
         shot_release(&f);
     }
     assert_true(fabs(lengths[0] - lengths[1]) < 0.01);
+    for (int i = 0; i < 2; i++) { /* six sides: rims turn by 60 degrees only, but three edges meet at each corner */
+        const float h = 2.5980762f;
+        const vec3 rim[6] = {{3, 0, 0}, {1.5f, h, 0}, {-1.5f, h, 0}, {-3, 0, 0}, {-1.5f, -h, 0}, {1.5f, -h, 0}};
+        vec3 places[12];
+        uint32_t corners[60], at = 0;
+        for (uint32_t k = 0; k < 6; k++) {
+            places[k] = (vec3){rim[k].x, rim[k].y, -1};
+            places[k + 6] = (vec3){rim[k].x, rim[k].y, 1};
+            uint32_t j = (k + 1) % 6;
+            const uint32_t quad[6] = {k, j, j + 6, k, j + 6, k + 6}, caps[6] = {0, k + 1, k, 6, k + 6, k + 7};
+            memcpy(corners + at, quad, sizeof quad);
+            at += 6;
+            if (k > 0 && k < 5) {
+                memcpy(corners + at, caps, sizeof caps);
+                at += 6;
+            }
+        }
+        lmn_scene *s = stroke_scene_begin();
+        add_part(s, places, 12, corners, at);
+        stroke_wishes w = STROKE_WISHES_INIT;
+        w.curve = 4 * i;
+        stroke_shot f = shoot(s, look_along(0.5, 1, -0.7, origin, 20, 5, true, PAGE, PAGE), w);
+        count_strokes(&f.set, STROKE_CLASS_COUNT, -1, &lengths[i]);
+        shot_release(&f);
+    }
+    assert_true(fabs(lengths[0] - lengths[1]) < 0.01);
 }
 
 static void memory_may_run_out(void **state)
@@ -669,7 +814,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_torus_bends_as_it_should),
+        cmocka_unit_test(a_coarse_ball_bends_as_it_should),
         cmocka_unit_test(sharp_edges_part_the_surface),
+        cmocka_unit_test(every_body_has_its_own_fold),
+        cmocka_unit_test(hollow_outlines_are_hidden),
+        cmocka_unit_test(noise_makes_no_islands),
+        cmocka_unit_test(crumbs_are_left_out),
         cmocka_unit_test(outlines_of_convex_bodies_are_whole),
         cmocka_unit_test(outlines_of_balls_are_circles),
         cmocka_unit_test(outlines_of_a_torus_are_hidden_where_it_hides_them),
