@@ -121,12 +121,17 @@ static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stro
     return status;
 }
 
+bool stroke_wishes_bend(const stroke_wishes *w)
+{
+    return w->contours == CONTOURS_SMOOTH || w->suggestive > 0 || w->ridges > 0 || w->valleys > 0 || w->apparent > 0;
+}
+
 lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
                         lmn_error *error)
 {
     bool bends = wishes->suggestive > 0 || wishes->ridges > 0 || wishes->valleys > 0 || wishes->apparent > 0;
     lmn_status status = LMN_OK;
-    for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK && (bends || wishes->contours == CONTOURS_SMOOTH); i++) {
+    for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK && stroke_wishes_bend(wishes); i++) {
         if (progress && !progress((double)i / (double)v->scene->mesh_count, "finding lines of form", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while lines of form were found");
         else

@@ -140,6 +140,9 @@ typedef struct stroke_wishes {
 } stroke_wishes;
 #define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0}
 
+/* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one view. */
+bool stroke_wishes_bend(const stroke_wishes *w);
+
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
