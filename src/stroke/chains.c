@@ -493,7 +493,7 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
     stroke s = {.kind = line->kind, .part = c->v->scene->items[line->item].part_index + 1, .chain = (uint32_t)c->out->chain_count, .id = id,
-                .chain_length = (float)length};
+                .chain_length = (float)length, .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
     size_t before = c->out->stroke_count;
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);

@@ -45,6 +45,7 @@ typedef struct stroke {
     bool         closed;      /* the whole chain is this stroke and ends where it began, the first point once more */
     float        phase;       /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
     float        chain_length; /* pixels */
+    bool         smooth;      /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of it */
 } stroke;
 
 /* Where on a chain one of its lasting edges begins: what a chain of the next frame is recognised by. */
@@ -155,7 +156,8 @@ typedef struct stroke_check {
     uint64_t miscounted; /* the same or a wrong number of surfaces in front */
 } stroke_check;
 /* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample is wrong when no
- * place within half a pixel is as the stroke says. Errors: LMN_MEMORY, LMN_CANCELLED. */
+ * place within half a pixel is as the stroke says. Smooth outlines are left out: the triangles that they
+ * stand for cover them. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 

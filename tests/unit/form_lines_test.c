@@ -381,6 +381,27 @@ static void noise_makes_no_islands(void **state)
     assert_true(strokes < 2 * VIEWS);
 }
 
+/* Rays are asked about lines that lie on the mesh, and agree; outlines by normals lie beside it. */
+static void lines_of_form_agree_with_rays(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    primitive p = grid_surface(torus_at, 60, 24, true, true, 0.5);
+    add_primitive(s, &p);
+    stroke_wishes w = only(CONTOURS_SMOOTH);
+    w.ridges = w.valleys = w.suggestive = w.apparent = 0.1f;
+    w.hidden = true;
+    form_shot f = take(s, camera_number(3, false), w);
+    stroke_check check;
+    assert_int_equal(stroke_verify(&check, &f.set, f.view, 1, NULL, NULL, NULL), LMN_OK);
+    printf("lines of form: %lu of %lu samples are wrong\n", (unsigned long)check.wrong, (unsigned long)check.samples);
+    assert_true(check.samples > 500);
+    assert_int_equal(check.wrong, 0);
+    for (size_t i = 0; i < f.set.stroke_count; i++)
+        assert_int_equal(f.set.strokes[i].smooth, f.set.strokes[i].kind == STROKE_CONTOUR);
+    form_shot_release(&f);
+}
+
 /* A plate between ball and eye hides what lies behind it, a handle that passes in front as well. */
 static void what_lies_in_front_hides_outlines(void **state)
 {
@@ -820,6 +841,7 @@ int main(void)
         cmocka_unit_test(hollow_outlines_are_hidden),
         cmocka_unit_test(noise_makes_no_islands),
         cmocka_unit_test(crumbs_are_left_out),
+        cmocka_unit_test(lines_of_form_agree_with_rays),
         cmocka_unit_test(outlines_of_convex_bodies_are_whole),
         cmocka_unit_test(outlines_of_balls_are_circles),
         cmocka_unit_test(outlines_of_a_torus_are_hidden_where_it_hides_them),

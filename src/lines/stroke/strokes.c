@@ -33,7 +33,7 @@ static const param params[] = {
            .doc = "Apparent ridges: lines where what is seen bends most; 1 draws the strongest, less draws more, 0 none."),
     ROW("refine", wishes.refine, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 3, .soft_max = 2, .unit = UNIT_COUNT,
         .doc = "Times surfaces are refined before their lines are found: coarse ones become round, edges sharper than scene.crease_angle stay sharp. Each time makes four "
-               "triangles of one."),
+               "triangles of one. What fills the picture keeps the surface that it has."),
     ROW("curve", wishes.curve, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 4, .soft_max = 3, .unit = UNIT_COUNT,
         .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as straight as they are."),
     NUMBER("shortest", wishes.shortest, .def = 1, .min = 0, .max = 200, .soft_max = 20, .unit = UNIT_PX, .along = true,
