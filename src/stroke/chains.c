@@ -12,8 +12,9 @@
 /* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK -0.7
-/* Lines of form must be longer than others by this factor. */
+/* Lines of form must be longer than others by this factor, but no longer than this share of the page. */
 #define FORM_SHORTEST 16.0
+#define FORM_SHARE (1.0 / 64)
 enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
@@ -363,7 +364,8 @@ static bool is_crumb(const chainer *c, stroke_class kind)
     for (size_t i = 0; i + 1 < c->point_count; i++)
         if (c->points[i].count == 0 || (c->wishes->hidden && c->points[i].count > 0))
             ink += (c->points[i + 1].arc - c->points[i].arc) * 0.5 * (c->points[i].weight + c->points[i + 1].weight);
-    return kind >= STROKE_SUGGESTIVE && ink < FORM_SHORTEST * c->wishes->shortest;
+    int side = c->v->camera.width > c->v->camera.height ? c->v->camera.width : c->v->camera.height;
+    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->wishes->shortest, FORM_SHARE * side);
 }
 
 /* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */

@@ -74,18 +74,19 @@ static bool is_exception(const kind *k, const param *p)
     return false;
 }
 
-/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues, texture coordinates and intersections. */
+/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues, texture coordinates and intersections. It has five bulges, so that there are
+ * ridges and valleys. */
 static void write_ball(FILE *file, double x)
 {
-    enum { ROWS = 10, COLUMNS = 16 };
+    enum { ROWS = 20, COLUMNS = 60 };
     fprintf(file, "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
                   "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float s\nproperty float t\nelement face %d\n"
                   "property list uchar int vertex_indices\nend_header\n", (ROWS + 1) * COLUMNS, ROWS * COLUMNS);
     for (int r = 0; r <= ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
-            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS;
-            fprintf(file, "%.4f %.4f %.4f %d %d %d %.4f %.4f\n", 45 * sin(polar) * cos(around) + x, 45 * cos(polar) + 45,
-                    45 * sin(polar) * sin(around) + 20, 200 - 15 * r, 60 + 8 * c, 60, 2.0 * c / COLUMNS, 1.0 * r / ROWS);
+            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS, radius = 45 * (1 + 0.3 * cos(5 * around) * sin(polar));
+            fprintf(file, "%.4f %.4f %.4f %d %d %d %.4f %.4f\n", radius * sin(polar) * cos(around) + x, radius * cos(polar) + 45,
+                    radius * sin(polar) * sin(around) + 20, 200 - 7 * r, 60 + 2 * c, 60, 2.0 * c / COLUMNS, 1.0 * r / ROWS);
         }
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
