@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "stroke/form_view.h"
 
-/* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). It goes with the square of the strength, so that a quarter is a good start. */
-#define SUGGESTIVE_LIMIT 60.0
+/* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). It goes with the square of the strength, so that a third is a good start. */
+#define SUGGESTIVE_LIMIT 24.0
 
 /* What grows counts the more the further it turns away, as it looks foreshortened; not beyond this cosine. */
 #define NEAR_OUTLINE 0.1

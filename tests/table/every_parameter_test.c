@@ -74,24 +74,39 @@ static bool is_exception(const kind *k, const param *p)
     return false;
 }
 
-/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues, texture coordinates and intersections. It has five bulges, so that there are
- * ridges and valleys. */
+/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues, texture coordinates and intersections. */
 static void write_ball(FILE *file, double x)
 {
-    enum { ROWS = 20, COLUMNS = 60 };
+    enum { ROWS = 10, COLUMNS = 16 };
     fprintf(file, "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
                   "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float s\nproperty float t\nelement face %d\n"
                   "property list uchar int vertex_indices\nend_header\n", (ROWS + 1) * COLUMNS, ROWS * COLUMNS);
     for (int r = 0; r <= ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
-            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS, radius = 45 * (1 + 0.3 * cos(5 * around) * sin(polar));
-            fprintf(file, "%.4f %.4f %.4f %d %d %d %.4f %.4f\n", radius * sin(polar) * cos(around) + x, radius * cos(polar) + 45,
-                    radius * sin(polar) * sin(around) + 20, 200 - 7 * r, 60 + 2 * c, 60, 2.0 * c / COLUMNS, 1.0 * r / ROWS);
+            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS;
+            fprintf(file, "%.4f %.4f %.4f %d %d %d %.4f %.4f\n", 45 * sin(polar) * cos(around) + x, 45 * cos(polar) + 45,
+                    45 * sin(polar) * sin(around) + 20, 200 - 15 * r, 60 + 8 * c, 60, 2.0 * c / COLUMNS, 1.0 * r / ROWS);
         }
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
             int next = (c + 1) % COLUMNS;
             fprintf(file, "4 %d %d %d %d\n", r * COLUMNS + c, (r + 1) * COLUMNS + c, (r + 1) * COLUMNS + next, r * COLUMNS + next);
+        }
+}
+
+/* A small body of five bulges, fine enough to have no creases: ridges, valleys, and where the eye moves a little, outlines. */
+static void write_flower(FILE *file, double x)
+{
+    enum { ROWS = 24, COLUMNS = 200 };
+    for (int r = 0; r <= ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS, radius = 24 * (1 + 0.25 * cos(5 * around) * sin(polar));
+            fprintf(file, "v %.4f %.4f %.4f\n", radius * sin(polar) * cos(around) + x, radius * sin(polar) * sin(around) + 100, radius * cos(polar) + 20);
+        }
+    for (int r = 0; r < ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            int a = r * COLUMNS + c + 1, b = r * COLUMNS + (c + 1) % COLUMNS + 1;
+            fprintf(file, "f %d %d %d %d\n", a, a + COLUMNS, b + COLUMNS, b);
         }
 }
 
@@ -328,6 +343,7 @@ static int make_fixture(void **state)
     bool done = lmn_scene_create(&f->scene, &error) == LMN_OK && lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
                 add_file(f->scene, folder, "ball.ply", write_ball, 10, &error) &&
                 add_file(f->scene, folder, "other.ply", write_ball, 70, &error) &&
+                add_file(f->scene, folder, "flower.obj", write_flower, -20, &error) &&
                 add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
                 lmn_scene_create(&f->solid, &error) == LMN_OK && add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
                 lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
