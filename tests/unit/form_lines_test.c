@@ -360,8 +360,8 @@ static void hollow_outlines_are_hidden(void **state)
     assert_true(hollow > 100);
 }
 
-/* A ball whose vertices are a little off in all directions has one outline all the same. */
-static void noise_makes_no_islands(void **state)
+/* A ball whose vertices are off by half a percent: beside its outline there is less than one island a view, single knots that noise turned over being none. */
+static void noise_makes_few_islands(void **state)
 {
     (void)state;
     size_t strokes = 0;
@@ -369,7 +369,7 @@ static void noise_makes_no_islands(void **state)
         lmn_scene *s = stroke_scene_begin();
         primitive p = ball(24, 0, (place3){3, 3, 3});
         for (uint32_t v = 0; v < p.vertex_count; v++) {
-            float share = 1 + 0.006f * (float)(hashed(v + 1000 * i) - 0.5);
+            float share = 1 + 0.011f * (float)(hashed(v + 1000 * i) - 0.5);
             p.positions[v] = (vec3){p.positions[v].x * share, p.positions[v].y * share, p.positions[v].z * share};
         }
         add_primitive(s, &p);
@@ -839,7 +839,7 @@ int main(void)
         cmocka_unit_test(sharp_edges_part_the_surface),
         cmocka_unit_test(every_body_has_its_own_fold),
         cmocka_unit_test(hollow_outlines_are_hidden),
-        cmocka_unit_test(noise_makes_no_islands),
+        cmocka_unit_test(noise_makes_few_islands),
         cmocka_unit_test(crumbs_are_left_out),
         cmocka_unit_test(lines_of_form_agree_with_rays),
         cmocka_unit_test(outlines_of_convex_bodies_are_whole),
