@@ -377,7 +377,7 @@ static void draw_exact(frame *f, figure_state *s, stroke_store *store, const str
 void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     const strokes_values *v = use->values;
-    bool exact = v->visibility == VISIBILITY_EXACT || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
+    bool exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
     stopwatch w = watch_start(f);
     stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->wishes.refine);
     if (store)

@@ -426,8 +426,8 @@ static void calm(chainer *c)
 
 /* --- simplifying --------------------------------------------------------------------------------------------------- */
 
-/* Depth may be off by this many times as much as the place on the page. */
-#define DEPTH_SHARE 0.1
+/* Of what a depth is off, so much counts beside what the place on the page is: depth may be off by less than half a pixel, so that whoever looks the line up finds it on its surface. */
+#define DEPTH_SHARE 0.25
 
 /* By how much a point lies off a straight piece, pixels. */
 static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)

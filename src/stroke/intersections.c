@@ -329,7 +329,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
 {
     memset(out, 0, sizeof *out);
     crossing_search s = {.scene = scene, .out = out, .region = box3_empty(), .progress = progress, .user = user,
-                         .same = SAME_PLACE * fmax(scene->reach, scene->extent)};
+                         .same = SAME_PLACE * scene->reach};
     lmn_status status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);

@@ -88,6 +88,21 @@ static lmn_status find_mesh(scene_builder *b, const node *n, uint32_t *out, lmn_
     return LMN_OK;
 }
 
+/* The largest coordinate of a box. */
+static double farthest(box3 box)
+{
+    return fmax(fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y))), fmax(fabs(box.min.z), fabs(box.max.z)));
+}
+
+/* By how much a matrix may lengthen things. */
+static double growth(const mat4 *m)
+{
+    double most = 0;
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, sqrt(m->m[4 * k] * m->m[4 * k] + m->m[4 * k + 1] * m->m[4 * k + 1] + m->m[4 * k + 2] * m->m[4 * k + 2]));
+    return most;
+}
+
 static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error)
 {
     const node *n = &b->scene->nodes[b->scene->parts[part_index].node];
@@ -108,8 +123,11 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
             world = mat4_multiply(&world, &n->instances[i]);
         s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, number, world};
         const edge_mesh *m = &s->meshes[number];
-        for (uint32_t k = 0; k < m->piece_count; k++)
+        double grown = growth(&world);
+        for (uint32_t k = 0; k < m->piece_count; k++) {
             b->box = box3_union(b->box, box3_transform(m->boxes[k], &world));
+            s->reach = fmax(s->reach, grown * farthest(m->boxes[k]));
+        }
     }
     return LMN_OK;
 }
@@ -138,11 +156,7 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene
             status = add_part(&b, i, error);
     }
     mem_free(b.shared);
-    if (!box3_is_empty(b.box)) {
-        out->extent = box3_diagonal(b.box);
-        out->reach = fmax(fmax(fmax(fabs(b.box.min.x), fabs(b.box.max.x)), fmax(fabs(b.box.min.y), fabs(b.box.max.y))),
-                          fmax(fabs(b.box.min.z), fabs(b.box.max.z)));
-    }
+    out->extent = box3_is_empty(b.box) ? 0 : box3_diagonal(b.box);
     if (status != LMN_OK)
         stroke_scene_release(out);
     return status;

@@ -83,7 +83,7 @@ typedef struct stroke_scene {
     size_t       mesh_count;
     stroke_item *items;
     size_t       item_count;
-    double       extent, reach; /* diagonal of all; the largest coordinate, which says how exact places are */
+    double       extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how exact places are: where a node puts it is exact */
 } stroke_scene;
 
 /* Takes the parts with `parts[index]` (NULL: all) in their rest pose; worlds as scene_world_matrices gives them. Solids have no triangles and are left out.
