@@ -10,7 +10,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
           libxml2-dev
           libcairo2-dev libpango1.0-dev
-          libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev)
+          libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium)
 
 if ! command -v dpkg-query > /dev/null; then
     echo "This is no Debian system; install what docs/DEPENDENCIES.md lists, then run this again." >&2

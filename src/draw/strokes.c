@@ -249,8 +249,8 @@ static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
     camera.projection = f->camera.projection;
     camera.near = f->camera.near;
     camera.orthographic = f->camera.orthographic;
-    camera.width = f->width;
-    camera.height = f->height;
+    camera.width = f->width / f->samples; /* of the page as it is seen: which lines there are does not depend on how finely it is sampled */
+    camera.height = f->height / f->samples;
     if (store->view && memcmp(&store->camera, &camera, sizeof camera) == 0)
         return LMN_OK;
     release_view(store);
@@ -271,10 +271,37 @@ static void keep_layer(stroke_set *set, uint32_t layer)
     set->stroke_count = kept;
 }
 
+static void divide_lengths(const param *params, size_t count, void *values, int samples)
+{
+    for (size_t i = 0; i < count; i++)
+        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
+            *(float *)((char *)values + params[i].offset) /= (float)samples;
+}
+
+/* A drawing's lengths are in samples; here in pixels. */
+static strokes_values values_in_pixels(const strokes_values *v, int samples)
+{
+    strokes_values out = *v;
+    divide_lengths(lines_strokes.params, lines_strokes.param_count, &out, samples);
+    divide_lengths(kind_lines.common, kind_lines.common_count, &out, samples);
+    return out;
+}
+
+static void scale_ribbons(ribbon_set *r, float samples)
+{
+    for (size_t i = 0; i < r->point_count; i++) {
+        r->points[i].x *= samples;
+        r->points[i].y *= samples;
+        r->points[i].half *= samples;
+        r->points[i].arc *= samples;
+    }
+}
+
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
 {
-    stroke_wishes wishes = strokes_wishes_of(v);
-    stroke_style style = strokes_style_of(v);
+    const strokes_values seen = values_in_pixels(v, f->samples);
+    stroke_wishes wishes = strokes_wishes_of(&seen);
+    stroke_style style = strokes_style_of(&seen);
     stroke_set set = {0};
     if (s->figure->layered)
         wishes.hidden = true;
@@ -289,6 +316,8 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
         f->strokes[set.strokes[i].kind]++;
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, f->seed, error);
+    if (status == LMN_OK)
+        scale_ribbons(out, (float)f->samples);
     stroke_set_release(&set);
     return status;
 }

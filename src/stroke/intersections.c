@@ -46,21 +46,6 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-static double3 minus(double3 a, double3 b)
-{
-    return (double3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-static double3 cross(double3 a, double3 b)
-{
-    return (double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static double dot(double3 a, double3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 /* --- candidates ---------------------------------------------------------------------------------------------------- */
 
 static bool is_identity(const mat4 *m)
@@ -212,8 +197,8 @@ static world_face load_face(const crossing_search *s, const near_face *n)
         out.normal = (double3){m->normals[n->face].x, m->normals[n->face].y, m->normals[n->face].z};
         return out;
     }
-    double3 normal = cross(minus(out.p[1], out.p[0]), minus(out.p[2], out.p[0]));
-    double length = sqrt(dot(normal, normal));
+    double3 normal = double3_cross(double3_minus(out.p[1], out.p[0]), double3_minus(out.p[2], out.p[0]));
+    double length = sqrt(double3_dot(normal, normal));
     out.normal = length > 0 ? (double3){normal.x / length, normal.y / length, normal.z / length} : (double3){0, 0, 0};
     return out;
 }
@@ -223,7 +208,7 @@ static bool find_heights(const crossing_search *s, world_face *a, const world_fa
 {
     bool above = false, below = false;
     for (int k = 0; k < 3; k++) {
-        double height = dot(minus(a->p[k], b->p[0]), b->normal);
+        double height = double3_dot(double3_minus(a->p[k], b->p[0]), b->normal);
         a->heights[k] = fabs(height) <= s->same ? 0 : height;
         above = above || a->heights[k] > 0;
         below = below || a->heights[k] < 0;
@@ -296,13 +281,13 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     world_face a = load_face(s, n), b = load_face(s, m);
     if (!find_heights(s, &a, &b) || !find_heights(s, &b, &a))
         return true;
-    double3 along = cross(a.normal, b.normal), p[2], q[2];
+    double3 along = double3_cross(a.normal, b.normal), p[2], q[2];
     rim_at_plane(&a, p);
     rim_at_plane(&b, q);
-    int p0 = dot(along, p[0]) <= dot(along, p[1]) ? 0 : 1, q0 = dot(along, q[0]) <= dot(along, q[1]) ? 0 : 1;
-    double3 begin = dot(along, p[p0]) >= dot(along, q[q0]) ? p[p0] : q[q0], end = dot(along, p[1 - p0]) <= dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
-    double3 length = minus(end, begin);
-    if (dot(along, length) <= 0 || dot(length, length) <= s->same * s->same)
+    int p0 = double3_dot(along, p[0]) <= double3_dot(along, p[1]) ? 0 : 1, q0 = double3_dot(along, q[0]) <= double3_dot(along, q[1]) ? 0 : 1;
+    double3 begin = double3_dot(along, p[p0]) >= double3_dot(along, q[q0]) ? p[p0] : q[q0], end = double3_dot(along, p[1 - p0]) <= double3_dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
+    double3 length = double3_minus(end, begin);
+    if (double3_dot(along, length) <= 0 || double3_dot(length, length) <= s->same * s->same)
         return true;
     if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
         s->failed = true;

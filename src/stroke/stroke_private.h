@@ -23,6 +23,21 @@ typedef struct double3 {
     double x, y, z;
 } double3;
 
+static inline double3 double3_minus(double3 a, double3 b)
+{
+    return (double3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline double3 double3_cross(double3 a, double3 b)
+{
+    return (double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline double double3_dot(double3 a, double3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
 /* A triangle in the window. */
 typedef struct window_triangle {
     uint32_t v[3]; /* in the view's points */

@@ -32,21 +32,6 @@ typedef struct verifier {
     double             half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
 } verifier;
 
-static double3 minus(double3 a, double3 b)
-{
-    return (double3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-static double3 cross(double3 a, double3 b)
-{
-    return (double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static double dot(double3 a, double3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 /* --- preparation --------------------------------------------------------------------------------------------------- */
 
 static void load_item(verifier *w, size_t index, const uint8_t *unseen)
@@ -134,8 +119,8 @@ static ray ray_to(const verifier *w, double x, double y, double depth)
         to = place_of(w, right * depth, up * depth, -depth);
         from = place_of(w, right * c->near, up * c->near, -c->near);
     }
-    double3 along = minus(to, from);
-    double length = sqrt(dot(along, along)), share = length > 0 ? 1 / length : 0;
+    double3 along = double3_minus(to, from);
+    double length = sqrt(double3_dot(along, along)), share = length > 0 ? 1 / length : 0;
     double pixel = 2 * w->half_height / c->height * (c->orthographic ? 1 : depth);
     return (ray){from, {along.x * share, along.y * share, along.z * share}, length, 0.5 * pixel};
 }
@@ -162,16 +147,16 @@ static bool passes(const box3 *b, const ray *r)
 static void count_face(const verifier *w, uint32_t face, const ray *r, ray_count *out)
 {
     const double3 *p = w->corners[face];
-    double3 a = minus(p[1], p[0]), b = minus(p[2], p[0]), h = cross(r->along, b), normal = cross(a, b);
-    double det = dot(a, h);
+    double3 a = double3_minus(p[1], p[0]), b = double3_minus(p[2], p[0]), h = double3_cross(r->along, b), normal = double3_cross(a, b);
+    double det = double3_dot(a, h);
     if (det == 0 || w->unseen[face] == (det > 0 ? 2 : 1))
         return;
-    double3 s = minus(r->from, p[0]), q = cross(s, a);
-    double u = dot(s, h) / det, v = dot(r->along, q) / det, t = dot(b, q) / det;
+    double3 s = double3_minus(r->from, p[0]), q = double3_cross(s, a);
+    double u = double3_dot(s, h) / det, v = double3_dot(r->along, q) / det, t = double3_dot(b, q) / det;
     if (u < 0 || v < 0 || u + v > 1 || t < 0 || t >= r->until)
         return;
     out->all++;
-    out->sure += (r->until - t) * fabs(dot(r->along, normal)) > r->near * sqrt(dot(normal, normal));
+    out->sure += (r->until - t) * fabs(double3_dot(r->along, normal)) > r->near * sqrt(double3_dot(normal, normal));
 }
 
 static ray_count count_in_front(const verifier *w, const ray *r)
