@@ -91,9 +91,10 @@ lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const 
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
-/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. */
+/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. `outward`: unit normals of both, away from
+ * what they enclose; 0, 0, 0 where they enclose nothing. */
 size_t   stroke_scene_crossing_count(const stroke_scene *s);
-uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3]);
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3], vec3 outward[2]);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
