@@ -24,6 +24,7 @@
 #define LIMIT_STROKES         1000000             /* of one stroke texture */
 #define LIMIT_STROKE_LAYERS   65536
 #define LIMIT_STROKE_REACH    16                  /* how far from 0 a stroke's ends may lie, squares */
+#define LIMIT_MARKS           2000000             /* dots or strokes on the surfaces of one drawing */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
 #define LIMIT_LOOK_RULES      256
 #define LIMIT_LOOK_TECHNIQUES 64                  /* of one kind in a rule */

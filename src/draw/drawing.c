@@ -339,6 +339,34 @@ static void note_strokes(const session *s, const upload *up, warnings *notes)
         warnings_add(notes, WARNING_UNUSED, "lines 'strokes' are those of whole parts: what a section takes away is drawn too; operators like 'discontinuity' draw what is left");
 }
 
+/* Compositions that shade the geometry again draw nothing over it. */
+static const technique_use *shades_again(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    for (size_t i = 0; compose && i < compose->technique->pass_count; i++)
+        if (compose->technique->passes[i].geometry && compose->technique->passes[i].writes == TARGET_PAGE)
+            return compose;
+    return NULL;
+}
+
+/* Marks lie on the triangles of parts as they are in the scene. */
+static void note_marks(const session *s, warnings *notes)
+{
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        const figure *fig = &s->plan.figures[i];
+        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = shades_again(fig->rule);
+        bool solids = false;
+        if (!surface || !surface->technique->marks)
+            continue;
+        for (size_t k = 0; k < s->plan.part_count; k++)
+            solids = solids || (fig->designated[k] && s->plan.scene->nodes[s->plan.scene->parts[k].node].solid != NONE);
+        if (solids)
+            warnings_add(notes, WARNING_UNUSED, "surface '%s' lies on meshes: solids have none; 'dots' and 'hatch' are worked out on any surface", surface->technique->name);
+        if (compose)
+            warnings_add(notes, WARNING_UNUSED, "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them", compose->technique->name, surface->technique->name);
+    }
+}
+
 /* What could not be drawn as it was asked for. */
 static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const session *s)
 {
@@ -346,6 +374,7 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     const upload *up = &r->up;
     bool cut_out = false, spares = false;
     note_strokes(s, up, &d->warnings);
+    note_marks(s, &d->warnings);
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
         bool blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;

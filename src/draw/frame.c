@@ -76,6 +76,8 @@ static void draw_figure(frame *f, const figure *fig)
             passes_prepare(f, &s);
             raster_shade_deferred(f, &s);
         }
+        if (s.targets[TARGET_SHADE])
+            marks_draw(f, &s, s.targets[TARGET_SHADE]);
         draw_sprite(f, &s);
         mem_free(s.edges);
     }

@@ -99,6 +99,8 @@ void      watch_stop(frame *f, stopwatch w, const char *group, const char *name)
 /* --- lighting.c: what programs that ask for light get --- */
 void lights_declare(text *prelude, const frame *f); /* soft shadows and occlusion too, where they were drawn */
 void lights_set(frame *f);
+/* The same numbers for who works without a GPU: at most LIGHTS_MAX rows; returns how many. */
+int  lights_list(const frame *f, float positions[][4], float colours[][4]);
 void shadow_set(frame *f);     /* uniforms of light/shadow.glsl */
 void visibility_set(frame *f); /* of light/light.glsl's soft shadows and occlusion */
 /* Are the first light's shadows drawn, and soft? */
@@ -163,6 +165,11 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
 void raster_depth(frame *f, gpu_texture *depth);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
+
+/* --- marks.c: marks on surfaces --- */
+bool figure_has_marks(const figure *fig);
+/* Those of the figure's surface technique, where its surface is what is seen, over a picture. */
+void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
 
 /* --- solids.c: evaluation of solids --- */
 typedef struct solid_wishes {

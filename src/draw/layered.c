@@ -178,6 +178,8 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
     if (!(stack->channels & CHANNEL_ID)) /* peeling has ids of its own need */
         s->targets[TARGET_ID] = NULL;
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
+    if (s->targets[TARGET_SHADE])
+        marks_draw(f, s, s->targets[TARGET_SHADE]);
     /* One field for all layers: they move together, and their order stays. Seed 000, section 6.8. */
     if (layer == 0 && (!f->maps || f->maps->whole))
         passes_run_kind(f, s, KIND_PERTURB);

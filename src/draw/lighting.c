@@ -2,6 +2,7 @@
 #include "draw/frame_private.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "light/light.h"
 
@@ -130,6 +131,14 @@ void lights_set(frame *f)
     light_list l = list_lights(f);
     gpu_set_vec4_array(f->g, "u_light_position", l.positions[0], l.count);
     gpu_set_vec4_array(f->g, "u_light_colour", l.colours[0], l.count);
+}
+
+int lights_list(const frame *f, float positions[][4], float colours[][4])
+{
+    light_list l = list_lights(f);
+    memcpy(positions, l.positions, (size_t)l.count * sizeof *positions);
+    memcpy(colours, l.colours, (size_t)l.count * sizeof *colours);
+    return l.count;
 }
 
 bool lights_first_direction(const frame *f, double out[3])

@@ -85,21 +85,27 @@ static bool make_room(upload_mesh *m, const mesh *source)
     return m->primitives && m->lapped;
 }
 
-static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
+lmn_status upload_pose(part_pose *out, mat4 **joints, const lmn_scene *scene, const mat4 *worlds, size_t part_index, lmn_error *error)
 {
     const node *n = &scene->nodes[scene->parts[part_index].node];
     const mesh *m = &scene->meshes[n->mesh];
     const skin *s = n->skin >= 0 ? &scene->skins[n->skin] : NULL;
+    *joints = s ? joint_matrices(scene, worlds, s) : NULL;
+    *out = (part_pose){.joints = *joints, .joint_count = s ? s->joint_count : 0, .weights = n->morph_weights ? n->morph_weights : m->morph_weights,
+                       .weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count};
+    return s && !*joints ? error_memory(error) : LMN_OK;
+}
+
+static lmn_status upload_part(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, lmn_error *error)
+{
+    const node *n = &scene->nodes[scene->parts[part_index].node];
+    const mesh *m = &scene->meshes[n->mesh];
     upload_part_job job = {.part_index = part_index, .mesh = m, .nearer = nearer_of(u, scene, part_index)};
-    job.pose.weights = n->morph_weights ? n->morph_weights : m->morph_weights;
-    job.pose.weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
-    mat4 *joints = s ? joint_matrices(scene, u->worlds, s) : NULL;
-    if (s && !joints)
-        return error_memory(error);
-    job.pose.joints = joints;
-    job.pose.joint_count = s ? s->joint_count : 0;
-    upload_mesh *made = s || job.pose.weight_count > 0 ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
-    lmn_status status = LMN_OK;
+    mat4 *joints;
+    lmn_status status = upload_pose(&job.pose, &joints, scene, u->worlds, part_index, error);
+    if (status != LMN_OK)
+        return status;
+    upload_mesh *made = joints || job.pose.weight_count > 0 ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
     if (make_room(made, m)) {
         job.meshes = made->primitives;
         job.lapped = made->lapped;
@@ -215,6 +221,7 @@ void upload_release(upload *u, gpu *g)
     release_meshes(u->posed, u->node_count, g);
     for (size_t i = 0; i <= u->mesh_count && u->shapes; i++)
         upload_shape_release(&u->shapes[i]);
+    mark_sets_release(&u->marks, g);
     gpu_target_release(g, u->part_frames);
     for (int i = 0; i < 2; i++)
         stroke_store_destroy(&u->strokes[i], g);

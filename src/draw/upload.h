@@ -50,6 +50,10 @@ typedef struct upload_shape {
     signed char      convex, inside_out; /* 1 yes, −1 no, 0 not asked yet */
 } upload_shape;
 
+/* Marks on the surfaces of figures, as they were asked for: src/draw/marks.c. */
+typedef struct mark_sets mark_sets;
+void mark_sets_release(mark_sets **all, gpu *g);
+
 /* One draw call: a primitive of a part at one place. */
 typedef struct draw_item {
     gpu_mesh *mesh, *lapped; /* lapped: NULL: there is none */
@@ -108,6 +112,7 @@ typedef struct upload {
     gpu_texture  *part_frames; /* NULL: not asked for yet */
     float        *part_frame_values; /* what is in it */
     double        frame_origin[3];
+    mark_sets    *marks;      /* NULL: none yet */
     stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not asked for yet */
     uint64_t      triangles; /* drawn, instances counted */
 } upload;

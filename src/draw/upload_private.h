@@ -35,6 +35,10 @@ typedef struct upload_part_job {
     bool        open;
 } upload_part_job;
 
+/* --- upload.c --- */
+/* How a part stands; *joints belongs to the caller. Errors: LMN_MEMORY. */
+lmn_status upload_pose(part_pose *out, mat4 **joints, const lmn_scene *scene, const mat4 *worlds, size_t part_index, lmn_error *error);
+
 /* --- upload_mesh.c --- */
 /* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The caller frees it. */
 void      *upload_gather(const void *source, const uint32_t *map, uint32_t count, size_t size);

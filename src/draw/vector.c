@@ -423,6 +423,23 @@ static colour frame_ink(colour ground)
     return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
 }
 
+/* What all views draw on: surfaces as fine as the rule that wants them finest. */
+static lmn_status make_scene(vector_job *j, double crease, lmn_error *error)
+{
+    int32_t refine = 0;
+    bool    bends = false;
+    for (size_t i = 0; i < j->scene->part_count; i++) {
+        stroke_wishes wishes;
+        stroke_style  style;
+        if (!j->selected[i] || !vector_rule_strokes(j->rules[i], &wishes, &style))
+            continue;
+        refine = wishes.refine > refine ? wishes.refine : refine;
+        bends = bends || stroke_wishes_bend(&wishes);
+    }
+    lmn_status status = stroke_scene_create_refined(&j->strokes, j->scene, j->worlds, j->selected, crease, refine, report_part, j, error);
+    return status == LMN_OK && bends ? stroke_scene_bend(&j->strokes, report_part, j, error) : status;
+}
+
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 {
     lmn_sheet          *s = j->out;
@@ -432,7 +449,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     j->begun = 0.3;
     j->share = 0.2;
     if (status == LMN_OK)
-        status = stroke_scene_create(&j->strokes, j->scene, j->worlds, j->selected, crease, report_part, j, error);
+        status = make_scene(j, crease, error);
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
         j->share = 0.45 / (double)s->view_count;
         j->begun = 0.5 + j->share * (double)i;

@@ -69,6 +69,9 @@ static void read_facts(gpu *g, bool debug)
     f->debug = debug;
     f->software = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe") || strstr(f->renderer, "SwiftShader");
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &f->max_texture);
+    float points[2] = {1, 1};
+    glGetFloatv(GL_ALIASED_POINT_SIZE_RANGE, points); /* core: GL_POINT_SIZE_RANGE, the same number */
+    f->max_point = points[1];
     glGetIntegerv(GL_MAX_SAMPLES, &f->max_samples);
     glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &f->max_attachments);
     int version = epoxy_gl_version();

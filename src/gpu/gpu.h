@@ -45,6 +45,7 @@ typedef struct gpu_facts {
     const char *vendor, *renderer, *version, *shading; /* owned by the context */
     bool        es, debug, software; /* software: the driver runs on the CPU */
     int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
+    float       max_point; /* diameter of points, pixels */
     bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
     bool        depth_clamp;
     bool        lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
@@ -111,6 +112,8 @@ bool      gpu_mesh_has_tensors(const gpu_mesh *m);
  * corners of its quad; which one a vertex is, is gl_VertexID & 3. Corners 0 1 2 and 2 1 3 are its triangles. NULL after an error. */
 enum { MARK_VECTORS_MAX = 8 };
 gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t count);
+/* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_facts.max_point, and the middle must lie inside of what is drawn. */
+gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 
@@ -193,8 +196,9 @@ void gpu_watch_end(gpu *g);
 bool gpu_watched(gpu *g, int watch);
 /* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
-/* All of the marks, in their order. */
+/* All of the marks, in their order; or the first ones alone. */
 void gpu_draw_marks(gpu *g, gpu_marks *m);
+void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count);
 /* Draw calls since the context was made. */
 uint64_t gpu_draw_count(const gpu *g);
 

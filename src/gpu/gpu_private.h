@@ -45,8 +45,9 @@ struct gpu_mesh {
 };
 
 struct gpu_marks {
-    GLuint array, buffers[2]; /* corners, indices */
+    GLuint array, buffers[2]; /* corners, indices; no indices of points */
     size_t count;
+    bool   points;
 };
 
 /* A framebuffer object for one set of attachments. */

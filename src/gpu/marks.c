@@ -8,17 +8,23 @@
 
 enum { CORNERS = 4, INDICES = 6, MARKS_MAX = UINT32_MAX / INDICES };
 
+static void set_vectors(GLuint buffer, int vectors, const void *data, size_t bytes)
+{
+    size_t size = 4 * sizeof(float) * (size_t)vectors;
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, data, GL_STATIC_DRAW);
+    for (int i = 0; i < vectors; i++) {
+        glVertexAttribPointer((GLuint)i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size, (const void *)(4 * sizeof(float) * (size_t)i));
+        glEnableVertexAttribArray((GLuint)i);
+    }
+}
+
 static void add_records(GLuint buffer, size_t size, int vectors, const char *records, size_t count, char *corners)
 {
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < CORNERS; k++)
             memcpy(corners + (CORNERS * i + k) * size, records + i * size, size);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * CORNERS * size), corners, GL_STATIC_DRAW);
-    for (int i = 0; i < vectors; i++) {
-        glVertexAttribPointer((GLuint)i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size, (const void *)(4 * sizeof(float) * (size_t)i));
-        glEnableVertexAttribArray((GLuint)i);
-    }
+    set_vectors(buffer, vectors, corners, count * CORNERS * size);
 }
 
 static void add_indices(GLuint buffer, size_t count, uint32_t *indices)
@@ -59,13 +65,34 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
     return m;
 }
 
+gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count)
+{
+    if (g->failed)
+        return NULL;
+    gpu_marks *m = count <= MARKS_MAX ? mem_calloc(1, sizeof *m) : NULL;
+    if (!m) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return NULL;
+    }
+    m->count = count;
+    m->points = true;
+    glGenVertexArrays(1, &m->array);
+    glBindVertexArray(m->array);
+    glGenBuffers(1, m->buffers);
+    set_vectors(m->buffers[0], vectors, records, count * 4 * sizeof(float) * (size_t)vectors);
+    glBindVertexArray(0);
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        gpu_fail(g, LMN_MEMORY, "the driver has no memory for %zu marks", count);
+    return m;
+}
+
 void gpu_marks_destroy(gpu *g, gpu_marks **m)
 {
     (void)g;
     if (!*m)
         return;
     glDeleteVertexArrays(1, &(*m)->array);
-    glDeleteBuffers(2, (*m)->buffers);
+    glDeleteBuffers((*m)->points ? 1 : 2, (*m)->buffers);
     mem_free(*m);
     *m = NULL;
 }
@@ -75,10 +102,25 @@ size_t gpu_marks_count(const gpu_marks *m)
     return m ? m->count : 0;
 }
 
+void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)
+{
+    if (g->failed || !g->program || !m || !count)
+        return;
+    count = count < m->count ? count : m->count;
+    glBindVertexArray(m->array);
+    if (!m->points) {
+        gpu_draw_indices(g, (uint32_t)(INDICES * count));
+        return;
+    }
+    if (!g->facts.es) /* there sizes are always those of the shader */
+        glEnable(GL_PROGRAM_POINT_SIZE);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)count);
+    if (!g->facts.es)
+        glDisable(GL_PROGRAM_POINT_SIZE);
+    g->draws++;
+}
+
 void gpu_draw_marks(gpu *g, gpu_marks *m)
 {
-    if (g->failed || !g->program || !m || !m->count)
-        return;
-    glBindVertexArray(m->array);
-    gpu_draw_indices(g, (uint32_t)(INDICES * m->count));
+    gpu_draw_first_marks(g, m, gpu_marks_count(m));
 }

@@ -188,6 +188,12 @@ static bool faces_eye(const clip_point p[3])
     return p[0].x * (p[1].y * p[2].w - p[2].y * p[1].w) - p[0].y * (p[1].x * p[2].w - p[2].x * p[1].w) + p[0].w * (p[1].x * p[2].y - p[2].x * p[1].y) > 0;
 }
 
+bool view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c)
+{
+    const clip_point p[3] = {place_in_clip_space(v, a), place_in_clip_space(v, b), place_in_clip_space(v, c)};
+    return faces_eye(p);
+}
+
 /* Where the eye is, in the world: the view matrix turns and moves. */
 static vec3 eye_of(const stroke_view *v)
 {

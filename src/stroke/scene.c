@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/mesh.h"
+#include "stroke/butterfly_mesh.h"
 #include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
@@ -11,6 +12,7 @@ typedef struct scene_builder {
     const lmn_scene *scene;
     const mat4      *worlds;
     double           crease_angle;
+    int32_t          refine;
     int32_t         *shared; /* per mesh of the scene: its number in `out`, NONE */
     size_t           mesh_capacity, item_capacity;
     box3             box;
@@ -75,6 +77,11 @@ static lmn_status find_mesh(scene_builder *b, const node *n, uint32_t *out, lmn_
     mem_free(places);
     if (status != LMN_OK)
         return status;
+    status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, b->crease_angle, error);
+    if (status != LMN_OK) {
+        edge_mesh_release(&s->meshes[s->mesh_count]);
+        return status;
+    }
     *out = (uint32_t)s->mesh_count++;
     if (!posed)
         b->shared[n->mesh] = (int32_t)*out;
@@ -110,8 +117,14 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
 lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error)
 {
+    return stroke_scene_create_refined(out, scene, worlds, parts, crease_angle, 0, progress, user, error);
+}
+
+lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+                                       int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error)
+{
     memset(out, 0, sizeof *out);
-    scene_builder b = {.out = out, .scene = scene, .worlds = worlds, .crease_angle = crease_angle, .box = box3_empty()};
+    scene_builder b = {.out = out, .scene = scene, .worlds = worlds, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
     b.shared = mem_alloc((scene->mesh_count + 1) * sizeof *b.shared);
     lmn_status status = b.shared ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < scene->mesh_count && status == LMN_OK; i++)
@@ -137,6 +150,7 @@ lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const 
 
 void stroke_scene_release(stroke_scene *s)
 {
+    form_surfaces_destroy(s);
     for (size_t i = 0; i < s->mesh_count; i++)
         edge_mesh_release(&s->meshes[i]);
     if (s->crossings)

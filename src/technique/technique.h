@@ -114,6 +114,18 @@ typedef struct texture_source {
     bool        kept; /* takes long: it is kept on disk */
 } texture_source;
 
+/* Marks that lie on a figure's surfaces and are drawn over it once it is shaded: src/halftone/marks.h. */
+struct marks;
+struct mark_surface;
+typedef struct mark_source {
+    /* Appends all that decides which marks there are. */
+    void       (*describe)(text *out, const void *values);
+    /* `extent`: diagonal of what is drawn. */
+    lmn_status (*make)(struct marks *out, const struct mark_surface *surface, double extent, const void *values, lmn_error *error);
+    const char  *vertex, *fragment; /* paths below src/ */
+    float      (*point)(const void *values); /* the largest dot's diameter, pixels: drawn as points (AS_POINTS) where the driver has such large ones, else as quads. NULL: quads */
+} mark_source;
+
 typedef struct technique {
     const char  *name, *doc;  /* doc: one line that ends in a full stop */
     const char  *example;     /* JSON of a rule that shows it: test input and documentation */
@@ -145,6 +157,7 @@ typedef struct technique {
     size_t       texture_count;
     /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how many, at most NUMBERS_MAX. NULL: nothing. */
     size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
+    const mark_source *marks; /* surface: what is drawn over it; NULL: nothing */
     const perturbation *perturbs; /* perturb: how lookups are moved */
 } technique;
 

@@ -1,0 +1,25 @@
+/* A piece of a stroke. Whether it is hidden is asked at its axis, so that its own surface does not cut its sides off (EX-14). */
+uniform sampler2D t_normal_depth;
+uniform float u_perspective;
+
+flat in vec4 v_ends, v_depths, v_run;
+flat in float v_ink;
+
+layout(location = 0) out vec4 out_shade;
+
+void main()
+{
+    vec2 chord = v_ends.zw - v_ends.xy, from = gl_FragCoord.xy - v_ends.xy;
+    float square = dot(chord, chord), along = clamp(dot(from, chord) / max(square, 1e-6), 0.0, 1.0);
+    vec2 axis = v_ends.xy + along * chord;
+    float depth = mix(v_depths.x, v_depths.y, along), tolerance = v_depths.z;
+    if (u_perspective > 0.5) {
+        depth = 1.0 / depth;
+        tolerance *= depth;
+    }
+    float seen = texelFetch(t_normal_depth, ivec2(axis), 0).w, arc = mix(v_run.x, v_run.y, along);
+    float half_width = v_depths.w * clamp(min(arc, v_run.z - arc) * v_run.w, 0.0, 1.0);
+    float cover = clamp(half_width + 0.5 - length(from - along * chord), 0.0, min(2.0 * half_width, 1.0)) * v_ink;
+    cover *= step(abs(seen - depth), tolerance);
+    out_shade = vec4(u_ink.rgb, 1.0) * (u_ink.a * cover);
+}
