@@ -49,7 +49,7 @@ static void find_kinds(part_kinds *out, const subject *s, const char *report)
 {
     memset(out, 0, sizeof *out);
     for (const char *at = strstr(report, "\"parts_visible\""); at && (at = strstr(at, "\"id\""));) {
-        int id = atoi(strchr(at, ':') + 1);
+        int id = (int)strtol(strchr(at, ':') + 1, NULL, 10);
         const char *name = strstr(at, "\"name\""), *begin = name ? strchr(strchr(name, ':'), '"') : NULL, *end = begin ? strchr(begin + 1, '"') : NULL;
         if (!end)
             return;
@@ -186,7 +186,7 @@ static void read_line(const subject *s, const char *line, int styles[STYLES_MAX]
         *kind = *kind ? STROKES : FOUND;
     }
     if (path && *kind != NONE_KIND) {
-        style = atoi(path + strlen("<path class=\"s"));
+        style = (int)strtol(path + strlen("<path class=\"s"), NULL, 10);
         out->ink[*kind]++;
         out->alien[*kind] += style >= STYLES_MAX || styles[style] != *kind;
     }
