@@ -38,6 +38,8 @@ static const param params[] = {
         .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as straight as they are."),
     NUMBER("shortest", wishes.shortest, .def = 1, .min = 0, .max = 200, .soft_max = 20, .unit = UNIT_PX, .along = true,
            .doc = "Lines shorter than this are left out."),
+    NUMBER("crowd", wishes.crowd, .def = 0.75, .min = 0, .max = 16, .soft_max = 4, .unit = UNIT_PX,
+           .doc = "Lines that run all their length this close to more important ones are left out; 0 keeps them all."),
     NUMBER("simplify", wishes.simplify, .def = 0.1, .min = 0, .max = 8, .soft_max = 2, .unit = UNIT_PX,
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_SHARE,
