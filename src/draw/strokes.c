@@ -207,7 +207,9 @@ static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool cr
 static bool eye_is_outside(const frame *f)
 {
     double nearest = INFINITY, farthest = -INFINITY;
-    camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
+    for (size_t i = 0; i < f->up->part_count; i++) /* one by one, as the planes are laid: the box around all has corners where nothing is */
+        if (f->plan->selected[i] && !box3_is_empty(f->up->part_boxes[i]))
+            camera_depth_range(&f->camera, f->up->part_boxes[i], &nearest, &farthest);
     return nearest > f->camera.near && !f->mirror;
 }
 

@@ -332,6 +332,22 @@ static void count_strokes(vector_job *j, const stroke_set *set, const stroke_sty
     }
 }
 
+/* Where parts of two rules run through each other, the line is its own part's; the other rule has it only where that one draws no such lines. */
+static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule *r)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < set->stroke_count; i++) {
+        const stroke *s = &set->strokes[i];
+        const rule   *owner = s->kind == STROKE_INTERSECTION && s->part > 0 && s->part <= j->scene->part_count ? j->rules[s->part - 1] : r;
+        stroke_wishes wishes = {.intersections = false};
+        stroke_style  style;
+        if (owner != r && owner && vector_rule_strokes(owner, &wishes, &style) && wishes.intersections)
+            continue;
+        set->strokes[kept++] = *s;
+    }
+    set->stroke_count = kept;
+}
+
 /* The strokes of one rule's parts, as ribbons. */
 static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
 {
@@ -351,6 +367,7 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     }
     lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
     mem_free(parts);
+    keep_own_crossings(j, &set, r);
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, j->desc->seed, error);
     if (status == LMN_OK)

@@ -99,9 +99,10 @@ lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *u
 /* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT,
  * LMN_CANCELLED. */
 lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
-/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. */
+/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. `outward`: unit normals of both, away from
+ * what they enclose; 0, 0, 0 where they enclose nothing. */
 size_t   stroke_scene_crossing_count(const stroke_scene *s);
-uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3]);
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3], vec3 outward[2]);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
