@@ -155,6 +155,8 @@ void raster_shade_deferred(frame *f, figure_state *s);
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
 /* The figure's parts with their surfaces moved outwards by some pixels, into TARGET_ENLARGED. */
 void raster_enlarged(frame *f, figure_state *s, float pixels);
+/* Its own parts' faces that look away, moved outwards across the page, into TARGET_STROKES. Solids have none: their surfaces are made for one place. */
+void raster_shell(frame *f, figure_state *s, float pixels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */

@@ -65,24 +65,23 @@ static void set_outside(const figure_state *s, const pass *p, float out[4])
         memcpy(out, filtered, sizeof filtered);
 }
 
-/* The value of a technique's parameter that is a length. */
-static float length_of(const technique_use *use, const char *key)
+/* The value of a parameter that is a length. */
+static float length_of(kind_id id, const technique_use *use, const char *key)
 {
-    const technique *t = use->technique;
-    for (size_t i = 0; i < t->param_count; i++)
-        if (strcmp(t->params[i].key, key) == 0)
-            return *(const float *)param_field(&t->params[i], use->values);
-    return 0;
+    const param *p = kind_find_param(kinds[id], use->technique, key);
+    return p ? *(const float *)param_field(p, use->values) : 0;
 }
 
-static void run_geometry(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
+static void run_geometry(frame *f, figure_state *s, const pass *p, kind_id id, const technique_use *use)
 {
     stopwatch w = watch_start(f);
-    if (p->enlarge)
-        raster_enlarged(f, s, length_of(use, p->enlarge));
+    if (p->shell)
+        raster_shell(f, s, length_of(id, use, p->enlarge));
+    else if (p->enlarge)
+        raster_enlarged(f, s, length_of(id, use, p->enlarge));
     else
         raster_inked(f, s, p);
-    watch_stop(f, w, group, p->name);
+    watch_stop(f, w, kinds[id]->name, p->name);
 }
 
 /* Where a pass draws: the figure's pixels, or the coarse texels over them. */
@@ -252,7 +251,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         if (p->strokes)
             strokes_run(f, s, p, use, kinds[id]->name);
         else if (p->geometry)
-            run_geometry(f, s, p, use, kinds[id]->name);
+            run_geometry(f, s, p, id, use);
         else if (p->process)
             run_process(f, s, p, use, kinds[id]->name);
         else

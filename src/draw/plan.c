@@ -307,7 +307,7 @@ static void share_parts(plan *p, const upload *up, warnings *notes)
             p->figures[kept++] = p->figures[r];
             continue;
         }
-        if (look->rules[r].select && strcmp(look->rules[r].select, "*") != 0)
+        if (look->rules[r].select && strcmp(look->rules[r].select, "*") != 0 && strcmp(look->rules[r].select, "@solid") != 0)
             warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name,
                          look->rules[r].select);
         mem_free(p->figures[r].designated);

@@ -105,6 +105,7 @@ typedef struct raster_job {
     const pass         *inking; /* lines on top and no complement */
     const bool         *only;   /* per part: all others are left out */
     float               enlarge; /* not 0: surfaces are moved outwards by this many pixels */
+    bool                shell;  /* enlarged: no complement, no solids, and only faces that look away */
     bool                peeled; /* nothing that the layer before had */
     int                 node_vectors; /* not 0: into lists, nodes of this size */
     unsigned            node_limit;
@@ -126,7 +127,7 @@ static void declare_outputs(text *prelude, const raster_job *job)
     if (job->peeled)
         text_append(prelude, "#define PEELED\n");
     if (job->enlarge > 0)
-        text_append(prelude, "#define ENLARGED\n");
+        text_append(prelude, "#define ENLARGED\n%s", job->shell ? "#define SHELL\n" : "");
     if (job->node_vectors)
         text_append(prelude, "#define INTO_LISTS\n#define NODE_VECTORS %d\n", job->node_vectors);
 }
@@ -292,7 +293,7 @@ static const figure_state *owner_of(const frame *f, const raster_job *job, const
         return f->mirror && f->mirror->designated[item->part_index] ? NULL : layer_owner(job->stack, item->part_index);
     if (job->only)
         return job->state;
-    if (!is_drawn(f, job->state->figure, item) || (job->inking && !job->state->figure->designated[item->part_index]))
+    if (!is_drawn(f, job->state->figure, item) || ((job->inking || job->shell) && !job->state->figure->designated[item->part_index]))
         return NULL;
     return job->state;
 }
@@ -420,7 +421,7 @@ static bool *solids_wanted(frame *f, const raster_job *job)
 {
     const upload *up = f->up;
     bool *wanted = NULL;
-    for (size_t i = 0; i < up->item_count && !gpu_failed(f->g); i++) {
+    for (size_t i = 0; i < up->item_count && !job->shell && !gpu_failed(f->g); i++) {
         if (!up->items[i].is_solid || !owner_of(f, job, &up->items[i]))
             continue;
         if (!wanted && !(wanted = mem_calloc(up->item_count, sizeof *wanted)))
@@ -558,6 +559,17 @@ void raster_enlarged(frame *f, figure_state *s, float pixels)
         draw_parts(&wide, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
+}
+
+void raster_shell(frame *f, figure_state *s, float pixels)
+{
+    gpu_target_release(f->g, s->targets[TARGET_STROKES]);
+    gpu_pass pass = {.clear = true, .depth = s->targets[TARGET_STROKES] = frame_acquire(f, TARGET_STROKES)};
+    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+    if (!gpu_failed(f->g)) {
+        draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = no_outputs, .enlarge = pixels, .shell = true});
+    }
 }
 
 void raster_shade_deferred(frame *f, figure_state *s)

@@ -15,6 +15,7 @@
 struct stroke_store {
     bool          *parts; /* that the scene has; all that may hide lines */
     size_t         part_count;
+    int32_t        refine; /* how often its surfaces are */
     stroke_scene   scene;
     gpu_marks    **edges; /* per mesh of the scene; NULL: not made yet */
     gpu_marks    **crossings; /* per item, the same */
@@ -55,23 +56,24 @@ static bool hides(const frame *f, const figure *fig, size_t part)
     return !(f->mirror && f->mirror->designated[part]) && (fig->layered ? f->plan->selected[part] : f->plan->opaque[part]);
 }
 
-static bool has_parts(const stroke_store *s, const frame *f, const figure *fig)
+static bool has_parts(const stroke_store *s, const frame *f, const figure *fig, int32_t refine)
 {
-    bool same = s->part_count == f->up->part_count;
+    bool same = s->part_count == f->up->part_count && s->refine == refine;
     for (size_t i = 0; same && i < s->part_count; i++)
         same = s->parts[i] == hides(f, fig, i);
     return same;
 }
 
-static lmn_status fill_store(stroke_store *s, const frame *f, const figure *fig, lmn_error *error)
+static lmn_status fill_store(stroke_store *s, const frame *f, const figure *fig, int32_t refine, lmn_error *error)
 {
+    s->refine = refine;
     s->part_count = f->up->part_count;
     s->parts = mem_calloc(s->part_count, sizeof *s->parts);
     for (size_t i = 0; i < s->part_count && s->parts; i++)
         s->parts[i] = hides(f, fig, i);
     lmn_status status = s->parts ? LMN_OK : error_memory(error);
     if (status == LMN_OK)
-        status = stroke_scene_create(&s->scene, f->plan->scene, f->up->worlds, s->parts, f->up->crease_angle, NULL, NULL, error);
+        status = stroke_scene_create_refined(&s->scene, f->plan->scene, f->up->worlds, s->parts, f->up->crease_angle, refine, NULL, NULL, error);
     if (status != LMN_OK)
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
@@ -84,25 +86,27 @@ static void fail(frame *f, lmn_status status, const lmn_error *error)
     gpu_fail(f->g, status, "%s", error->message);
 }
 
-/* Where surfaces cross does not depend on the view: it is found once. */
-static void bring_crossings(frame *f, stroke_store *store, const strokes_values *v)
+/* Where surfaces cross and how they bend does not depend on the view: it is found once. */
+static void bring_fixed(frame *f, stroke_store *store, const strokes_values *v)
 {
     lmn_error error = {0};
     lmn_status status = v->wishes.intersections ? stroke_scene_cross(&store->scene, NULL, NULL, &error) : LMN_OK;
+    if (status == LMN_OK && stroke_wishes_bend(&v->wishes))
+        status = stroke_scene_bend(&store->scene, NULL, NULL, &error);
     if (status != LMN_OK)
         fail(f, status, &error);
 }
 
 /* The figure's; NULL after an error. */
-static stroke_store *find_store(frame *f, const figure *fig)
+static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
 {
     stroke_store **slot = &f->up->strokes[fig->layered];
-    if (*slot && has_parts(*slot, f, fig))
+    if (*slot && has_parts(*slot, f, fig, refine))
         return *slot;
     stroke_store_destroy(slot, f->g);
     lmn_error error = {0};
     stroke_store *s = mem_calloc(1, sizeof *s);
-    lmn_status status = s ? fill_store(s, f, fig, &error) : error_memory(&error);
+    lmn_status status = s ? fill_store(s, f, fig, refine, &error) : error_memory(&error);
     if (status == LMN_OK) {
         *slot = s;
         return s;
@@ -203,7 +207,9 @@ static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool cr
 static bool eye_is_outside(const frame *f)
 {
     double nearest = INFINITY, farthest = -INFINITY;
-    camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
+    for (size_t i = 0; i < f->up->part_count; i++) /* one by one, as the planes are laid: the box around all has corners where nothing is */
+        if (f->plan->selected[i] && !box3_is_empty(f->up->part_boxes[i]))
+            camera_depth_range(&f->camera, f->up->part_boxes[i], &nearest, &farthest);
     return nearest > f->camera.near && !f->mirror;
 }
 
@@ -373,11 +379,11 @@ static void draw_exact(frame *f, figure_state *s, stroke_store *store, const str
 void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     const strokes_values *v = use->values;
-    bool exact = v->visibility == VISIBILITY_EXACT || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
+    bool exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
     stopwatch w = watch_start(f);
-    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure);
+    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->wishes.refine);
     if (store)
-        bring_crossings(f, store, v);
+        bring_fixed(f, store, v);
     if (store && exact)
         draw_exact(f, s, store, v);
     else if (store)

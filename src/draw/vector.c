@@ -357,6 +357,7 @@ static void count_strokes(vector_job *j, const stroke_set *set, const stroke_sty
     }
 }
 
+<<<<<<< HEAD
 /* The parts that a rule draws, and how many they are; NULL: memory is gone. */
 static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
 {
@@ -391,6 +392,22 @@ static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vecto
     j->out->dots += m.dots;
     j->out->marks += m.lines;
     return status;
+=======
+/* Where parts of two rules run through each other, the line is its own part's; the other rule has it only where that one draws no such lines. */
+static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule *r)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < set->stroke_count; i++) {
+        const stroke *s = &set->strokes[i];
+        const rule   *owner = s->kind == STROKE_INTERSECTION && s->part > 0 && s->part <= j->scene->part_count ? j->rules[s->part - 1] : r;
+        stroke_wishes wishes = {.intersections = false};
+        stroke_style  style;
+        if (owner != r && owner && vector_rule_strokes(owner, &wishes, &style) && wishes.intersections)
+            continue;
+        set->strokes[kept++] = *s;
+    }
+    set->stroke_count = kept;
+>>>>>>> main
 }
 
 /* The strokes of one rule's parts, as ribbons. */
@@ -408,6 +425,7 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
         return error_memory(error);
     lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
     mem_free(parts);
+    keep_own_crossings(j, &set, r);
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, j->desc->seed, error);
     if (status == LMN_OK)
@@ -474,6 +492,23 @@ static colour frame_ink(colour ground)
     return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
 }
 
+/* What all views draw on: surfaces as fine as the rule that wants them finest. */
+static lmn_status make_scene(vector_job *j, double crease, lmn_error *error)
+{
+    int32_t refine = 0;
+    bool    bends = false;
+    for (size_t i = 0; i < j->scene->part_count; i++) {
+        stroke_wishes wishes;
+        stroke_style  style;
+        if (!j->selected[i] || !vector_rule_strokes(j->rules[i], &wishes, &style))
+            continue;
+        refine = wishes.refine > refine ? wishes.refine : refine;
+        bends = bends || stroke_wishes_bend(&wishes);
+    }
+    lmn_status status = stroke_scene_create_refined(&j->strokes, j->scene, j->worlds, j->selected, crease, refine, report_part, j, error);
+    return status == LMN_OK && bends ? stroke_scene_bend(&j->strokes, report_part, j, error) : status;
+}
+
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 {
     lmn_sheet *s = j->out;
@@ -481,7 +516,11 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     j->begun = 0.3;
     j->share = 0.2;
     if (status == LMN_OK)
+<<<<<<< HEAD
         status = stroke_scene_create(&j->strokes, j->scene, j->worlds, j->selected, crease_of(j->look), report_part, j, error);
+=======
+        status = make_scene(j, crease, error);
+>>>>>>> main
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
         j->share = 0.45 / (double)s->view_count;
         j->begun = 0.5 + j->share * (double)i;

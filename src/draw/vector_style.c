@@ -137,6 +137,8 @@ bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *sty
     if (r->use_counts[KIND_LINES] == 0)
         return false;
     take_lines(wishes, style, r->uses[KIND_LINES][0].values);
+    if (r->uses[KIND_LINES][0].technique == &lines_shell)
+        wishes->creases = wishes->intersections = false;
     take_layers(wishes, style, r);
     take_hand(style, r);
     return wishes->contours != CONTOURS_NONE || wishes->creases || wishes->borders;

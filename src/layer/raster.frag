@@ -136,6 +136,11 @@ void main()
     bool turned = dot(facing, normal) < 0.0;
 #endif
 #endif
+#ifdef SHELL
+    /* By normals and not by the way round of corners, which differs between files. */
+    if (!turned)
+        discard;
+#endif
 #ifdef AT_NORMAL_DEPTH
 #ifdef ENLARGED
     out_normal_depth = vec4(normal.xy, float(u_part_id), -v_eye.z);

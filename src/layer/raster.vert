@@ -46,10 +46,16 @@ void main()
 {
     vec4 eye = u_model_view * vec4(a_position, 1.0);
     v_normal = u_normal_matrix * a_normal;
+#ifdef SHELL
+    v_eye = eye.xyz;
+    /* Across the page alone, whatever the normal's slant: lines are as wide as they are, and a face that looks away only comes to lie farther behind. */
+    eye.xy += v_normal.xy / max(length(v_normal.xy), 1e-12) * (u_enlarge * mix(1.0, -eye.z, u_perspective));
+#else
 #ifdef ENLARGED
     eye.xyz += normalize(v_normal + vec3(0.0, 0.0, 1e-12)) * (u_enlarge * mix(1.0, -eye.z, u_perspective));
 #endif
     v_eye = eye.xyz;
+#endif
 #ifdef HAS_UV
     v_uv0 = a_uv0;
     v_uv1 = a_uv1;

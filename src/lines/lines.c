@@ -76,7 +76,7 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
 
 static const technique *const techniques[] = {
     &lines_discontinuity, &lines_four_tap, &lines_sobel, &lines_saito, &lines_saito_normalised, &lines_denormal,
-    &lines_id,            &lines_colour,   &lines_shadow, &lines_strokes,
+    &lines_id,            &lines_colour,   &lines_shadow, &lines_shell, &lines_strokes,
 };
 
 static const pass ink = {.name = "ink", .shader = "lines/ink.frag", .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_DASH, TARGET_GROUND, TARGET_DEPTH},

@@ -61,6 +61,6 @@ enum { LINES_GROW_FROM = 2 };
     LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
-    lines_denormal, lines_id, lines_colour, lines_shadow, lines_strokes;
+    lines_denormal, lines_id, lines_colour, lines_shadow, lines_shell, lines_strokes;
 
 #endif

@@ -5,12 +5,16 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/curve_path.h"
 
 /* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
 #define FLICKER 0.9
 /* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK -0.7
+/* Lines of form must be longer than others by this factor, but no longer than this share of the page. */
+#define FORM_SHORTEST 16.0
+#define FORM_SHARE (1.0 / 64)
 enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
@@ -41,6 +45,8 @@ typedef struct chainer {
     size_t               stroke_capacity, out_capacity, mark_capacity;
     stroke_mark          marks[MARKS_MAX]; /* of the chain, least ids first */
     size_t               mark_count;
+    curve_path           curve;
+    bool                 curved;     /* the chain is */
 } chainer;
 
 /* --- joining ------------------------------------------------------------------------------------------------------- */
@@ -181,11 +187,16 @@ static uint32_t first_of(const chainer *c, uint32_t line)
 
 /* --- points -------------------------------------------------------------------------------------------------------- */
 
-static chain_point point_at(const chainer *c, const window_segment *s, double share, float weight, int32_t count)
+/* At a share of the i-th line of the chain, counted from where the line itself begins. */
+static chain_point point_at(const chainer *c, size_t i, double share, int32_t count)
 {
-    double x = s->a.x + share * ((double)s->b.x - s->a.x), y = s->a.y + share * ((double)s->b.y - s->a.y);
-    return (chain_point){x / c->v->units + 0.5 * c->v->camera.width, y / c->v->units + 0.5 * c->v->camera.height,
-                         s->a.z + share * (s->b.z - s->a.z), 0, weight, count};
+    const window_segment *s = &c->lines->segments[c->path[i] / 2];
+    const float *weights = c->lines->lines[c->path[i] / 2].weights;
+    double p[3] = {s->a.x + share * ((double)s->b.x - s->a.x), s->a.y + share * ((double)s->b.y - s->a.y), s->a.z + share * (s->b.z - s->a.z)};
+    if (c->curved)
+        curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - share : share, p);
+    return (chain_point){p[0] / c->v->units + 0.5 * c->v->camera.width, p[1] / c->v->units + 0.5 * c->v->camera.height, p[2], 0,
+                         weights[0] + (float)share * (weights[1] - weights[0]), count};
 }
 
 static bool put_point(chainer *c, chain_point p)
@@ -242,33 +253,48 @@ static bool put_piece(chainer *c, const chain_point *p, const chain_point *q)
     return put_point(c, from) && (cut[1] >= 1 || put_point(c, (between(p, q, cut[1], OUTSIDE))));
 }
 
-/* A line of the chain, in its direction; all points but the last. */
-static bool put_line_points(chainer *c, uint32_t half)
+/* What lies between two shares of the i-th line; curves have more than one straight piece there. */
+static bool put_stretch(chainer *c, size_t i, double from, double to, int32_t count)
 {
-    const window_segment *s = &c->lines->segments[half / 2];
+    double pieces = c->curved ? 1 << c->curve.steps : 1, way = to > from ? 1 : -1, at = from;
+    while (at != to) {
+        double next = way > 0 ? floor(at * pieces + 1) / pieces : ceil(at * pieces - 1) / pieces;
+        next = (to - next) * way > 0 ? next : to;
+        chain_point p = point_at(c, i, at, count), q = point_at(c, i, next, count);
+        if (!put_piece(c, &p, &q))
+            return false;
+        at = next;
+    }
+    return true;
+}
+
+/* The i-th line of the chain, in the chain's direction; all points but the last. */
+static bool put_line_points(chainer *c, size_t i)
+{
+    uint32_t half = c->path[i];
     const visibility_span *spans = c->seen->spans + c->seen->starts[half / 2];
     size_t count = c->seen->starts[half / 2 + 1] - c->seen->starts[half / 2];
-    float weight = c->lines->lines[half / 2].weight;
-    for (size_t i = 0; i < count; i++) {
-        size_t k = half & 1 ? count - 1 - i : i;
+    for (size_t j = 0; j < count; j++) {
+        size_t k = half & 1 ? count - 1 - j : j;
         double from = spans[k].from, to = k + 1 < count ? (double)spans[k + 1].from : 1;
         int32_t number = spans[k].count < INT32_MAX ? (int32_t)spans[k].count : INT32_MAX;
-        chain_point p = point_at(c, s, half & 1 ? to : from, weight, number), q = point_at(c, s, half & 1 ? from : to, weight, number);
-        if (!put_piece(c, &p, &q))
+        if (!put_stretch(c, i, half & 1 ? to : from, half & 1 ? from : to, number))
             return false;
     }
     return true;
 }
 
-static bool put_path(chainer *c)
+static bool put_path(chainer *c, bool closed)
 {
     c->point_count = 0;
+    c->curved = curve_path_bends(&c->curve, c->lines->lines[c->path[0] / 2].kind);
+    if (c->curved && !curve_path_take(&c->curve, c->path, c->path_count, closed))
+        return false;
     for (size_t i = 0; i < c->path_count; i++)
-        if (!put_line_points(c, c->path[i]))
+        if (!put_line_points(c, i))
             return false;
-    uint32_t last = c->path[c->path_count - 1] ^ 1;
-    chain_point end = point_at(c, &c->lines->segments[last / 2], last & 1, c->lines->lines[last / 2].weight, OUTSIDE);
-    return put_point(c, end);
+    size_t last = c->path_count - 1;
+    return put_point(c, point_at(c, last, c->path[last] & 1 ? 0 : 1, OUTSIDE));
 }
 
 static double line_length(const chainer *c, uint32_t half)
@@ -331,6 +357,17 @@ static double measure(chainer *c)
     return arc;
 }
 
+/* Lines of form that are short for how faint they are say nothing: their visible length, each stretch by its weight. */
+static bool is_crumb(const chainer *c, stroke_class kind)
+{
+    double ink = 0;
+    for (size_t i = 0; i + 1 < c->point_count; i++)
+        if (c->points[i].count == 0 || (c->wishes->hidden && c->points[i].count > 0))
+            ink += (c->points[i + 1].arc - c->points[i].arc) * 0.5 * (c->points[i].weight + c->points[i + 1].weight);
+    int side = c->v->camera.width > c->v->camera.height ? c->v->camera.width : c->v->camera.height;
+    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->wishes->shortest, FORM_SHARE * side);
+}
+
 /* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */
 static bool rotate(chainer *c)
 {
@@ -389,8 +426,8 @@ static void calm(chainer *c)
 
 /* --- simplifying --------------------------------------------------------------------------------------------------- */
 
-/* Depth may be off by this many times as much as the place on the page. */
-#define DEPTH_SHARE 0.1
+/* Of what a depth is off, so much counts beside what the place on the page is: depth may be off by less than half a pixel, so that whoever looks the line up finds it on its surface. */
+#define DEPTH_SHARE 0.25
 
 /* By how much a point lies off a straight piece, pixels. */
 static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
@@ -458,7 +495,7 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
     stroke s = {.kind = line->kind, .part = c->v->scene->items[line->item].part_index + 1, .chain = (uint32_t)c->out->chain_count, .id = id,
-                .chain_length = (float)length};
+                .chain_length = (float)length, .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
     size_t before = c->out->stroke_count;
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
@@ -490,10 +527,10 @@ static bool make_chain(chainer *c, uint32_t line)
         return false;
     orient(c);
     find_marks(c);
-    if (!put_path(c) || (closed && !rotate(c)))
+    if (!put_path(c, closed) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
-    if (length < c->wishes->shortest || length <= 0)
+    if (length < c->wishes->shortest || length <= 0 || is_crumb(c, c->lines->lines[line].kind))
         return true;
     calm(c);
     return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
@@ -505,7 +542,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
     chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
-    bool good = link_ends(&c);
+    bool good = link_ends(&c) && curve_path_open(&c.curve, v, lines, wishes->curve);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)
             if ((int)lines->lines[i].kind == kind && !c.used[i])
@@ -519,6 +556,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
     mem_free(c.rotated);
     mem_free(c.kept);
     mem_free(c.stack);
+    curve_path_close(&c.curve);
     if (!good)
         stroke_set_release(out);
     return good ? LMN_OK : error_memory(error);

@@ -7,12 +7,12 @@
 
 #include "base/memory.h"
 #include "scene/mesh.h"
-
-/* What glTF's EXT_mesh_primitive_edge_visibility says of an edge; SAID_NOTHING where a primitive has none. */
-enum { SAID_HIDDEN, SAID_SILHOUETTE, SAID_HARD, SAID_REPEATED, SAID_NOTHING };
+#include "stroke/butterfly_mesh.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this share of its distance. */
 #define FLAT 1e-6f
+/* Nor does it when it is as near to the plane as rounding alone may take it, share of its largest coordinate. */
+#define ROUNDED 3e-7f
 
 enum { CONVEX = 1 << 16, SHORT_BUCKET = 24 }; /* CONVEX: a flag while edges are sorted */
 
@@ -24,11 +24,11 @@ typedef struct builder {
     edge_mesh  *mesh;
     uint32_t   *starts;  /* per vertex, and one more */
     half_edge  *halves;
-    uint8_t    *said;    /* per corner; NULL: nothing */
+    uint32_t   *origins; /* per face: its number before any were dropped; NULL: nobody asks */
     uint32_t   *pieces;  /* per face: another one of its piece, itself at the root */
     size_t      edge_capacity;
     float       crease;  /* cosine */
-    bool        has_crowds; /* edges of more than two faces */
+    bool        has_twins;  /* there may be faces that are there twice: edges have more than two, or both of an edge are the same */
 } builder;
 
 static vec3 minus(vec3 a, vec3 b)
@@ -112,10 +112,41 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
             out->normals[f] = normal;
             if (out->materials)
                 out->materials[f] = p->material;
-            for (uint32_t c = 0; c < 3 && b->said; c++)
-                b->said[3 * f + c] = p->edges.values ? p->edges.values[k + c] : SAID_NOTHING;
+            for (uint32_t c = 0; c < 3 && out->said; c++)
+                out->said[3 * f + c] = p->edges.values ? p->edges.values[k + c] : SAID_NOTHING;
         }
     }
+}
+
+/* Faces that are there already, without those that have no area. */
+static lmn_status take_faces(builder *b, const edge_faces *in, lmn_error *error)
+{
+    edge_mesh *out = b->mesh;
+    size_t count = in->face_count;
+    out->vertex_count = in->vertex_count;
+    out->places = mem_copy(in->places, (size_t)in->vertex_count * sizeof *out->places);
+    out->faces = mem_alloc(count * sizeof *out->faces);
+    out->normals = mem_alloc(count * sizeof *out->normals);
+    out->materials = in->materials ? mem_alloc(count * sizeof *out->materials) : NULL;
+    out->said = in->said ? mem_alloc(3 * count) : NULL;
+    b->origins = mem_alloc(count * sizeof *b->origins);
+    if (!out->places || !out->faces || !out->normals || (in->materials && !out->materials) || (in->said && !out->said) || !b->origins)
+        return error_memory(error);
+    for (uint32_t i = 0; i < in->face_count; i++) {
+        uint32_t f = out->face_count;
+        vec3 normal = face_normal(out->places, in->faces[i]);
+        if (dot(normal, normal) == 0)
+            continue;
+        out->face_count++;
+        memcpy(out->faces[f], in->faces[i], sizeof in->faces[i]);
+        out->normals[f] = normal;
+        b->origins[f] = i;
+        if (out->materials)
+            out->materials[f] = in->materials[i];
+        if (out->said)
+            memcpy(&out->said[3 * f], &in->said[3 * i], 3);
+    }
+    return LMN_OK;
 }
 
 static uint32_t *count_up(uint32_t count)
@@ -143,8 +174,8 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     for (size_t i = 1; i < m->primitive_count; i++)
         mixed = mixed || m->primitives[i].material != m->primitives[0].material;
     out->materials = mixed ? mem_alloc(corners / 3 * sizeof *out->materials) : NULL;
-    b->said = said ? mem_alloc(corners) : NULL;
-    bool good = ids && out->faces && out->normals && (out->materials || !mixed) && (b->said || !said);
+    out->said = said ? mem_alloc(corners) : NULL;
+    bool good = ids && out->faces && out->normals && (out->materials || !mixed) && (out->said || !said);
     if (good) {
         weld(out, ids, (uint32_t)vertices);
         gather_faces(b, m, ids);
@@ -286,9 +317,15 @@ static double *number_pieces(builder *b)
 static float height_above(const edge_mesh *m, uint32_t face, uint32_t neighbour_corner)
 {
     uint32_t beyond = next_corner(next_corner(neighbour_corner));
-    vec3 from_edge = minus(m->places[corner_vertex(m, beyond)], m->places[corner_vertex(m, neighbour_corner)]);
-    float height = dot(from_edge, m->normals[face]);
-    return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) ? 0 : height;
+    vec3 free = m->places[corner_vertex(m, beyond)], from_edge = minus(free, m->places[corner_vertex(m, neighbour_corner)]);
+    float height = dot(from_edge, m->normals[face]), rounding = ROUNDED * fmaxf(fmaxf(fabsf(free.x), fabsf(free.y)), fabsf(free.z));
+    return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) || fabsf(height) <= rounding ? 0 : height;
+}
+
+/* The same, unless the face lies in the neighbour's plane: a narrow face does not know its own. */
+static float height_between(const edge_mesh *m, uint32_t first, uint32_t second)
+{
+    return height_above(m, second / 3, first) == 0 ? 0 : height_above(m, first / 3, second);
 }
 
 /* Flags of an edge of two faces. `same_way`: both pass it in one direction, so one of them is inside out. */
@@ -301,7 +338,7 @@ static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bo
         flags |= EDGE_CREASE;
     if (m->materials && m->materials[f] != m->materials[g])
         flags |= EDGE_MATERIAL;
-    float height = height_above(m, f, second);
+    float height = height_between(m, first, second);
     if (!(flags & EDGE_CREASE) && height != 0)
         flags |= EDGE_CANDIDATE;
     if (flags && same_way)
@@ -324,6 +361,8 @@ static uint32_t obey(uint32_t flags, const uint8_t *said, const half_edge *group
         return flags;
     if (loudest == SAID_HIDDEN)
         return 0;
+    if (loudest == SAID_SILHOUETTE && flags & EDGE_BORDER) /* always a rim */
+        return flags;
     if (loudest == SAID_SILHOUETTE)
         return EDGE_CANDIDATE | (flags & (CONVEX | EDGE_TWISTED));
     return (flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE;
@@ -340,6 +379,14 @@ static bool put_edge(builder *b, uint32_t low, uint32_t flags, const half_edge *
     return true;
 }
 
+static bool have_same_corners(const uint32_t a[3], const uint32_t b[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (a[k] != b[0] && a[k] != b[1] && a[k] != b[2])
+            return false;
+    return true;
+}
+
 /* All half-edges of one edge. */
 static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t count)
 {
@@ -351,17 +398,18 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
         bool same_way = (corner_vertex(m, group[0].corner) == low) == (corner_vertex(m, group[1].corner) == low);
         flags = judge_pair(b, group[0].corner, group[1].corner, same_way);
         join_pieces(b->pieces, group[0].corner / 3, group[1].corner / 3);
+        b->has_twins = b->has_twins || have_same_corners(m->faces[group[0].corner / 3], m->faces[group[1].corner / 3]);
     }
-    b->has_crowds = b->has_crowds || count > 2;
-    if (b->said)
-        flags = obey(flags, b->said, group, count);
+    b->has_twins = b->has_twins || count > 2;
+    if (m->said)
+        flags = obey(flags, m->said, group, count);
     return flags == 0 || flags == CONVEX || put_edge(b, low, flags, group, count);
 }
 
 static bool take_edges(builder *b)
 {
     edge_mesh *m = b->mesh;
-    b->has_crowds = false;
+    b->has_twins = false;
     m->edge_count = m->all_edges = m->loose_edges = 0;
     for (uint32_t f = 0; f < m->face_count; f++)
         b->pieces[f] = f;
@@ -379,15 +427,7 @@ static bool take_edges(builder *b)
     return true;
 }
 
-static bool have_same_corners(const uint32_t a[3], const uint32_t b[3])
-{
-    for (int k = 0; k < 3; k++)
-        if (a[k] != b[0] && a[k] != b[1] && a[k] != b[2])
-            return false;
-    return true;
-}
-
-/* Drops faces that are there twice, whichever way round; only where an edge has more than two faces can there be any. Returns how many. */
+/* Drops faces that are there twice, whichever way round; Returns how many. */
 static uint32_t drop_twins(builder *b, uint8_t *dropped)
 {
     edge_mesh *m = b->mesh;
@@ -411,8 +451,10 @@ static uint32_t drop_twins(builder *b, uint8_t *dropped)
         m->normals[kept] = m->normals[f];
         if (m->materials)
             m->materials[kept] = m->materials[f];
-        if (b->said)
-            memmove(&b->said[3 * kept], &b->said[3 * f], 3);
+        if (m->said)
+            memmove(&m->said[3 * kept], &m->said[3 * f], 3);
+        if (b->origins)
+            b->origins[kept] = b->origins[f];
         kept++;
     }
     uint32_t gone = m->face_count - kept;
@@ -464,7 +506,7 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
     fill_buckets(b);
     if (!take_edges(b))
         return error_memory(error);
-    if (b->has_crowds) {
+    if (b->has_twins) {
         uint8_t *dropped = mem_calloc(m->face_count, 1);
         if (!dropped)
             return error_memory(error);
@@ -487,23 +529,42 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
     return LMN_OK;
 }
 
+/* Sorts the edges of the faces that are there, unless making them failed. */
+static lmn_status finish(builder *b, lmn_status status, lmn_error *error)
+{
+    edge_mesh *out = b->mesh;
+    if (status == LMN_OK) {
+        b->starts = mem_alloc(((size_t)out->vertex_count + 2) * sizeof *b->starts);
+        b->halves = mem_alloc((size_t)out->face_count * 3 * sizeof *b->halves);
+        b->pieces = mem_alloc((size_t)out->face_count * sizeof *b->pieces);
+        status = b->starts && b->halves && b->pieces ? sort_edges(b, error) : error_memory(error);
+    }
+    mem_free(b->starts);
+    mem_free(b->halves);
+    mem_free(b->pieces);
+    if (status != LMN_OK)
+        edge_mesh_release(out);
+    return status;
+}
+
 lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
-    lmn_status status = make_faces(&b, m, places, error);
+    return finish(&b, make_faces(&b, m, places, error), error);
+}
+
+lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
+    lmn_status status = finish(&b, take_faces(&b, faces, error), error);
     if (status == LMN_OK) {
-        b.starts = mem_alloc(((size_t)out->vertex_count + 2) * sizeof *b.starts);
-        b.halves = mem_alloc((size_t)out->face_count * 3 * sizeof *b.halves);
-        b.pieces = mem_alloc((size_t)out->face_count * sizeof *b.pieces);
-        status = b.starts && b.halves && b.pieces ? sort_edges(&b, error) : error_memory(error);
+        memset(numbers, 0xFF, faces->face_count * sizeof *numbers); /* EDGE_NO_FACE */
+        for (uint32_t f = 0; f < out->face_count; f++)
+            numbers[b.origins[f]] = f;
     }
-    mem_free(b.starts);
-    mem_free(b.halves);
-    mem_free(b.pieces);
-    mem_free(b.said);
-    if (status != LMN_OK)
-        edge_mesh_release(out);
+    mem_free(b.origins);
     return status;
 }
 
@@ -518,5 +579,7 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->closed);
     mem_free(m->inward);
     mem_free(m->boxes);
+    mem_free(m->said);
+    edge_refinement_destroy(&m->refinement);
     memset(m, 0, sizeof *m);
 }

@@ -16,6 +16,9 @@ typedef enum edge_flag {
     EDGE_TWISTED   = 1 << 4  /* beside others: both faces pass it the same way, so that one of them is inside out */
 } edge_flag;
 
+/* What a file says of an edge (glTF's EXT_mesh_primitive_edge_visibility). It overrules the angle. */
+typedef enum edge_saying { SAID_HIDDEN, SAID_SILHOUETTE, SAID_HARD, SAID_REPEATED, SAID_NOTHING } edge_saying;
+
 /* One edge. Its faces, as seen along it from vertex[0] to vertex[1]: face[0] is the one whose winding has it in this order. */
 typedef struct mesh_edge {
     uint32_t vertex[2];
@@ -36,6 +39,8 @@ typedef struct edge_mesh {
     bool      *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
     bool      *inward;    /* per closed piece: its faces look inwards */
     box3      *boxes;     /* per piece */
+    uint8_t   *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
     uint32_t   all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;
 
@@ -43,5 +48,15 @@ typedef struct edge_mesh {
  * has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
 lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error);
 void       edge_mesh_release(edge_mesh *m);
+
+/* The same of faces whose vertices are welded already. `numbers` gets each face's number in the mesh, EDGE_NO_FACE where it was dropped. */
+typedef struct edge_faces {
+    const vec3      *places;
+    const uint32_t (*faces)[3];
+    const int32_t   *materials; /* may be NULL, as in edge_mesh */
+    const uint8_t   *said;      /* likewise */
+    uint32_t         vertex_count, face_count;
+} edge_faces;
+lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers, lmn_error *error);
 
 #endif

@@ -329,7 +329,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
 {
     memset(out, 0, sizeof *out);
     crossing_search s = {.scene = scene, .out = out, .region = box3_empty(), .progress = progress, .user = user,
-                         .same = SAME_PLACE * fmax(scene->reach, scene->extent)};
+                         .same = SAME_PLACE * scene->reach};
     lmn_status status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);
@@ -366,10 +366,27 @@ size_t stroke_scene_crossing_count(const stroke_scene *s)
     return s->crossings ? s->crossings->count : 0;
 }
 
-uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3])
+/* Of a face, world axes; 0, 0, 0 where its piece is open. */
+static vec3 outward_normal(const stroke_scene *s, uint32_t item, uint32_t face)
+{
+    const stroke_item *at = &s->items[item];
+    const edge_mesh   *m = &s->meshes[at->mesh];
+    uint32_t           piece = m->pieces[face];
+    double             cofactors[9], determinant = mat4_cofactors(&at->world, cofactors), n[3];
+    vec3               own = m->normals[face];
+    for (int k = 0; k < 3; k++)
+        n[k] = (double)own.x * cofactors[k] + (double)own.y * cofactors[3 + k] + (double)own.z * cofactors[6 + k];
+    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double scale = m->closed[piece] && length > 0 ? (m->inward[piece] == (determinant < 0) ? 1 : -1) / length : 0;
+    return (vec3){(float)(n[0] * scale), (float)(n[1] * scale), (float)(n[2] * scale)};
+}
+
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3], vec3 outward[2])
 {
     const face_crossing *c = &s->crossings->crossings[index];
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         memcpy(ends[i], (double[]){c->ends[i].x, c->ends[i].y, c->ends[i].z}, sizeof ends[i]);
+        outward[i] = outward_normal(s, c->items[i], c->faces[i]);
+    }
     return c->items[0];
 }

@@ -92,7 +92,7 @@ static float cost_of(const joiner *j, uint32_t a, uint32_t b)
 {
     const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
     const stroke_end *p = &j->ends[a], *q = &j->ends[b];
-    if (s->kind != t->kind || s->part != t->part || s->hidden_by != t->hidden_by || s->closed || t->closed || (s == t && s->count < 4))
+    if (s->kind != t->kind || s->part != t->part || s->smooth != t->smooth || s->hidden_by != t->hidden_by || s->closed || t->closed || (s == t && s->count < 4))
         return -1;
     float x = q->x - p->x, y = q->y - p->y, length = sqrtf(x * x + y * y), turn = -(p->out_x * q->out_x + p->out_y * q->out_y);
     double deeper = fabs((double)p->depth - q->depth) * j->focal / (j->orthographic ? 1 : p->depth);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/butterfly_mesh.h"
 
 static const char *const class_names[STROKE_CLASS_COUNT] = {"contour", "border", "crease", "intersection", "material", "suggestive", "ridge", "valley", "apparent"};
 
@@ -21,10 +22,10 @@ typedef struct collector {
     double3             *places;  /* of the ends that only lines have, from v->vertex_count on */
     uint32_t            *slots;   /* hash table of them; NO_VERTEX when empty */
     size_t               place_count, place_capacity, slot_mask;
+    uint8_t             *outline; /* per edge of a refined mesh: the silhouette that was propagated runs along it */
 } collector;
 
-/* Numbers that differ for different lines and stay from view to view. */
-static uint64_t mix(uint64_t a, uint64_t b)
+uint64_t line_id(uint64_t a, uint64_t b)
 {
     uint64_t h = a * UINT64_C(0x9E3779B97F4A7C15) + b;
     h = (h ^ h >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -32,9 +33,8 @@ static uint64_t mix(uint64_t a, uint64_t b)
     return h ^ h >> 31;
 }
 
-static bool put_line(collector *c, view_line line, window_segment segment)
+static bool put_line(view_lines *out, view_line line, window_segment segment)
 {
-    view_lines *out = c->out;
     if (!mem_grow((void **)&out->lines, &out->capacity, out->count + 1, sizeof *out->lines) ||
         !mem_grow((void **)&out->segments, &out->segment_capacity, out->count + 1, sizeof *out->segments))
         return false;
@@ -55,10 +55,8 @@ static double3 between(double3 a, double3 b, double share)
     return (double3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-/* A line of the world that may reach beyond the window: what is left of it. Ends that are cut off get numbers of their own. */
-static bool put_world_line(collector *c, view_line line, double3 a, double3 b, const uint32_t faces[2])
+bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2])
 {
-    const stroke_view *v = c->v;
     double cut[2];
     if (!view_clip_line(v, a, b, cut))
         return true;
@@ -69,9 +67,9 @@ static bool put_world_line(collector *c, view_line line, double3 a, double3 b, c
         if (!view_place(v, between(a, b, share), k ? &s.b : &s.a))
             return true;
         if (!whole)
-            line.ends[k] = c->out->end_count++;
+            line.ends[k] = out->end_count++;
     }
-    return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
+    return !is_near_page(v, s.a, s.b) || put_line(out, line, s);
 }
 
 /* --- edges --------------------------------------------------------------------------------------------------------- */
@@ -102,13 +100,46 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     const view_item *at = &v->items[index];
     uint32_t a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
     const uint32_t faces[2] = {at->first_face + e->face[0], e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
-    view_line line = {kind, index, {a, b}, id, 1, kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
+    view_line line = {kind, index, {a, b}, id, {1, 1}, (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0,
+                      kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
     if (v->outside[a] & v->outside[b])
         return true;
     if (v->outside[a] | v->outside[b])
-        return put_world_line(c, line, item_place(item, m->places[e->vertex[0]]), item_place(item, m->places[e->vertex[1]]), faces);
-    window_segment s = {v->points[a], v->points[b], {a, b}, {faces[0], faces[1]}};
-    return !is_near_page(v, s.a, s.b) || put_line(c, line, s);
+        return lines_put(c->out, v, line, item_place(item, m->places[e->vertex[0]]), item_place(item, m->places[e->vertex[1]]), faces);
+    window_segment s = {.a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}};
+    return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
+}
+
+typedef struct front_test {
+    const stroke_view *v;
+    const edge_mesh   *mesh;
+    uint32_t           item;
+} front_test;
+
+/* On the last level as the view has it, so that nothing is found that the view does not show. */
+static bool is_front(void *user, uint32_t level, uint32_t face)
+{
+    const front_test *t = user;
+    const edge_refinement *r = t->mesh->refinement;
+    if (level + 1 == r->surface.level_count && r->faces[face] != EDGE_NO_FACE)
+        return view_is_front(t->v, t->v->items[t->item].first_face + r->faces[face]);
+    const uint32_t *corners = r->surface.levels[level].faces[face];
+    const stroke_item *item = &t->v->scene->items[t->item];
+    return view_shows_front(t->v, item_place(item, t->mesh->places[corners[0]]), item_place(item, t->mesh->places[corners[1]]),
+                            item_place(item, t->mesh->places[corners[2]]));
+}
+
+/* Of a mesh that was refined, outlines are looked for only near those of the coarser one. */
+static lmn_status find_outline(collector *c, uint32_t index, lmn_error *error)
+{
+    const edge_mesh *m = &c->v->scene->meshes[c->v->scene->items[index].mesh];
+    mem_free(c->outline);
+    c->outline = NULL;
+    if (!m->refinement || c->wishes->contours != CONTOURS_EDGES)
+        return LMN_OK;
+    c->outline = mem_alloc((size_t)m->edge_count + 1);
+    front_test test = {c->v, m, index};
+    return c->outline ? edge_mesh_silhouette(m, is_front, &test, c->outline, NULL, error) : error_memory(error);
 }
 
 static bool collect_edges(collector *c, uint32_t index)
@@ -118,7 +149,9 @@ static bool collect_edges(collector *c, uint32_t index)
     uint32_t first_face = c->v->items[index].first_face;
     for (uint32_t i = 0; i < m->edge_count; i++) {
         stroke_class kind = class_of(c, &m->edges[i], first_face);
-        if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], mix((uint64_t)index << 32 | item->part_index, i), kind))
+        if (kind == STROKE_CONTOUR && c->outline && !c->outline[i] && !(m->edges[i].flags & EDGE_CREASE))
+            continue;
+        if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], line_id((uint64_t)index << 32 | item->part_index, i), kind))
             return false;
     }
     return true;
@@ -131,7 +164,7 @@ static bool number_place(collector *c, double3 p, uint32_t *out)
 {
     uint64_t bits[3];
     memcpy(bits, &p, sizeof bits);
-    size_t slot = mix(mix(bits[0], bits[1]), bits[2]) & c->slot_mask;
+    size_t slot = line_id(line_id(bits[0], bits[1]), bits[2]) & c->slot_mask;
     while (c->slots[slot] != NO_VERTEX) {
         if (memcmp(&c->places[c->slots[slot]], &p, sizeof p) == 0) {
             *out = c->v->vertex_count + c->slots[slot];
@@ -175,8 +208,8 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
         if (c->parts && !c->parts[item->part_index] && !c->parts[v->scene->items[x->items[1]].part_index])
             continue;
         const uint32_t faces[2] = {v->items[x->items[0]].first_face + x->faces[0], v->items[x->items[1]].first_face + x->faces[1]};
-        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, mix((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), 1, false};
-        good = numbers[i][0] == numbers[i][1] || put_world_line(c, line, x->ends[0], x->ends[1], faces);
+        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, line_id((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), {1, 1}, false, false};
+        good = numbers[i][0] == numbers[i][1] || lines_put(c->out, v, line, x->ends[0], x->ends[1], faces);
     }
     mem_free(numbers);
     return good;
@@ -202,9 +235,16 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wis
     collector c = {.out = out, .v = v, .wishes = wishes, .parts = parts};
     out->end_count = v->vertex_count;
     lmn_status status = wishes->intersections ? collect_intersections(&c, progress, user, error) : LMN_OK;
-    for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++)
-        if ((!parts || parts[v->scene->items[i].part_index]) && !collect_edges(&c, i))
+    for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
+        if (parts && !parts[v->scene->items[i].part_index])
+            continue;
+        status = find_outline(&c, i, error);
+        if (status == LMN_OK && !collect_edges(&c, i))
             status = error_memory(error);
+    }
+    if (status == LMN_OK)
+        status = form_collect(out, v, wishes, parts, progress, user, error);
+    mem_free(c.outline);
     mem_free(c.places);
     mem_free(c.slots);
     if (status != LMN_OK)
@@ -216,5 +256,6 @@ void lines_release(view_lines *l)
 {
     mem_free(l->lines);
     mem_free(l->segments);
+    mem_free(l->ignored);
     memset(l, 0, sizeof *l);
 }

@@ -188,6 +188,12 @@ static bool faces_eye(const clip_point p[3])
     return p[0].x * (p[1].y * p[2].w - p[2].y * p[1].w) - p[0].y * (p[1].x * p[2].w - p[2].x * p[1].w) + p[0].w * (p[1].x * p[2].y - p[2].x * p[1].y) > 0;
 }
 
+bool view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c)
+{
+    const clip_point p[3] = {place_in_clip_space(v, a), place_in_clip_space(v, b), place_in_clip_space(v, c)};
+    return faces_eye(p);
+}
+
 /* Where the eye is, in the world: the view matrix turns and moves. */
 static vec3 eye_of(const stroke_view *v)
 {
@@ -244,6 +250,9 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
     return true;
 }
 
+/* What rounding places may change of a depth at most, pixels: faces seen from the edge are steeper than any number. */
+#define STEEPEST 0.02
+
 static float slope_of(window_point a, window_point b, window_point c)
 {
     double rise_b = b.z - a.z, rise_c = c.z - a.z;
@@ -254,6 +263,7 @@ static float slope_of(window_point a, window_point b, window_point c)
 static void box_triangles(size_t begin, size_t end, void *user)
 {
     stroke_view *v = user;
+    float most = (float)(STEEPEST / (0.5 * v->camera.height * fabs(v->camera.projection.m[5])));
     for (size_t i = begin; i < end; i++) {
         window_point a = v->points[v->triangles[i].v[0]], b = v->points[v->triangles[i].v[1]], c = v->points[v->triangles[i].v[2]];
         window_box *box = &v->boxes[i];
@@ -262,7 +272,7 @@ static void box_triangles(size_t begin, size_t end, void *user)
         box->high_x = a.x > b.x ? (a.x > c.x ? a.x : c.x) : (b.x > c.x ? b.x : c.x);
         box->high_y = a.y > b.y ? (a.y > c.y ? a.y : c.y) : (b.y > c.y ? b.y : c.y);
         box->near_z = nextafterf((float)(a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z)), -INFINITY);
-        box->slope = slope_of(a, b, c);
+        box->slope = fminf(slope_of(a, b, c), most * (v->camera.orthographic ? 1 : fabsf(box->near_z)));
     }
 }
 
@@ -338,7 +348,7 @@ lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, cons
     v->camera = *camera;
     v->whole = mat4_multiply(&camera->projection, &camera->view);
     v->units = units_of(camera);
-    v->same = SAME_PLACE * (scene->reach > scene->extent ? scene->reach : scene->extent);
+    v->same = SAME_PLACE * scene->reach;
     lmn_status status = fill_view(v, progress, user, error);
     if (status != LMN_OK)
         stroke_view_destroy(&v);

@@ -1,5 +1,5 @@
 /* Hidden lines that would crowd: those behind more surfaces and the shorter ones give way. Lines are taken in the order of their importance, the visible ones first, and leave samples in a
- * grid; a stretch of a hidden line is left out where most of a good length of it lies too near to what is there. Stretches and not crumbs go: both what stays and what goes is long. */
+ * grid; one that is hidden is left out as a whole where much of it lies too near to what is there, so that nothing is left of it that could be taken for something else. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +10,6 @@
 enum { CELLS_MOST = 4096 };
 static const float samples_apart = 0.5f; /* shares of the distance that is kept */
 static const float own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
-static const float run_apart = 8;        /* what is judged together, in distances */
-static const float run_least = 40;       /* the same at least, pixels */
 static const float run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
 static const float crowded_from = 0.5f;  /* share of crowded samples */
 static const float least_apart = 0.5f; /* pixels */
@@ -172,50 +170,9 @@ static hidden_run *find_runs(const ribbon_job *job, size_t *count)
     return runs;
 }
 
-/* Gives each sample the judgement of the stretch around it: sums[i] is how many before the i-th are crowded. */
-static void judge_together(const size_t *sums, size_t count, size_t window, bool *gone)
-{
-    for (size_t i = 0; i < count; i++) {
-        size_t from = i > window / 2 ? i - window / 2 : 0, to = from + window < count ? from + window : count;
-        from = to > window ? to - window : 0;
-        gone[i] = (float)(sums[to] - sums[from]) >= crowded_from * (float)(to - from);
-    }
-}
-
-/* Stretches shorter than the window become what is around them: first what is left of little use, then what would be a small hole. */
-static void drop_crumbs(bool *gone, size_t count, size_t window, bool what)
-{
-    for (size_t i = 0; i < count;) {
-        size_t end = i;
-        while (end < count && gone[end] == gone[i])
-            end++;
-        if (gone[i] == what && end - i < window && end - i < count)
-            for (size_t k = i; k < end; k++)
-                gone[k] = !what;
-        i = end;
-    }
-}
-
-static void leave_out(gap_list *out, const sample_list *list, const bool *gone, float step)
-{
-    for (size_t i = 0; i < list->count;) {
-        size_t end = i;
-        while (end < list->count && gone[end] == gone[i] && list->items[end].stroke == list->items[i].stroke)
-            end++;
-        if (gone[i]) {
-            /* To the ends of the stroke where all of it goes that way. */
-            bool first = i == 0 || list->items[i - 1].stroke != list->items[i].stroke;
-            bool last = end == list->count || list->items[end].stroke != list->items[i].stroke;
-            gap_list_add(out, list->items[i].stroke, first ? -INFINITY : list->items[i].arc - step / 2, last ? INFINITY : list->items[end - 1].arc + step / 2);
-        }
-        i = end;
-    }
-}
-
 static void judge_run(gap_list *out, crowd_grid *g, const hidden_run *run, sample_list *list)
 {
-    float  step = g->apart * samples_apart, stretch = fmaxf(run_apart * g->apart, run_least);
-    size_t window = (size_t)(stretch / step) + 1;
+    float step = g->apart * samples_apart;
     list->count = 0;
     for (uint32_t i = 0; i < run->count && run->length < run_crumb * g->apart; i++)
         gap_list_add(out, run->first + i, -INFINITY, INFINITY);
@@ -223,9 +180,8 @@ static void judge_run(gap_list *out, crowd_grid *g, const hidden_run *run, sampl
         return;
     for (uint32_t i = 0; i < run->count; i++)
         sample_stroke(list, g->job, run->first + i, step);
-    bool   *gone = mem_calloc(list->count, sizeof *gone);
     size_t *sums = mem_calloc(list->count + 1, sizeof *sums);
-    if (!gone || !sums || list->failed) {
+    if (!sums || list->failed) {
         g->failed = true;
     } else {
         size_t waiting = 0;
@@ -237,15 +193,13 @@ static void judge_run(gap_list *out, crowd_grid *g, const hidden_run *run, sampl
                 if (sums[waiting + 1] == sums[waiting])
                     grid_put(g, &list->items[waiting]);
         }
-        judge_together(sums, list->count, window, gone);
-        drop_crumbs(gone, list->count, window, false);
-        drop_crumbs(gone, list->count, window, true);
-        for (size_t i = 0; i < list->count; i++)
-            if (!gone[i] && sums[i + 1] != sums[i])
+        bool gone = (float)sums[list->count] >= crowded_from * (float)list->count;
+        for (uint32_t i = 0; i < run->count && gone; i++)
+            gap_list_add(out, run->first + i, -INFINITY, INFINITY);
+        for (size_t i = 0; i < list->count && !gone; i++)
+            if (sums[i + 1] != sums[i])
                 grid_put(g, &list->items[i]);
-        leave_out(out, list, gone, step);
     }
-    mem_free(gone);
     mem_free(sums);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/mesh.h"
+#include "stroke/butterfly_mesh.h"
 #include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
@@ -11,6 +12,7 @@ typedef struct scene_builder {
     const lmn_scene *scene;
     const mat4      *worlds;
     double           crease_angle;
+    int32_t          refine;
     int32_t         *shared; /* per mesh of the scene: its number in `out`, NONE */
     size_t           mesh_capacity, item_capacity;
     box3             box;
@@ -75,10 +77,30 @@ static lmn_status find_mesh(scene_builder *b, const node *n, uint32_t *out, lmn_
     mem_free(places);
     if (status != LMN_OK)
         return status;
+    status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, b->crease_angle, error);
+    if (status != LMN_OK) {
+        edge_mesh_release(&s->meshes[s->mesh_count]);
+        return status;
+    }
     *out = (uint32_t)s->mesh_count++;
     if (!posed)
         b->shared[n->mesh] = (int32_t)*out;
     return LMN_OK;
+}
+
+/* The largest coordinate of a box. */
+static double farthest(box3 box)
+{
+    return fmax(fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y))), fmax(fabs(box.min.z), fabs(box.max.z)));
+}
+
+/* By how much a matrix may lengthen things. */
+static double growth(const mat4 *m)
+{
+    double most = 0;
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, sqrt(m->m[4 * k] * m->m[4 * k] + m->m[4 * k + 1] * m->m[4 * k + 1] + m->m[4 * k + 2] * m->m[4 * k + 2]));
+    return most;
 }
 
 static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error)
@@ -101,8 +123,11 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
             world = mat4_multiply(&world, &n->instances[i]);
         s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, number, world};
         const edge_mesh *m = &s->meshes[number];
-        for (uint32_t k = 0; k < m->piece_count; k++)
+        double grown = growth(&world);
+        for (uint32_t k = 0; k < m->piece_count; k++) {
             b->box = box3_union(b->box, box3_transform(m->boxes[k], &world));
+            s->reach = fmax(s->reach, grown * farthest(m->boxes[k]));
+        }
     }
     return LMN_OK;
 }
@@ -110,8 +135,14 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
 lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error)
 {
+    return stroke_scene_create_refined(out, scene, worlds, parts, crease_angle, 0, progress, user, error);
+}
+
+lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+                                       int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error)
+{
     memset(out, 0, sizeof *out);
-    scene_builder b = {.out = out, .scene = scene, .worlds = worlds, .crease_angle = crease_angle, .box = box3_empty()};
+    scene_builder b = {.out = out, .scene = scene, .worlds = worlds, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
     b.shared = mem_alloc((scene->mesh_count + 1) * sizeof *b.shared);
     lmn_status status = b.shared ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < scene->mesh_count && status == LMN_OK; i++)
@@ -125,11 +156,7 @@ lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const 
             status = add_part(&b, i, error);
     }
     mem_free(b.shared);
-    if (!box3_is_empty(b.box)) {
-        out->extent = box3_diagonal(b.box);
-        out->reach = fmax(fmax(fmax(fabs(b.box.min.x), fabs(b.box.max.x)), fmax(fabs(b.box.min.y), fabs(b.box.max.y))),
-                          fmax(fabs(b.box.min.z), fabs(b.box.max.z)));
-    }
+    out->extent = box3_is_empty(b.box) ? 0 : box3_diagonal(b.box);
     if (status != LMN_OK)
         stroke_scene_release(out);
     return status;
@@ -137,6 +164,7 @@ lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const 
 
 void stroke_scene_release(stroke_scene *s)
 {
+    form_surfaces_destroy(s);
     for (size_t i = 0; i < s->mesh_count; i++)
         edge_mesh_release(&s->meshes[i]);
     if (s->crossings)

@@ -45,6 +45,7 @@ typedef struct stroke {
     bool         closed;      /* the whole chain is this stroke and ends where it began, the first point once more */
     float        phase;       /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
     float        chain_length; /* pixels */
+    bool         smooth;      /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of it */
 } stroke;
 
 /* Where on a chain one of its lasting edges begins: what a chain of the next frame is recognised by. */
@@ -76,24 +77,32 @@ typedef struct stroke_item {
 typedef struct crossing_list crossing_list;
 
 typedef struct stroke_scene {
+    struct form_surface *surfaces; /* per mesh, how it bends; NULL: not asked for yet */
     crossing_list *crossings; /* where pieces run through each other; NULL: not asked for yet */
     edge_mesh   *meshes;
     size_t       mesh_count;
     stroke_item *items;
     size_t       item_count;
-    double       extent, reach; /* diagonal of all; the largest coordinate, which says how exact places are */
+    double       extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how exact places are: where a node puts it is exact */
 } stroke_scene;
 
 /* Takes the parts with `parts[index]` (NULL: all) in their rest pose; worlds as scene_world_matrices gives them. Solids have no triangles and are left out.
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
+/* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round as the lines are. Takes stroke_wishes.refine. Also LMN_LIMIT. */
+lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+                                       int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
-/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. */
+/* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT,
+ * LMN_CANCELLED. */
+lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
+/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. `outward`: unit normals of both, away from
+ * what they enclose; 0, 0, 0 where they enclose nothing. */
 size_t   stroke_scene_crossing_count(const stroke_scene *s);
-uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3]);
+uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3], vec3 outward[2]);
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
@@ -128,8 +137,13 @@ typedef struct stroke_wishes {
     float   simplify;  /* by how much points may be moved, pixels */
     float   shortest;  /* chains shorter than this are left out, pixels */
     float   crowd;     /* strokes that run all their length this close to more important ones are left out, pixels */
+    int32_t refine;    /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
+    int32_t curve;     /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_wishes;
-#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f}
+#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0}
+
+/* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one view. */
+bool stroke_wishes_bend(const stroke_wishes *w);
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
@@ -143,7 +157,8 @@ typedef struct stroke_check {
     uint64_t miscounted; /* the same or a wrong number of surfaces in front */
 } stroke_check;
 /* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample is wrong when no
- * place within half a pixel is as the stroke says. Errors: LMN_MEMORY, LMN_CANCELLED. */
+ * place within half a pixel is as the stroke says. Smooth outlines are left out: the triangles that they
+ * stand for cover them. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 

@@ -96,6 +96,9 @@ typedef struct window_segment {
     window_point a, b;
     uint32_t     ends[2];  /* points of the view that a and b are; NO_VERTEX: neither */
     uint32_t     faces[2]; /* that it lies on; EDGE_NO_FACE: none */
+    const uint32_t *ignored; /* faces that do not count, ascending */
+    uint32_t     ignored_count;
+    uint32_t     least;    /* as many surfaces lie in front at least */
 } window_segment;
 
 /* From `from` on (share of the segment) this many surfaces lie in front. */
@@ -109,6 +112,8 @@ typedef struct visibility_span {
 bool   view_place(const stroke_view *v, double3 world, window_point *out);
 /* Cuts a line of the world to what lies in the window; false when nothing does. `cut`: the shares that are left. */
 bool   view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
+/* Is a triangle of the world seen from the front? Its corners run anticlockwise then. */
+bool   view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
 double3 item_place(const stroke_item *item, vec3 p);
 double view_depth(const stroke_view *v, double z); /* eye depth */
 double view_tolerance(const stroke_view *v, double z); /* of z */
@@ -185,7 +190,8 @@ typedef struct view_line {
     uint32_t     item;
     uint32_t     ends[2];  /* of view points, or numbers from vertex_count on that only lines have */
     uint64_t     id;
-    float        weight;
+    float        weights[2]; /* at its ends */
+    bool         sharp;      /* runs along a sharp edge */
     bool         turned;   /* outlines: what is seen from the front lies to its other side */
 } view_line;
 
@@ -194,10 +200,20 @@ typedef struct view_lines {
     window_segment *segments; /* one a line */
     size_t          count, capacity, segment_capacity;
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
+    uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
 } view_lines;
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 void       lines_release(view_lines *l);
+/* Adds a line of the world, as far as it lies in the window; ends that are cut off get numbers of their own. False when memory is gone. */
+bool       lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2]);
+uint64_t   line_id(uint64_t a, uint64_t b); /* numbers that differ for different lines and stay from view to view */
+
+/* --- form.c --- */
+void       form_surfaces_destroy(stroke_scene *s);
+/* Adds the lines of smooth surfaces that are wished for: outlines by normals, suggestive contours, ridges, valleys, apparent ridges. */
+lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+                        lmn_error *error);
 
 /* --- chains.c --- */
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,

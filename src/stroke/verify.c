@@ -228,7 +228,8 @@ lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_
     lmn_status status = prepare(&w, error);
     uint64_t told = 0;
     for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++) {
-        check_stroke(&w, set, &set->strokes[i], apart > 0 ? apart : 1, out);
+        if (!set->strokes[i].smooth) /* rays know nothing of what is meant by the mesh */
+            check_stroke(&w, set, &set->strokes[i], apart > 0 ? apart : 1, out);
         if (progress && out->samples >= told + TICK) {
             told = out->samples;
             if (!progress((double)i / (double)set->stroke_count, "verifying", user))

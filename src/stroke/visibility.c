@@ -135,6 +135,19 @@ static void cover_nearer(worker *w, double from, double to, double before, doubl
     put_step(w, to, -1);
 }
 
+static bool is_ignored(const window_segment *s, uint32_t face)
+{
+    uint32_t low = 0, high = s->ignored_count;
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        if (s->ignored[middle] < face)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < s->ignored_count && s->ignored[low] == face;
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -172,7 +185,8 @@ static void compare(worker *w, uint32_t number)
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
         after = 0;
-    cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + box->slope);
+    if (!s->ignored_count || !is_ignored(s, t->face))
+        cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + box->slope);
 }
 
 static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
@@ -219,9 +233,9 @@ static bool gather_steps(worker *w, size_t *count)
     return true;
 }
 
-static bool put_span(span_block *block, double from, int64_t count, size_t first)
+static bool put_span(span_block *block, double from, int64_t count, uint32_t least, size_t first)
 {
-    uint32_t number = count > 0 ? (uint32_t)count : 0;
+    uint32_t number = count > (int64_t)least ? (uint32_t)count : least;
     if (block->count > first && block->spans[block->count - 1].count == number)
         return true;
     if (!mem_grow((void **)&block->spans, &block->capacity, block->count + 1, sizeof *block->spans))
@@ -244,7 +258,7 @@ static bool put_spans(worker *w, span_block *block)
     for (;;) {
         while (next < steps && w->steps[next].at <= at + crumb)
             count += w->steps[next++].step;
-        if (!put_span(block, at, count, first))
+        if (!put_span(block, at, count, s->least, first))
             return false;
         if (next == steps || crumb == 0.5 || w->steps[next].at >= 1 - crumb)
             return true;

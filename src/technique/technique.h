@@ -31,7 +31,7 @@ typedef enum target {
     TARGET_OUTLINES,   /* RGBA16F: r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
     TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
     TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
-    TARGET_STROKES,    /* depth of what strokes were drawn, 1 elsewhere */
+    TARGET_STROKES,    /* depth of what strokes were drawn, or of the shell, 1 elsewhere */
     TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
     TARGET_ENLARGED,   /* RGBA32F: the figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty) */
     TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */
@@ -71,6 +71,7 @@ typedef struct pass {
     bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
     bool        geometry; /* draws the figure's parts again instead of a full screen: shaded and inked by the shader file's ink_at */
     const char *enlarge;  /* with geometry: key of the length in pixels by which surfaces are moved along their normals; no shader */
+    bool        shell;    /* with enlarge: only faces that look away, moved across the page; their depth alone is written */
     /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of the figure's line
      * techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
     bool      (*process)(const pass_pixels *in, void *out, const void *values);

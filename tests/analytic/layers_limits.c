@@ -187,7 +187,7 @@ static void little_memory(void)
 /* Whatever finds the lines and whatever is made of the layers, both producers give the same picture. */
 static void every_operator(void)
 {
-    static const char *const operators[] = {"discontinuity", "four-tap", "sobel", "saito", "saito-normalised", "denormal", "id", "colour", "shadow"};
+    static const char *const operators[] = {"discontinuity", "four-tap", "sobel", "saito", "saito-normalised", "denormal", "id", "colour", "shadow", "shell"};
     static const char *const compositions[] = {"blueprint", "wire", "xray"}, *const producers[] = {"peeling", "lists"};
     shape s = {0};
     scene_make(&s, SCENE_CROSSING, 5);

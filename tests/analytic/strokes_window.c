@@ -354,6 +354,34 @@ static void both_ways(void)
     }
 }
 
+/* Bodies that run through each other, one of them mirrored, and through an open sheet: what crosses is found and hidden alike, from everywhere. */
+static void crossings(void)
+{
+    shape s = {0};
+    shape_box(&s, "floor", dvec_of(-2, -1.2, -2), dvec_of(2, -1, 2));
+    shape_box(&s, "box", dvec_of(-1.2, -1, -1.1), dvec_of(0.1, 0.6, 0.3)); /* stands on it */
+    shape_sphere(&s, "ball", dvec_of(0, 0.4, 0), 0.8, 24, 48, false);
+    shape_torus(&s, "ring", 0.9, 0.3, 48, 24);
+    shape_place(&s, dvec_of(1, 0.4, 0), 70, dvec_of(0.6, -0.5, 0.3));
+    for (int k = 0; k < 3; k++)
+        s.parts[s.count - 1].matrix[k] *= -1;
+    shape_quad(&s, "sheet", 1.6, -0.4);
+    const char *const changes[] = {"lines.intersections", "true", NULL};
+    for (int k = 0; k < 8; k++) {
+        shot_view view = {.width = 500, .height = 500, .eye = {7 * cos(k), 4.0 - k, 7 * sin(k)}, .up = {0, 1, 0}, .orthographic = k % 2, .without_maps = true};
+        shot a, b;
+        bool good = shot_of_shape(&a, &s, "crossings.glb", look_of("sampled", 2, ""), changes, &view);
+        good = shot_of_shape(&b, &s, "crossings.glb", look_of("exact", 2, ",\"simplify\":0,\"shortest\":0"), changes, &view) && good;
+        if (good) {
+            check_at_most("EX-14", alone(&a, &b), 0.01, "crossings, view %d: ink of sampled strokes that exact ones have not", k);
+            check_at_most("EX-14", alone(&b, &a), 0.005, "crossings, view %d: ink of exact strokes that sampled ones have not", k);
+        }
+        shot_release(&a);
+        shot_release(&b);
+    }
+    shape_release(&s);
+}
+
 /* --- what is at the edge of sense ------------------------------------------------------------------------------------ */
 
 static size_t count_ink(const shot *s)
@@ -450,7 +478,7 @@ static void samples_and_dialects(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"widths", widths}, {"near", near_plane}, {"joints", joints}, {"whole", whole_lines}, {"full", full_width}, {"ways", both_ways}, {"limits", limits}, {"figures", figures}, {"samples", samples_and_dialects},
+        {"widths", widths}, {"near", near_plane}, {"joints", joints}, {"whole", whole_lines}, {"full", full_width}, {"ways", both_ways}, {"crossings", crossings}, {"limits", limits}, {"figures", figures}, {"samples", samples_and_dialects},
     };
     int status = check_main(argc, argv, "strokes_window", cases, sizeof cases / sizeof *cases);
     shot_end();

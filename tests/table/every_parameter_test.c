@@ -94,6 +94,22 @@ static void write_ball(FILE *file, double x)
         }
 }
 
+/* A small body of five bulges, fine enough to have no creases: ridges, valleys, and where the eye moves a little, outlines. */
+static void write_flower(FILE *file, double x)
+{
+    enum { ROWS = 24, COLUMNS = 200 };
+    for (int r = 0; r <= ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS, radius = 24 * (1 + 0.25 * cos(5 * around) * sin(polar));
+            fprintf(file, "v %.4f %.4f %.4f\n", radius * sin(polar) * cos(around) + x, radius * sin(polar) * sin(around) + 100, radius * cos(polar) + 20);
+        }
+    for (int r = 0; r < ROWS; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            int a = r * COLUMNS + c + 1, b = r * COLUMNS + (c + 1) % COLUMNS + 1;
+            fprintf(file, "f %d %d %d %d\n", a, a + COLUMNS, b + COLUMNS, b);
+        }
+}
+
 static lmn_look *look_of(const technique *t, char *json, size_t size)
 {
     lmn_look *look = NULL;
@@ -327,6 +343,7 @@ static int make_fixture(void **state)
     bool done = lmn_scene_create(&f->scene, &error) == LMN_OK && lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
                 add_file(f->scene, folder, "ball.ply", write_ball, 10, &error) &&
                 add_file(f->scene, folder, "other.ply", write_ball, 70, &error) &&
+                add_file(f->scene, folder, "flower.obj", write_flower, -20, &error) &&
                 add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
                 lmn_scene_create(&f->solid, &error) == LMN_OK && add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
                 lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;

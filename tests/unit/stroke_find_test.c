@@ -225,6 +225,46 @@ static void same_call_same_strokes(void **state)
     shot_release(&shot);
 }
 
+/* Normals of crossing surfaces look out of what they enclose, whichever way round corners and axes are; an open plate encloses nothing. */
+static void crossings_look_outwards(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_box(s, -1, -1, -1, 1, 1, 1);
+    add_box(s, 2.5, 0.2, -0.6, 0.5, 1.5, 1.4); /* inside out */
+    add_box(s, -0.5, 0.3, 0.2, 0.6, 0.7, 2.5);
+    s->nodes[s->node_count - 1].scale[1] = -2; /* from −1.4 to −0.6 */
+    add_plate(s, -2, -2, 2, 2, 0.1);
+    stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
+    assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
+    const double boxes[3][6] = {{-1, -1, -1, 1, 1, 1}, {0.5, 0.2, -0.6, 2.5, 1.5, 1.4}, {-0.5, -1.4, 0.2, 0.6, -0.6, 2.5}};
+    size_t on_box[3] = {0}, open = 0;
+    for (size_t i = 0; i < stroke_scene_crossing_count(shot.scene); i++) {
+        double ends[2][3];
+        vec3 outward[2];
+        stroke_scene_crossing(shot.scene, i, ends, outward);
+        for (int k = 0; k < 2; k++) {
+            const double n[3] = {(double)outward[k].x, (double)outward[k].y, (double)outward[k].z};
+            size_t fitting = 0;
+            for (int b = 0; b < 3; b++) {
+                bool out = false, in = true;
+                for (int axis = 0; axis < 3; axis++) {
+                    double middle = (ends[0][axis] + ends[1][axis]) / 2, before = middle - 1e-3 * n[axis], beyond = middle + 1e-3 * n[axis];
+                    in = in && before >= boxes[b][axis] && before <= boxes[b][axis + 3];
+                    out = out || beyond < boxes[b][axis] - 1e-4 || beyond > boxes[b][axis + 3] + 1e-4;
+                }
+                fitting += in && out;
+                on_box[b] += in && out;
+            }
+            bool none = n[0] * n[0] + n[1] * n[1] + n[2] * n[2] == 0;
+            open += none;
+            assert_true(none || fitting == 1);
+        }
+    }
+    assert_true(on_box[0] > 8 && on_box[1] > 4 && on_box[2] > 4 && open > 8);
+    shot_release(&shot);
+}
+
 /* OE-11: chains of creases end at corners, and smooth outlines close. */
 static void chains_end_at_corners(void **state)
 {
@@ -436,7 +476,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_has_six_nine_twelve), cmocka_unit_test(plates_are_counted),      cmocka_unit_test(rims_hide_where_they_are),
         cmocka_unit_test(pieces_that_cross_have_a_line), cmocka_unit_test(flush_parts_are_calm), cmocka_unit_test(coplanar_plates_do_not_hide),
-        cmocka_unit_test(heaps_agree_with_rays),    cmocka_unit_test(eye_may_be_inside),       cmocka_unit_test(same_call_same_strokes),
+        cmocka_unit_test(heaps_agree_with_rays),    cmocka_unit_test(eye_may_be_inside),       cmocka_unit_test(same_call_same_strokes), cmocka_unit_test(crossings_look_outwards),
         cmocka_unit_test(chains_end_at_corners),    cmocka_unit_test(arcs_run_on),             cmocka_unit_test(phases_follow),
         cmocka_unit_test(lines_on_lines_are_left_out), cmocka_unit_test(bad_meshes_are_drawn), cmocka_unit_test(memory_may_run_out),      cmocka_unit_test(work_can_be_cancelled),
     };

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "lines/stroke/strokes.h"
 #include "scene/scene.h"
+#include "stroke_shapes.h"
 
 static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
 /* Each side of the cube as two triangles, anticlockwise from outside. */
@@ -92,6 +93,41 @@ static void test_creases_come_first(void **state)
     mem_free(records);
 }
 
+/* Each crossing has one record, with its item's, and the normals of both surfaces. */
+static void test_crossings(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_box(s, -1, -1, -1, 1, 1, 1);
+    add_box(s, 0, 0, 0, 2, 2, 2);
+    add_plate(s, -2, -2, 2, 2, 0.5);
+    const double from[3] = {0, 0, 0};
+    stroke_shot shot = shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_wishes){.contours = CONTOURS_EDGES});
+    assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
+    size_t all = stroke_scene_crossing_count(shot.scene), found = 0;
+    assert_true(all > 10);
+    for (uint32_t item = 0; item < 3; item++) {
+        size_t count, at = 0;
+        float *records = strokes_crossing_records(shot.scene, item, &count);
+        for (size_t i = 0; i < all; i++) {
+            double ends[2][3];
+            vec3   outward[2];
+            if (stroke_scene_crossing(shot.scene, i, ends, outward) != item)
+                continue;
+            const float *r = &records[EDGE_RECORD_FLOATS * at++];
+            assert_int_equal((int)r[3], RECORD_CROSSING);
+            assert_true(r[0] == (float)ends[0][0] && r[6] == (float)ends[1][2]);
+            assert_true(r[8] == outward[0].x && r[9] == outward[0].y && r[10] == outward[0].z);
+            assert_true(r[12] == outward[1].x && r[13] == outward[1].y && r[14] == outward[1].z);
+        }
+        assert_int_equal(at, count);
+        found += count;
+        mem_free(records);
+    }
+    assert_int_equal(found, all);
+    shot_release(&shot);
+}
+
 /* A ribbon of three points, a dot, and a hidden one. */
 static void test_ribbons(void **state)
 {
@@ -161,7 +197,7 @@ static void test_style(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube),           cmocka_unit_test(test_triangle), cmocka_unit_test(test_creases_come_first),
+        cmocka_unit_test(test_cube),           cmocka_unit_test(test_triangle), cmocka_unit_test(test_crossings), cmocka_unit_test(test_creases_come_first),
         cmocka_unit_test(test_ribbons),        cmocka_unit_test(test_without_memory),
         cmocka_unit_test(test_what_needs_chains), cmocka_unit_test(test_style),
     };

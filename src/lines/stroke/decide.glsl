@@ -10,6 +10,7 @@ uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */
 
 const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64;
+const float EDGE_ON = 1e-5; /* what rounding turns */
 const int NO_LINE = -1, PROFILE = 0, INNER = 1, ID = 3;
 
 /* The edge map's channel that the edge is drawn into, or NO_LINE. */
@@ -17,8 +18,12 @@ int line_of_edge()
 {
     int bits = int(a_begin.w), wanted = bits & u_wanted;
     vec3 to_eye = u_viewer.xyz - u_viewer.w * 0.5 * (a_begin.xyz + a_end.xyz);
-    bool first = dot(a_first.xyz, to_eye) > 0.0, second = dot(a_second.xyz, to_eye) > 0.0;
+    float towards_first = dot(a_first.xyz, to_eye), towards_second = dot(a_second.xyz, to_eye);
+    bool first = towards_first > 0.0, second = towards_second > 0.0;
     if ((bits & RECORD_CLOSED) != 0 && !first && !second && !u_inside)
+        return NO_LINE;
+    /* Where one of two crossing surfaces looks away, the body that it encloses hides the line. Those of open surfaces are 0. */
+    if ((bits & RECORD_CROSSING) != 0 && min(towards_first, towards_second) < -EDGE_ON * length(to_eye) && !u_inside)
         return NO_LINE;
     bool outline = (bits & RECORD_PAIR) != 0 && first != second && (u_wanted & WANT_CONTOUR) != 0;
     if (outline || (wanted & RECORD_BORDER) != 0)

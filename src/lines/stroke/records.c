@@ -72,17 +72,20 @@ float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *co
 {
     size_t all = stroke_scene_crossing_count(s), own = 0;
     double ends[2][3];
+    vec3   outward[2];
     for (size_t i = 0; i < all; i++)
-        own += stroke_scene_crossing(s, i, ends) == item;
+        own += stroke_scene_crossing(s, i, ends, outward) == item;
     float *records = mem_calloc(own + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
     for (size_t i = 0; i < all && records; i++) {
-        if (stroke_scene_crossing(s, i, ends) != item)
+        if (stroke_scene_crossing(s, i, ends, outward) != item)
             continue;
         for (int k = 0; k < 3; k++) {
             at[k] = (float)ends[0][k];
             at[4 + k] = (float)ends[1][k];
         }
         at[3] = RECORD_CROSSING;
+        put_vector(at + 8, outward[0], 0, 1);
+        put_vector(at + 12, outward[1], 0, 1);
         at += EDGE_RECORD_FLOATS;
     }
     *count = own;

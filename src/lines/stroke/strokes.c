@@ -31,8 +31,15 @@ static const param params[] = {
            .doc = "Lines along rounded valleys; 1 draws the sharpest, less draws more, 0 none."),
     NUMBER("apparent", wishes.apparent, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Apparent ridges: lines where what is seen bends most; 1 draws the strongest, less draws more, 0 none."),
+    ROW("refine", wishes.refine, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 3, .soft_max = 2, .unit = UNIT_COUNT,
+        .doc = "Times surfaces are refined before their lines are found: coarse ones become round, edges sharper than scene.crease_angle stay sharp. Each time makes four "
+               "triangles of one. What fills the picture keeps the surface that it has."),
+    ROW("curve", wishes.curve, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 4, .soft_max = 3, .unit = UNIT_COUNT,
+        .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as straight as they are."),
     NUMBER("shortest", wishes.shortest, .def = 1, .min = 0, .max = 200, .soft_max = 20, .unit = UNIT_PX, .along = true,
            .doc = "Lines shorter than this are left out."),
+    NUMBER("crowd", wishes.crowd, .def = 0.75, .min = 0, .max = 16, .soft_max = 4, .unit = UNIT_PX,
+           .doc = "Lines that run all their length this close to more important ones are left out; 0 keeps them all."),
     NUMBER("simplify", wishes.simplify, .def = 0.1, .min = 0, .max = 8, .soft_max = 2, .unit = UNIT_PX,
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_SHARE,
@@ -109,7 +116,7 @@ bool strokes_need_chains(const strokes_values *v)
 {
     const stroke_style *s = &v->style;
     const stroke_wishes *w = &v->wishes;
-    bool kinds = w->contours == CONTOURS_SMOOTH || w->suggestive > 0 || w->ridges > 0 || w->valleys > 0 || w->apparent > 0;
+    bool kinds = stroke_wishes_bend(w) || w->curve > 0;
     bool style = s->brush != BRUSH_PEN || s->taper > 0 || s->pressure > 0 || s->wobble > 0 || s->repeats > 1 || s->hidden != HIDDEN_NONE;
     return kinds || style || v->common.overshoot > 0 || v->common.dash > 0 || v->common.halo > 0;
 }

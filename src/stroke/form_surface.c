@@ -1,0 +1,161 @@
+#include "stroke/form_surface.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "stroke/butterfly.h"
+#include "stroke/form_bend.h"
+
+/* --- knots --------------------------------------------------------------------------------------------------------- */
+
+static void part_edge(form_surface *s, uint32_t h)
+{
+    uint32_t other = s->opposite[h];
+    s->opposite[h] = NO_HALF;
+    if (other != NO_HALF)
+        s->opposite[other] = NO_HALF;
+}
+
+/* Half-edges over which the surface goes on smoothly. */
+static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *error)
+{
+    butterfly flat;
+    lmn_status status = butterfly_refine(&flat, m->places, m->vertex_count, (const uint32_t (*)[3])m->faces, m->face_count, NULL, 0, error);
+    if (status != LMN_OK)
+        return status;
+    s->opposite = flat.levels[0].opposite;
+    flat.levels[0].opposite = NULL;
+    butterfly_release(&flat);
+    for (uint32_t h = 0; h < 3 * m->face_count; h++)
+        if (s->opposite[h] != NO_HALF) { /* sharper than a right angle is no surface that goes on, whatever the file says */
+            vec3 a = m->normals[h / 3], b = m->normals[s->opposite[h] / 3];
+            if (a.x * b.x + a.y * b.y + a.z * b.z < 0)
+                part_edge(s, h);
+        }
+    for (uint32_t i = 0; i < m->edge_count; i++) {
+        const mesh_edge *e = &m->edges[i];
+        if (!(e->flags & (EDGE_CREASE | EDGE_BORDER | EDGE_TWISTED)))
+            continue;
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t h = 3 * e->face[0] + k;
+            if (m->faces[e->face[0]][k] == e->vertex[0] && m->faces[e->face[0]][(k + 1) % 3] == e->vertex[1])
+                part_edge(s, h);
+        }
+    }
+    return LMN_OK;
+}
+
+static uint32_t root_of(uint32_t *links, uint32_t c)
+{
+    while (links[c] != c) {
+        links[c] = links[links[c]];
+        c = links[c];
+    }
+    return c;
+}
+
+static void join(uint32_t *links, uint32_t a, uint32_t b)
+{
+    a = root_of(links, a);
+    b = root_of(links, b);
+    links[a < b ? b : a] = a < b ? a : b;
+}
+
+/* Corners at one vertex that smooth edges connect share a knot. */
+static bool number_knots(form_surface *s, const edge_mesh *m)
+{
+    uint32_t count = 3 * m->face_count;
+    uint32_t *links = mem_alloc(((size_t)count + 1) * sizeof *links);
+    s->corners = mem_alloc(((size_t)m->face_count + 1) * sizeof *s->corners);
+    s->vertices = mem_alloc(((size_t)count + 1) * sizeof *s->vertices);
+    if (!links || !s->corners || !s->vertices) {
+        mem_free(links);
+        return false;
+    }
+    for (uint32_t c = 0; c < count; c++)
+        links[c] = c;
+    for (uint32_t h = 0; h < count; h++)
+        if (s->opposite[h] != NO_HALF)
+            join(links, h, half_edge_next(s->opposite[h]));
+    for (uint32_t c = 0; c < count; c++) { /* a root comes before all that hang on it */
+        uint32_t root = root_of(links, c);
+        if (root == c)
+            s->vertices[s->knot_count] = m->faces[c / 3][c % 3];
+        s->corners[c / 3][c % 3] = root == c ? s->knot_count++ : s->corners[root / 3][root % 3];
+    }
+    mem_free(links);
+    uint32_t *smaller = mem_realloc(s->vertices, ((size_t)s->knot_count + 1) * sizeof *smaller);
+    s->vertices = smaller ? smaller : s->vertices;
+    return true;
+}
+
+/* Means of the normals of the faces around, weighted so that those of a sphere are exact however it is divided (Max 1999). */
+static bool make_normals(form_surface *s, const edge_mesh *m)
+{
+    double (*sums)[3] = mem_calloc((size_t)s->knot_count + 1, sizeof *sums);
+    s->normals = mem_alloc(((size_t)s->knot_count + 1) * sizeof *s->normals);
+    for (uint32_t f = 0; f < m->face_count && sums && s->normals; f++) {
+        double sign = m->closed[m->pieces[f]] && m->inward[m->pieces[f]] ? -1 : 1;
+        for (uint32_t k = 0; k < 3; k++) {
+            vec3 p = m->places[m->faces[f][k]], q = m->places[m->faces[f][(k + 1) % 3]], r = m->places[m->faces[f][(k + 2) % 3]];
+            double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z, bx = (double)r.x - p.x, by = (double)r.y - p.y, bz = (double)r.z - p.z;
+            double weight = sign / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
+            double *sum = sums[s->corners[f][k]];
+            sum[0] += weight * (ay * bz - az * by);
+            sum[1] += weight * (az * bx - ax * bz);
+            sum[2] += weight * (ax * by - ay * bx);
+        }
+    }
+    for (uint32_t i = 0; i < s->knot_count && sums && s->normals; i++) {
+        double length = sqrt(sums[i][0] * sums[i][0] + sums[i][1] * sums[i][1] + sums[i][2] * sums[i][2]);
+        s->normals[i] = length > 0 && isfinite(length) ? (vec3){(float)(sums[i][0] / length), (float)(sums[i][1] / length), (float)(sums[i][2] / length)} : (vec3){0, 0, 1};
+    }
+    bool good = sums && s->normals;
+    mem_free(sums);
+    return good;
+}
+
+static bool make_fans(form_surface *s, const edge_mesh *m)
+{
+    s->fan_starts = mem_calloc((size_t)m->vertex_count + 2, sizeof *s->fan_starts);
+    s->fan_faces = mem_alloc(((size_t)m->face_count * 3 + 1) * sizeof *s->fan_faces);
+    if (!s->fan_starts || !s->fan_faces)
+        return false;
+    for (uint32_t c = 0; c < 3 * m->face_count; c++)
+        s->fan_starts[m->faces[c / 3][c % 3] + 2]++;
+    for (uint32_t v = 0; v < m->vertex_count; v++)
+        s->fan_starts[v + 2] += s->fan_starts[v + 1];
+    /* Counted two places on, so that filling, which moves each start to its end, leaves them right. */
+    for (uint32_t c = 0; c < 3 * m->face_count; c++)
+        s->fan_faces[s->fan_starts[m->faces[c / 3][c % 3] + 1]++] = c / 3;
+    return true;
+}
+
+lmn_status form_surface_make(form_surface *out, const edge_mesh *m, bool bends, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    out->face_count = m->face_count;
+    box3 box = box3_empty();
+    for (uint32_t i = 0; i < m->piece_count; i++)
+        box = box3_union(box, m->boxes[i]);
+    out->size = box3_is_empty(box) ? 0 : box3_diagonal(box);
+    lmn_status status = pair_smooth(out, m, error);
+    if (status == LMN_OK && (!number_knots(out, m) || !make_normals(out, m) || !make_fans(out, m) || (bends && !form_bend_make(out, m))))
+        status = error_memory(error);
+    if (status != LMN_OK)
+        form_surface_release(out);
+    return status;
+}
+
+void form_surface_release(form_surface *s)
+{
+    mem_free(s->corners);
+    mem_free(s->opposite);
+    mem_free(s->vertices);
+    mem_free(s->normals);
+    mem_free(s->bends);
+    mem_free(s->fan_starts);
+    mem_free(s->fan_faces);
+    memset(s, 0, sizeof *s);
+}
