@@ -32,6 +32,7 @@ typedef struct vector_job {
     const rule          **rules;    /* of each part; NULL: not drawn */
     box3                  box;      /* of what the picture is fitted to */
     stroke_scene          strokes;
+    stroke_scene          as_is;   /* the same where `strokes` is refined and marks lie on what is not; else empty */
     colour                ground;
     double                begun, share, reported; /* progress: of the stage at hand, and the most that was told */
     lmn_look              bare;     /* the look without lines and sections; its arrays are borrowed or in `bare_rules` */
@@ -357,7 +358,6 @@ static void count_strokes(vector_job *j, const stroke_set *set, const stroke_sty
     }
 }
 
-<<<<<<< HEAD
 /* The parts that a rule draws, and how many they are; NULL: memory is gone. */
 static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
 {
@@ -392,7 +392,8 @@ static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vecto
     j->out->dots += m.dots;
     j->out->marks += m.lines;
     return status;
-=======
+}
+
 /* Where parts of two rules run through each other, the line is its own part's; the other rule has it only where that one draws no such lines. */
 static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule *r)
 {
@@ -407,7 +408,6 @@ static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule 
         set->strokes[kept++] = *s;
     }
     set->stroke_count = kept;
->>>>>>> main
 }
 
 /* The strokes of one rule's parts, as ribbons. */
@@ -462,8 +462,12 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     stroke_view  *view = NULL;
     stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width, v->height};
     lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
+    stroke_view  *as_is = NULL;
+    if (status == LMN_OK && j->as_is.item_count)
+        status = stroke_view_create(&as_is, &j->as_is, &camera, report_part, j, error);
     for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
-        status = draw_marks(j, view, v, &j->look->rules[i], ink, error);
+        status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
+    stroke_view_destroy(&as_is);
     if (status == LMN_OK)
         status = draw_lines(j, view, ink, error);
     stroke_view_destroy(&view);
@@ -506,7 +510,12 @@ static lmn_status make_scene(vector_job *j, double crease, lmn_error *error)
         bends = bends || stroke_wishes_bend(&wishes);
     }
     lmn_status status = stroke_scene_create_refined(&j->strokes, j->scene, j->worlds, j->selected, crease, refine, report_part, j, error);
-    return status == LMN_OK && bends ? stroke_scene_bend(&j->strokes, report_part, j, error) : status;
+    if (status == LMN_OK && bends)
+        status = stroke_scene_bend(&j->strokes, report_part, j, error);
+    bool marked = false;
+    for (size_t i = 0; i < j->look->rule_count; i++)
+        marked = marked || vector_rule_marks(&j->look->rules[i]);
+    return status == LMN_OK && marked && refine > 0 ? stroke_scene_create(&j->as_is, j->scene, j->worlds, j->selected, crease, report_part, j, error) : status;
 }
 
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
@@ -516,11 +525,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     j->begun = 0.3;
     j->share = 0.2;
     if (status == LMN_OK)
-<<<<<<< HEAD
-        status = stroke_scene_create(&j->strokes, j->scene, j->worlds, j->selected, crease_of(j->look), report_part, j, error);
-=======
-        status = make_scene(j, crease, error);
->>>>>>> main
+        status = make_scene(j, crease_of(j->look), error);
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
         j->share = 0.45 / (double)s->view_count;
         j->begun = 0.5 + j->share * (double)i;
@@ -615,6 +620,7 @@ lmn_status vector_draw(lmn_sheet **out, lmn_renderer *r, const lmn_scene *scene,
     if (status == LMN_OK)
         status = draw_sheet(&j, error);
     stroke_scene_release(&j.strokes);
+    stroke_scene_release(&j.as_is);
     mem_free(j.worlds);
     mem_free(j.selected);
     mem_free((void *)j.rules);
