@@ -432,6 +432,34 @@ static void test_none(void **state)
     lmn_look_destroy(&look);
 }
 
+/* A strip thinner than dots has none, for each would hang over both its sides; finer ones it has. */
+static void test_rims(void **state)
+{
+    (void)state;
+    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    lmn_error     error = {0};
+    char          path[] = "/tmp/limner-marks-XXXXXX.obj";
+    const char   *words = "v -1 -0.005 0\nv 1 -0.005 0\nv 1 0.005 0\nv -1 0.005 0\nf 1 2 3 4\n";
+    int           descriptor = mkstemps(path, 4);
+    assert_true(descriptor >= 0 && write(descriptor, words, strlen(words)) == (ssize_t)strlen(words));
+    close(descriptor);
+    fixture f = {NULL, look_of(stipple), NULL};
+    assert_int_equal(lmn_scene_create(&f.scene, &error), LMN_OK);
+    assert_int_equal(lmn_scene_add_file(f.scene, path, &load, &error), LMN_OK);
+    unlink(path);
+    for (int fine = 0; fine < 2; fine++) {
+        lmn_draw_desc how = front();
+        assert_int_equal(lmn_look_set(f.stipple, "surface.diameter", fine ? "0.5" : "12", &error), LMN_OK);
+        lmn_sheet *s = draw(&f, f.stipple, &how, NULL);
+        size_t     count = visit_dots(s, NULL, NULL);
+        print_message("%zu dots on a strip\n", count);
+        assert_true(fine ? count > 50 : count == 0);
+        lmn_sheet_destroy(&s);
+    }
+    lmn_look_destroy(&f.stipple);
+    lmn_scene_destroy(&f.scene);
+}
+
 /* --- what stops a drawing ------------------------------------------------------------------------------------------------------ */
 
 static bool stop_at(double fraction, const char *stage, void *user)
@@ -487,7 +515,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_dots), cmocka_unit_test(test_behind), cmocka_unit_test(test_files),     cmocka_unit_test(test_plotter),
-        cmocka_unit_test(test_paper),     cmocka_unit_test(test_none),   cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_paper),     cmocka_unit_test(test_none),   cmocka_unit_test(test_rims), cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests_name("vector_marks", tests, set_up, tear_down);
 }
