@@ -518,6 +518,19 @@ static lmn_status make_scene(vector_job *j, double crease, lmn_error *error)
     return status == LMN_OK && marked && refine > 0 ? stroke_scene_create(&j->as_is, j->scene, j->worlds, j->selected, crease, report_part, j, error) : status;
 }
 
+/* What reaches beyond the paper, or the inside of its frame, is cut off: plotters and CAD programs have no clips. */
+static void finish_page(vector_job *j)
+{
+    lmn_sheet *s = j->out;
+    double     area[4] = {0, 0, s->page.width, s->page.height};
+    if (j->wanted->frame)
+        vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
+    sheet_clip(&s->page, area[0], area[1], area[2], area[3]);
+    if (s->page.item_count == 0)
+        warnings_add(&s->warnings, WARNING_PAGE, "nothing of the model lies on the page");
+    vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+}
+
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 {
     lmn_sheet *s = j->out;
@@ -532,7 +545,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
         status = draw_view(j, &s->views[i], error);
     }
     if (status == LMN_OK)
-        vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+        finish_page(j);
     if (status == LMN_OK && j->wanted->plotter)
         status = vector_order_for_plotter(&s->page, error);
     if (status == LMN_OK && s->page.failed)

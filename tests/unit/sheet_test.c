@@ -275,11 +275,47 @@ static void test_plotter(void **state)
     sheet_release(&s);
 }
 
+/* A box of 10 by 10: lines and areas end at its sides, dots outside go, what has nothing left goes with its item. */
+static void test_clip(void **state)
+{
+    const float zigzag[4][2] = {{-5, 5}, {5, 5}, {15, 5}, {5, 8}}, square[4][2] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, away[2][2] = {{20, 20}, {30, 30}};
+    sheet       s;
+    (void)state;
+    sheet_begin(&s, 10, 10, 4);
+    uint32_t group = sheet_add_group(&s, -1, "view", NULL, 0);
+    sheet_add_item(&s, SHEET_PATH, group, black, 1);
+    sheet_add_path(&s, &(sheet_path){.width = 1}, zigzag, 4);
+    sheet_add_item(&s, SHEET_PATH, group, black, 2);
+    sheet_add_path(&s, &(sheet_path){.closed = true, .filled = true}, square, 4);
+    sheet_add_item(&s, SHEET_PATH, group, black, 3);
+    sheet_add_path(&s, &(sheet_path){.width = 1}, away, 2);
+    sheet_add_item(&s, SHEET_DOTS, group, black, 4);
+    sheet_add_path(&s, &(sheet_path){.width = 1}, zigzag, 4);
+    sheet_clip(&s, 0, 0, 10, 10);
+    assert_false(s.failed);
+    assert_int_equal(s.item_count, 3);
+    assert_int_equal(s.items[0].count, 2); /* out at the right, and back in */
+    assert_near((double)point_of(&s, 0, 0)[0], 0, 1e-6);
+    assert_near((double)point_of(&s, 0, s.paths[0].count - 1)[0], 10, 1e-6);
+    assert_near((double)point_of(&s, 1, 0)[0], 10, 1e-5);
+    assert_near((double)point_of(&s, 1, 0)[1], 6.5, 1e-5);
+    assert_near((double)point_of(&s, 1, 1)[1], 8, 1e-6);
+    const sheet_path *area = &s.paths[s.items[1].first];
+    double twice = 0;
+    for (uint32_t i = 0; i < area->count; i++) {
+        const float *a = s.points[area->first + i], *b = s.points[area->first + (i + 1) % area->count];
+        twice += (double)a[0] * b[1] - (double)b[0] * a[1];
+    }
+    assert_near(fabs(twice) / 2, 25, 1e-4);
+    assert_int_equal(s.paths[s.items[2].first].count, 2);
+    sheet_release(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_builder), cmocka_unit_test(test_not_finite), cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_pages),
-        cmocka_unit_test(test_scales),  cmocka_unit_test(test_layout),     cmocka_unit_test(test_plotter),
+        cmocka_unit_test(test_scales),  cmocka_unit_test(test_layout),     cmocka_unit_test(test_plotter), cmocka_unit_test(test_clip),
     };
     return cmocka_run_group_tests_name("sheet", tests, NULL, NULL);
 }

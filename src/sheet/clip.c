@@ -1,0 +1,186 @@
+/* Cutting what lies on a sheet at a box: lines and areas end there, dots outside go. Pictures and texts stay. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "sheet/sheet.h"
+
+typedef struct clipper {
+    const sheet *from;
+    sheet_path  *paths;
+    float      (*points)[2];
+    size_t       path_count, path_capacity, point_count, point_capacity;
+    float        low[2], high[2];
+    bool         failed;
+} clipper;
+
+static void put_point(clipper *c, float x, float y)
+{
+    if (c->failed || !mem_grow((void **)&c->points, &c->point_capacity, c->point_count + 1, sizeof *c->points)) {
+        c->failed = true;
+        return;
+    }
+    c->points[c->point_count][0] = x;
+    c->points[c->point_count++][1] = y;
+}
+
+/* Keeps the points put since `first` as a path like another one, unless there are too few. */
+static void put_path(clipper *c, const sheet_path *like, size_t first, size_t least, bool closed)
+{
+    if (c->point_count - first < least) {
+        c->point_count = first;
+        return;
+    }
+    if (c->failed || !mem_grow((void **)&c->paths, &c->path_capacity, c->path_count + 1, sizeof *c->paths)) {
+        c->failed = true;
+        return;
+    }
+    sheet_path *p = &c->paths[c->path_count++];
+    *p = *like;
+    p->first = (uint32_t)first;
+    p->count = (uint32_t)(c->point_count - first);
+    p->closed = closed;
+}
+
+static bool is_inside(const clipper *c, const float p[2])
+{
+    return p[0] >= c->low[0] && p[0] <= c->high[0] && p[1] >= c->low[1] && p[1] <= c->high[1];
+}
+
+static void clip_dots(clipper *c, const sheet_path *path)
+{
+    size_t first = c->point_count;
+    for (uint32_t i = 0; i < path->count; i++) {
+        const float *p = c->from->points[path->first + i];
+        if (is_inside(c, p))
+            put_point(c, p[0], p[1]);
+    }
+    put_path(c, path, first, 1, false);
+}
+
+/* The part of a straight piece that lies inside, as shares; false: nothing. */
+static bool cut_piece(const clipper *c, const float a[2], const float b[2], float cut[2])
+{
+    cut[0] = 0;
+    cut[1] = 1;
+    for (int k = 0; k < 2; k++) {
+        float step = b[k] - a[k], low = c->low[k] - a[k], high = c->high[k] - a[k];
+        if (step == 0 && (low > 0 || high < 0))
+            return false;
+        if (step == 0)
+            continue;
+        float enter = (step > 0 ? low : high) / step, leave = (step > 0 ? high : low) / step;
+        cut[0] = enter > cut[0] ? enter : cut[0];
+        cut[1] = leave < cut[1] ? leave : cut[1];
+    }
+    return cut[0] < cut[1];
+}
+
+static void clip_line(clipper *c, const sheet_path *path)
+{
+    size_t first = c->point_count;
+    uint32_t pieces = path->closed ? path->count : path->count - 1;
+    for (uint32_t i = 0; i < pieces; i++) {
+        const float *a = c->from->points[path->first + i], *b = c->from->points[path->first + (i + 1) % path->count];
+        float cut[2];
+        if (!cut_piece(c, a, b, cut)) {
+            put_path(c, path, first, 2, false);
+            first = c->point_count;
+            continue;
+        }
+        if (c->point_count == first)
+            put_point(c, a[0] + cut[0] * (b[0] - a[0]), a[1] + cut[0] * (b[1] - a[1]));
+        put_point(c, a[0] + cut[1] * (b[0] - a[0]), a[1] + cut[1] * (b[1] - a[1]));
+        if (cut[1] < 1) {
+            put_path(c, path, first, 2, false);
+            first = c->point_count;
+        }
+    }
+    put_path(c, path, first, 2, false);
+}
+
+/* An area, cut at one side of the box after the other (Sutherland and Hodgman). */
+static void clip_area(clipper *c, const sheet_path *path)
+{
+    size_t begin = c->point_count;
+    for (uint32_t i = 0; i < path->count; i++)
+        put_point(c, c->from->points[path->first + i][0], c->from->points[path->first + i][1]);
+    for (int side = 0; side < 4 && !c->failed; side++) {
+        int axis = side / 2;
+        float limit = side & 1 ? c->high[axis] : c->low[axis], sign = side & 1 ? -1 : 1;
+        size_t from = begin, count = c->point_count - begin, next = c->point_count;
+        for (size_t i = 0; i < count && !c->failed; i++) {
+            const float a[2] = {c->points[from + i][0], c->points[from + i][1]};
+            const float b[2] = {c->points[from + (i + 1) % count][0], c->points[from + (i + 1) % count][1]};
+            float before = sign * (a[axis] - limit), after = sign * (b[axis] - limit);
+            if (before >= 0)
+                put_point(c, a[0], a[1]);
+            if ((before < 0) != (after < 0)) {
+                float share = before / (before - after);
+                put_point(c, a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
+            }
+        }
+        if (c->failed)
+            return;
+        size_t left = c->point_count - next;
+        memmove(c->points + begin, c->points + next, left * sizeof *c->points);
+        c->point_count = begin + left;
+    }
+    put_path(c, path, begin, 3, true);
+}
+
+static bool reaches_out(const clipper *c, const sheet_path *path)
+{
+    for (uint32_t i = 0; i < path->count; i++)
+        if (!is_inside(c, c->from->points[path->first + i]))
+            return true;
+    return false;
+}
+
+void sheet_clip(sheet *s, double x, double y, double width, double height)
+{
+    clipper c = {.from = s, .low = {(float)x, (float)y}, .high = {(float)(x + width), (float)(y + height)}};
+    bool any = false;
+    for (size_t i = 0; i < s->path_count && !any; i++)
+        any = reaches_out(&c, &s->paths[i]);
+    if (!any || s->failed)
+        return;
+    size_t kept = 0;
+    for (size_t i = 0; i < s->item_count; i++) {
+        sheet_item item = s->items[i];
+        size_t first = c.path_count;
+        bool has_paths = item.kind == SHEET_PATH || item.kind == SHEET_DOTS;
+        for (uint32_t k = 0; k < item.count && has_paths; k++) {
+            const sheet_path *path = &s->paths[item.first + k];
+            if (path->count == 0)
+                continue;
+            if (item.kind == SHEET_DOTS)
+                clip_dots(&c, path);
+            else if (path->filled)
+                clip_area(&c, path);
+            else if (reaches_out(&c, path))
+                clip_line(&c, path);
+            else {
+                size_t begin = c.point_count;
+                for (uint32_t n = 0; n < path->count; n++)
+                    put_point(&c, s->points[path->first + n][0], s->points[path->first + n][1]);
+                put_path(&c, path, begin, 1, path->closed);
+            }
+        }
+        if (has_paths) {
+            item.first = (uint32_t)first;
+            item.count = (uint32_t)(c.path_count - first);
+        }
+        if (!has_paths || item.count)
+            s->items[kept++] = item;
+    }
+    s->item_count = kept;
+    s->failed = s->failed || c.failed;
+    mem_free(s->paths);
+    mem_free(s->points);
+    s->paths = c.paths;
+    s->points = c.points;
+    s->path_count = c.path_count;
+    s->point_count = c.point_count;
+    s->path_capacity = c.path_capacity;
+    s->point_capacity = c.point_capacity;
+}
