@@ -24,6 +24,7 @@ typedef struct builder {
     edge_mesh  *mesh;
     uint32_t   *starts;  /* per vertex, and one more */
     half_edge  *halves;
+    uint8_t    *dropped; /* per face: 1: the same as another one */
     uint32_t   *origins; /* per face: its number before any were dropped; NULL: nobody asks */
     uint32_t   *pieces;  /* per face: another one of its piece, itself at the root */
     size_t      edge_capacity;
@@ -406,6 +407,24 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
     return flags == 0 || flags == CONVEX || put_edge(b, low, flags, group, count);
 }
 
+/* Calls for all edges, once their buckets are sorted; false ends it. */
+typedef bool (*edge_visit)(builder *b, uint32_t low, const half_edge *group, size_t count);
+
+static bool each_edge(builder *b, edge_visit visit)
+{
+    for (uint32_t v = 0; v < b->mesh->vertex_count; v++) {
+        const half_edge *bucket = b->halves + b->starts[v];
+        size_t size = b->starts[v + 1] - b->starts[v];
+        for (size_t begin = 0, end = 0; begin < size; begin = end) {
+            while (end < size && bucket[end].high == bucket[begin].high)
+                end++;
+            if (!visit(b, v, bucket + begin, end - begin))
+                return false;
+        }
+    }
+    return true;
+}
+
 static bool take_edges(builder *b)
 {
     edge_mesh *m = b->mesh;
@@ -413,39 +432,29 @@ static bool take_edges(builder *b)
     m->edge_count = m->all_edges = m->loose_edges = 0;
     for (uint32_t f = 0; f < m->face_count; f++)
         b->pieces[f] = f;
-    for (uint32_t v = 0; v < m->vertex_count; v++) {
-        half_edge *bucket = b->halves + b->starts[v];
-        size_t size = b->starts[v + 1] - b->starts[v];
-        sort_bucket(bucket, size);
-        for (size_t begin = 0, end = 0; begin < size; begin = end) {
-            while (end < size && bucket[end].high == bucket[begin].high)
-                end++;
-            if (!take_edge(b, v, bucket + begin, end - begin))
-                return false;
-        }
-    }
+    for (uint32_t v = 0; v < m->vertex_count; v++)
+        sort_bucket(b->halves + b->starts[v], b->starts[v + 1] - b->starts[v]);
+    return each_edge(b, take_edge);
+}
+
+static bool mark_twins(builder *b, uint32_t low, const half_edge *group, size_t count)
+{
+    (void)low;
+    for (size_t i = 0; i < count && count <= SHORT_BUCKET; i++)
+        for (size_t k = i + 1; k < count; k++)
+            if (have_same_corners(b->mesh->faces[group[i].corner / 3], b->mesh->faces[group[k].corner / 3]))
+                b->dropped[group[k].corner / 3] = 1;
     return true;
 }
 
-/* Drops faces that are there twice, whichever way round; Returns how many. */
-static uint32_t drop_twins(builder *b, uint8_t *dropped)
+/* Drops faces that are there twice, whichever way round. Returns how many. */
+static uint32_t drop_twins(builder *b)
 {
     edge_mesh *m = b->mesh;
-    for (uint32_t v = 0; v < m->vertex_count; v++) {
-        const half_edge *bucket = b->halves + b->starts[v];
-        size_t size = b->starts[v + 1] - b->starts[v];
-        for (size_t begin = 0, end = 0; begin < size; begin = end) {
-            while (end < size && bucket[end].high == bucket[begin].high)
-                end++;
-            for (size_t i = begin; i < end && end - begin <= SHORT_BUCKET; i++)
-                for (size_t k = i + 1; k < end; k++)
-                    if (have_same_corners(m->faces[bucket[i].corner / 3], m->faces[bucket[k].corner / 3]))
-                        dropped[bucket[k].corner / 3] = 1;
-        }
-    }
+    each_edge(b, mark_twins);
     uint32_t kept = 0;
     for (uint32_t f = 0; f < m->face_count; f++) {
-        if (dropped[f])
+        if (b->dropped[f])
             continue;
         memmove(m->faces[kept], m->faces[f], sizeof m->faces[f]);
         m->normals[kept] = m->normals[f];
@@ -463,20 +472,13 @@ static uint32_t drop_twins(builder *b, uint8_t *dropped)
 }
 
 /* A piece is closed when none of its edges is loose or passed the same way twice. */
-static void find_closed(builder *b)
+static bool open_pieces(builder *b, uint32_t low, const half_edge *group, size_t count)
 {
     edge_mesh *m = b->mesh;
-    for (uint32_t v = 0; v < m->vertex_count; v++) {
-        const half_edge *bucket = b->halves + b->starts[v];
-        size_t size = b->starts[v + 1] - b->starts[v];
-        for (size_t begin = 0, end = 0; begin < size; begin = end) {
-            while (end < size && bucket[end].high == bucket[begin].high)
-                end++;
-            bool fits = end - begin == 2 && (corner_vertex(m, bucket[begin].corner) == v) != (corner_vertex(m, bucket[begin + 1].corner) == v);
-            for (size_t i = begin; i < end && !fits; i++)
-                m->closed[m->pieces[bucket[i].corner / 3]] = false;
-        }
-    }
+    bool fits = count == 2 && (corner_vertex(m, group[0].corner) == low) != (corner_vertex(m, group[1].corner) == low);
+    for (size_t i = 0; i < count && !fits; i++)
+        m->closed[m->pieces[group[i].corner / 3]] = false;
+    return true;
 }
 
 /* Concave edges of closed pieces never are outlines. Which way round a piece is says its volume. */
@@ -507,11 +509,11 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
     if (!take_edges(b))
         return error_memory(error);
     if (b->has_twins) {
-        uint8_t *dropped = mem_calloc(m->face_count, 1);
-        if (!dropped)
+        b->dropped = mem_calloc(m->face_count, 1);
+        if (!b->dropped)
             return error_memory(error);
-        uint32_t gone = drop_twins(b, dropped);
-        mem_free(dropped);
+        uint32_t gone = drop_twins(b);
+        mem_free(b->dropped);
         if (gone) {
             fill_buckets(b);
             if (!take_edges(b))
@@ -523,7 +525,7 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
     double *volumes = number_pieces(b);
     if (!volumes)
         return error_memory(error);
-    find_closed(b);
+    each_edge(b, open_pieces);
     drop_concave(m, volumes);
     mem_free(volumes);
     return LMN_OK;
