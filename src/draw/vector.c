@@ -525,7 +525,9 @@ static void finish_page(vector_job *j)
     double     area[4] = {0, 0, s->page.width, s->page.height};
     if (j->wanted->frame)
         vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
-    sheet_clip(&s->page, area[0], area[1], area[2], area[3]);
+    bool cut = sheet_clip(&s->page, area[0], area[1], area[2], area[3]);
+    if (cut && j->wanted->scale && !j->wanted->views)
+        warnings_add(&s->warnings, WARNING_PAGE, "at %s the model reaches beyond the page", j->wanted->scale);
     if (s->page.item_count == 0)
         warnings_add(&s->warnings, WARNING_PAGE, "nothing of the model lies on the page");
     vector_put_frame(s, j->wanted, frame_ink(s->page.ground));

@@ -136,14 +136,14 @@ static bool reaches_out(const clipper *c, const sheet_path *path)
     return false;
 }
 
-void sheet_clip(sheet *s, double x, double y, double width, double height)
+bool sheet_clip(sheet *s, double x, double y, double width, double height)
 {
     clipper c = {.from = s, .low = {(float)x, (float)y}, .high = {(float)(x + width), (float)(y + height)}};
     bool any = false;
     for (size_t i = 0; i < s->path_count && !any; i++)
         any = reaches_out(&c, &s->paths[i]);
     if (!any || s->failed)
-        return;
+        return false;
     size_t kept = 0;
     for (size_t i = 0; i < s->item_count; i++) {
         sheet_item item = s->items[i];
@@ -183,4 +183,5 @@ void sheet_clip(sheet *s, double x, double y, double width, double height)
     s->point_count = c.point_count;
     s->path_capacity = c.path_capacity;
     s->point_capacity = c.point_capacity;
+    return true;
 }

@@ -85,7 +85,7 @@ void sheet_add_text(sheet *s, uint32_t group, colour ink, const char *utf8, doub
 void sheet_add_rectangle(sheet *s, uint32_t group, colour ink, double x, double y, double width, double height, double line_width);
 void sheet_add_line(sheet *s, uint32_t group, colour ink, const double a[2], const double b[2], double line_width);
 
-/* Cuts lines, areas and dots at a box: what lies outside is gone. Pictures and texts stay. */
-void sheet_clip(sheet *s, double x, double y, double width, double height);
+/* Cuts lines, areas and dots at a box: what lies outside is gone. Pictures and texts stay. True when there was anything outside. */
+bool sheet_clip(sheet *s, double x, double y, double width, double height);
 
 #endif
