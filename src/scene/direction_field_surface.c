@@ -1,6 +1,7 @@
 /* The surface below a field: positions joined, split at feature edges. */
 #include <string.h>
 
+#include "base/groups.h"
 #include "base/memory.h"
 #include "base/threads.h"
 #include "scene/direction_field_private.h"
@@ -143,22 +144,6 @@ static void agree_on_windings(field_surface *s, const primitive *m, uint32_t *qu
     }
 }
 
-static uint32_t root(uint32_t *parents, uint32_t c)
-{
-    while (parents[c] != c) {
-        parents[c] = parents[parents[c]];
-        c = parents[c];
-    }
-    return c;
-}
-
-static void join(uint32_t *parents, uint32_t a, uint32_t b)
-{
-    a = root(parents, a);
-    b = root(parents, b);
-    parents[a > b ? a : b] = a > b ? b : a;
-}
-
 /* Cuts the adjacency at features and joins corners over all other edges. */
 static void join_corners(field_surface *s, const primitive *m, uint32_t *parents, double cos_feature)
 {
@@ -176,8 +161,8 @@ static void join_corners(field_surface *s, const primitive *m, uint32_t *parents
             continue;
         }
         bool same = same_way(m, h, o);
-        join(parents, h, same ? o : next_corner(o));
-        join(parents, next_corner(h), same ? next_corner(o) : o);
+        group_join(parents, h, same ? o : next_corner(o));
+        group_join(parents, next_corner(h), same ? next_corner(o) : o);
     }
 }
 
@@ -185,7 +170,7 @@ static void join_corners(field_surface *s, const primitive *m, uint32_t *parents
 static void number_elements(field_surface *s, uint32_t *parents)
 {
     for (uint32_t c = 0; c < 3 * s->triangle_count; c++) {
-        uint32_t r = root(parents, c);
+        uint32_t r = group_root(parents, c);
         s->corners[c] = r == c ? s->element_count++ : s->corners[r];
     }
 }

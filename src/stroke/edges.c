@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/groups.h"
 #include "base/memory.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
@@ -241,25 +242,6 @@ static void fill_buckets(builder *b)
 
 /* --- pieces -------------------------------------------------------------------------------------------------------- */
 
-static uint32_t piece_root(uint32_t *pieces, uint32_t f)
-{
-    while (pieces[f] != f) {
-        pieces[f] = pieces[pieces[f]];
-        f = pieces[f];
-    }
-    return f;
-}
-
-static void join_pieces(uint32_t *pieces, uint32_t a, uint32_t b)
-{
-    a = piece_root(pieces, a);
-    b = piece_root(pieces, b);
-    if (a < b)
-        pieces[b] = a;
-    else
-        pieces[a] = b;
-}
-
 /* Six times the volume that a face closes off towards a point near it. */
 static double volume_of(const edge_mesh *m, uint32_t f, vec3 from)
 {
@@ -398,7 +380,7 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
     if (count == 2) {
         bool same_way = (corner_vertex(m, group[0].corner) == low) == (corner_vertex(m, group[1].corner) == low);
         flags = judge_pair(b, group[0].corner, group[1].corner, same_way);
-        join_pieces(b->pieces, group[0].corner / 3, group[1].corner / 3);
+        group_join(b->pieces, group[0].corner / 3, group[1].corner / 3);
         b->has_twins = b->has_twins || have_same_corners(m->faces[group[0].corner / 3], m->faces[group[1].corner / 3]);
     }
     b->has_twins = b->has_twins || count > 2;
@@ -521,7 +503,7 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
         }
     }
     for (uint32_t f = 0; f < m->face_count; f++)
-        b->pieces[f] = piece_root(b->pieces, f);
+        b->pieces[f] = group_root(b->pieces, f);
     double *volumes = number_pieces(b);
     if (!volumes)
         return error_memory(error);

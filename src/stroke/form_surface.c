@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/groups.h"
 #include "base/memory.h"
 #include "stroke/butterfly.h"
 #include "stroke/form_bend.h"
@@ -46,22 +47,6 @@ static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *er
     return LMN_OK;
 }
 
-static uint32_t root_of(uint32_t *links, uint32_t c)
-{
-    while (links[c] != c) {
-        links[c] = links[links[c]];
-        c = links[c];
-    }
-    return c;
-}
-
-static void join(uint32_t *links, uint32_t a, uint32_t b)
-{
-    a = root_of(links, a);
-    b = root_of(links, b);
-    links[a < b ? b : a] = a < b ? a : b;
-}
-
 /* Corners at one vertex that smooth edges connect share a knot. */
 static bool number_knots(form_surface *s, const edge_mesh *m)
 {
@@ -77,9 +62,9 @@ static bool number_knots(form_surface *s, const edge_mesh *m)
         links[c] = c;
     for (uint32_t h = 0; h < count; h++)
         if (s->opposite[h] != NO_HALF)
-            join(links, h, half_edge_next(s->opposite[h]));
+            group_join(links, h, half_edge_next(s->opposite[h]));
     for (uint32_t c = 0; c < count; c++) { /* a root comes before all that hang on it */
-        uint32_t root = root_of(links, c);
+        uint32_t root = group_root(links, c);
         if (root == c)
             s->vertices[s->knot_count] = m->faces[c / 3][c % 3];
         s->corners[c / 3][c % 3] = root == c ? s->knot_count++ : s->corners[root / 3][root % 3];

@@ -1,12 +1,7 @@
-/* What lies between marks: paper, in part the model's own lit colour. The marks are drawn over it: stipple.vert, marks_strokes.vert. */
-#include "light/light.glsl"
+/* What lies between marks: paper. The marks are drawn over it: stipple.vert, marks_strokes.vert. */
+#include "surface/halftone/paper_of.glsl"
 
 vec4 surface_colour(surface_point p)
 {
-    vec4 paper = vec4(u_paper.rgb * u_paper.a, u_paper.a);
-#ifdef WITH_PAPER_TINT
-    vec3 own = p.unlit ? p.albedo.rgb : p.albedo.rgb * min(0.25 + 0.75 * diffuse_light(p), vec3(1.0));
-    paper = mix(paper, vec4(own, 1.0), u_paper_tint);
-#endif
-    return paper;
+    return paper_of(p);
 }

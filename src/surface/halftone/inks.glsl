@@ -1,20 +1,11 @@
 /* Ink on paper. A technique has `float cover_of(float darkness, int ink)`: the share of the pixel that strokes of this darkness 0 … 1 cover, with an angle of
  * its own for each ink. */
 #include "surface/halftone/tone.glsl"
+#include "surface/halftone/paper_of.glsl"
 
 vec4 laid_over(vec4 paper, vec4 ink, float cover)
 {
     return mix(paper, ink, cover);
-}
-
-vec4 paper_of(surface_point p)
-{
-    vec4 paper = vec4(u_paper.rgb * u_paper.a, u_paper.a);
-#ifdef WITH_PAPER_TINT
-    vec3 own = p.unlit ? p.albedo.rgb : p.albedo.rgb * min(0.25 + 0.75 * diffuse_light(p), vec3(1.0));
-    paper = mix(paper, vec4(own, 1.0), u_paper_tint);
-#endif
-    return paper;
 }
 
 vec4 inked(surface_point p, float tone)
