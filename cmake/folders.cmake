@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base scene sheet technique light gpu construct csg halftone stroke import export layer lines surface perturb compose finish look draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique light gpu construct csg halftone stroke import export layer lines surface perturb compose finish look draw api)
 
 set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 
@@ -13,10 +13,14 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     add_library(limner_${folder} OBJECT ${sources})
     target_include_directories(limner_${folder} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(limner_${folder} PRIVATE PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG
-                                                   PkgConfig::WEBP PkgConfig::DEFLATE PkgConfig::ASSIMP PkgConfig::GLU)
+                                                   PkgConfig::WEBP PkgConfig::ZLIB PkgConfig::DEFLATE PkgConfig::ASSIMP PkgConfig::GLU)
     # Only what reads drawings sees the XML library.
     if(folder STREQUAL halftone)
       target_link_libraries(limner_${folder} PRIVATE PkgConfig::XML)
+    endif()
+    if(folder STREQUAL fence AND SECCOMP_FOUND)
+      target_compile_definitions(limner_${folder} PRIVATE LIMNER_HAVE_SECCOMP)
+      target_link_libraries(limner_${folder} PRIVATE PkgConfig::SECCOMP)
     endif()
     # Only what writes PDF sees the libraries for it.
     if(folder STREQUAL export)
@@ -34,7 +38,7 @@ endforeach()
 # The one C++ file, with its own warning flags.
 if(LIMNER_DRACO)
   target_compile_definitions(limner_import PRIVATE LIMNER_HAVE_DRACO)
-  add_library(limner_draco OBJECT ${CMAKE_SOURCE_DIR}/src/import/draco.cpp)
+  add_library(limner_draco OBJECT ${CMAKE_SOURCE_DIR}/src/import/draco_decode.cpp)
   set_target_properties(limner_draco PROPERTIES CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden COMPILE_OPTIONS "-Wall;-Wextra")
   target_include_directories(limner_draco PRIVATE ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
   target_include_directories(limner_draco SYSTEM PRIVATE ${DRACO_INCLUDE})
@@ -57,7 +61,10 @@ target_include_directories(limner_embedded PRIVATE ${CMAKE_SOURCE_DIR}/include $
 target_link_libraries(limner PRIVATE limner_embedded)
 list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 
-set(LIMNER_LIBRARIES PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::DEFLATE
+if(SECCOMP_FOUND)
+  set(LIMNER_SECCOMP PkgConfig::SECCOMP)
+endif()
+set(LIMNER_LIBRARIES ${LIMNER_SECCOMP} PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::ZLIB PkgConfig::DEFLATE
     PkgConfig::ASSIMP PkgConfig::GLU PkgConfig::XML ${LIMNER_SHAPE_LIBRARIES} PkgConfig::CAIRO PkgConfig::PANGO ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)

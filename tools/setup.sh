@@ -6,11 +6,12 @@ set -euo pipefail
 packages=(build-essential cmake ninja-build pkg-config
           libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
           libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
-          libpng-dev libjpeg-dev libwebp-dev libdeflate-dev libglu1-mesa-dev
+          libpng-dev libjpeg-dev libwebp-dev zlib1g-dev libdeflate-dev libglu1-mesa-dev
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
-          libxml2-dev
+          libxml2-dev libseccomp-dev
           libcairo2-dev libpango1.0-dev
-          libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium)
+          libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium
+          clang libclang-rt-dev llvm)
 
 if ! command -v dpkg-query > /dev/null; then
     echo "This is no Debian system; install what docs/DEPENDENCIES.md lists, then run this again." >&2

@@ -1,5 +1,6 @@
 /* limner bench: how long looks take, measured against `plain` in the same process. */
 #include "cli.h"
+#include "task.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,6 +12,7 @@ typedef struct bench_values {
     option_vector eye, target;
     int           view, up_axis;
     bool          orthographic, json, quiet;
+    task_values   task;
 } bench_values;
 
 static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
@@ -27,6 +29,7 @@ static const option options[] = {
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.", .choices = up_axis_choices},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "Write JSON (docs/reference/bench.md)."},
+    TASK_OPTIONS(bench_values),
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No progress."},
 };
 
@@ -99,13 +102,17 @@ static int run(const word_list *inputs, const void *values)
 {
     const bench_values *v = values;
     lmn_scene *scene = NULL;
+    lmn_task *task;
     char *text = NULL;
     progress bar;
     progress_begin(&bar, v->quiet);
-    int status = scene_of_files(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &bar);
+    int status = task_begin(&task, &v->task, &bar);
+    if (status == EXIT_DONE)
+        status = scene_of_files(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &bar);
     if (status == EXIT_DONE)
         status = measure(v, scene, &bar, &text);
     lmn_scene_destroy(&scene);
+    lmn_task_end(&task);
     if (status != EXIT_DONE)
         return status;
     if (v->json)

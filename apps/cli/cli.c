@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const command *const commands[] = {&command_draw, &command_info, &command_looks, &command_strokes, &command_bench, &command_doctor};
 
@@ -15,7 +16,29 @@ lmn_up_axis up_axis_of(int choice)
     return choice < 0 ? LMN_UP_AUTO : choice == 0 ? LMN_UP_Y : LMN_UP_Z;
 }
 
+static bool is_program(const char *path)
+{
+    size_t length = strlen(path);
+    return length >= 5 && strcasecmp(path + length - 5, ".scad") == 0;
+}
+
+int check_programs(const word_list *inputs, const program_wishes *programs)
+{
+    bool any = false;
+    for (size_t i = 0; i < inputs->count; i++)
+        any = any || is_program(inputs->items[i]);
+    if (any || (!programs->defines->count && !programs->strict))
+        return EXIT_DONE;
+    return message_usage(NULL, "--%s goes with OpenSCAD programs (.scad); '%s' is none", programs->strict ? "strict" : "define", inputs->items[0]);
+}
+
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p)
+{
+    const word_list none = {0};
+    return scene_of_programs(out, paths, count, up, &(program_wishes){&none, false}, p);
+}
+
+int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_wishes *programs, progress *p)
 {
     lmn_error error = {0};
     lmn_load_desc desc = LMN_LOAD_DESC_INIT;
@@ -24,7 +47,11 @@ int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_
     desc.progress_user = p;
     lmn_status status = lmn_scene_create(out, &error);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        bool program = is_program(paths[i]);
         p->label = paths[i];
+        desc.defines = programs->defines->items;
+        desc.define_count = program ? programs->defines->count : 0;
+        desc.strict = program && programs->strict;
         status = lmn_scene_add_file(*out, paths[i], &desc, &error);
     }
     progress_erase(p);
@@ -146,6 +173,7 @@ static int run(int count, char **arguments)
 int main(int count, char **arguments)
 {
     int status = run(count, arguments);
+    progress_end();
     if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)
         status = message_output("standard output", strerror(errno));
     return status;

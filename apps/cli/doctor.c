@@ -98,6 +98,25 @@ static void print_values(const json_t *value, int indent)
     }
 }
 
+/* {"time": {"standard": "600s", "safe": "30s", "doc": …}, …} */
+static json_t *list_limits(void)
+{
+    json_t *list = json_object();
+    lmn_limit_info info;
+    for (size_t i = 0; lmn_limit_at(i, &info); i++)
+        json_object_set_new(list, info.name, json_pack("{s:s, s:s, s:s}", "standard", info.standard, "safe", info.safe, "doc", info.doc));
+    return list;
+}
+
+static void print_limits(const json_t *list)
+{
+    const char *name;
+    json_t *limit;
+    printf("\nlimits (--limit NAME=VALUE)    standard   --safe\n");
+    json_object_foreach ((json_t *)list, name, limit)
+        printf("  %-28s %-10s %s\n", name, text_at(limit, "standard", ""), text_at(limit, "safe", ""));
+}
+
 static int print_report(json_t *root, bool as_json, bool usable)
 {
     if (as_json) {
@@ -109,6 +128,9 @@ static int print_report(json_t *root, bool as_json, bool usable)
     printf("limner %s\n", text_at(root, "limner", ""));
     if (usable) {
         print_values(json_object_get(root, "gl"), 0);
+        printf("\ndecoders\n");
+        print_values(json_object_get(root, "decoders"), 2);
+        print_limits(json_object_get(root, "limits"));
         printf("\nLimner can draw here.\n");
         return EXIT_DONE;
     }
@@ -145,6 +167,8 @@ static int run(const word_list *inputs, const void *values)
         put_remedy(root, missing);
     }
     json_object_set_new(root, "missing", missing);
+    json_object_set_new(root, "decoders", json_pack("{s:s}", "fence", lmn_fence_kind()));
+    json_object_set_new(root, "limits", list_limits());
     lmn_renderer_destroy(&renderer);
     int status = print_report(root, v->json, usable);
     json_decref(root);

@@ -1,11 +1,13 @@
 /* limner draw: models into pictures. */
 #include "cli.h"
 #include "names.h"
+#include "task.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 typedef struct draw_values {
@@ -16,7 +18,9 @@ typedef struct draw_values {
     option_vector eye, target, up;
     option_number fov, fit, time, seed, samples;
     int           view, up_axis, angle;
-    bool          orthographic, quiet, verbose, frame, plotter, fill, verify;
+    word_list     defines;
+    bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict;
+    task_values   task;
 } draw_values;
 
 static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
@@ -48,8 +52,8 @@ static const option options[] = {
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
     {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
     {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Share of the frame that the model fills. Default: 0.9.", 0.01, 10},
-    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "Time on the scene's animation. Default: 0.", -1e9, 1e9},
-    {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS", "One picture a frame; frame i is at i/FPS seconds."},
+    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "Time of what changes by itself (perturb.boil, surface.change); animations are not posed yet. Default: 0.", -1e9, 1e9},
+    {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS", "One picture a frame; frame i is at i/FPS seconds, and something must change with time."},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
     {"samples", 0, OPTION_WHOLE, AT(samples), "N", "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1.", 1, 64},
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
@@ -67,6 +71,10 @@ static const option options[] = {
     {"verify", 0, OPTION_FLAG, AT(verify), NULL, "Check the visibility of a vector drawing's lines by casting rays; the report has the result."},
     {"aov", 0, OPTION_TEXT, AT(maps), "DIR", "Write depth, normal, id, edge and shade maps into this folder, of sketches the field of uncertainty, too."},
     {"report", 0, OPTION_TEXT, AT(report), "FILE|-", "Write what was drawn as JSON."},
+    TASK_OPTIONS(draw_values),
+    {"define", 'D', OPTION_LIST, AT(defines), "NAME=VALUE", "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
+    {"strict", 0, OPTION_FLAG, AT(strict), NULL, "Of OpenSCAD programs: warnings are errors."},
+    {"lenient", 0, OPTION_FLAG, AT(lenient), NULL, "Draw what can be drawn and warn of the rest, instead of refusing it."},
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No warnings and no progress."},
     {"verbose", 'v', OPTION_FLAG, AT(verbose), NULL, "Say what is done and how long it takes."},
 };
@@ -138,12 +146,43 @@ static void find_format(session *s)
 static int check_format(const session *s)
 {
     const draw_values *v = s->values;
+    const char *dot = v->output ? strrchr(v->output, '.') : NULL;
+    if (knows_format(s->ending) && v->format && dot && knows_format(dot) && strcmp(dot, s->ending) != 0)
+        return message_usage(NULL, "the name '%s' says %s and --format says %s", v->output, dot + 1, s->ending + 1);
     if (knows_format(s->ending))
         return EXIT_DONE;
     if (v->format)
         return message_usage("the format is png, svg, pdf or dxf", "--format is '%s'; there is no such format", v->format);
     return message_usage("the ending says the format: .png, .svg, .pdf or .dxf; --format says it whatever the ending",
                          "%s: cannot tell the format from '%s'", v->output, *s->ending ? s->ending : v->output);
+}
+
+/* Options that the others given leave without effect. */
+static int check_effect(const session *s)
+{
+    const draw_values *v = s->values;
+    bool dxf = strcmp(s->ending, ".dxf") == 0;
+    const struct {
+        bool        given;
+        const char *name, *why;
+    } rows[] = {
+        {v->samples.given && s->vectors && (dxf || v->plotter || v->fill), "samples", "goes with pictures; here are lines and areas alone"},
+        {v->background && dxf, "background", "does not go with .dxf, which has no ground"},
+        {v->fill && dxf, "fill", "does not go with .dxf, which has lines alone"},
+        {v->fill && v->plotter, "fill", "does not go with --plotter, which draws lines alone"},
+        {v->title && dxf && !v->frame, "title", "needs --frame in .dxf, which has no title of its own"},
+        {v->angle >= 0 && !v->views, "projection", "says how --views lie, and there are none"},
+        {v->verify && !v->report, "verify", "puts its result into the report; add --report FILE"},
+        {v->fit.given && v->eye.given, "fit", "does not go with --eye, which says how near the model is"},
+        {v->fit.given && v->camera, "fit", "does not go with --camera, which says how near the model is"},
+        {v->fit.given && v->views, "fit", "does not go with --views, which fill the page"},
+        {v->fit.given && v->scale, "fit", "does not go with --scale"},
+        {v->orthographic && v->camera, "ortho", "does not go with --camera, which has a projection of its own"},
+    };
+    for (size_t i = 0; i < OPTION_COUNT(rows); i++)
+        if (rows[i].given)
+            return message_usage(NULL, "--%s %s", rows[i].name, rows[i].why);
+    return EXIT_DONE;
 }
 
 /* Options of one kind of drawing that the other has not. */
@@ -160,6 +199,9 @@ static int check_vectors(const session *s)
             return message_usage("for example -o drawing.svg", "--%s goes with vector drawings: .svg, .pdf or .dxf", sheet_only[i].name);
     if (s->vectors && v->maps)
         return message_usage("draw a .png for them", "--aov goes with pictures");
+    int status = check_effect(s);
+    if (status != EXIT_DONE)
+        return status;
     if (v->views && (v->view >= 0 || v->eye.given || v->camera))
         return message_usage(NULL, "--views excludes --view, --eye and --camera");
     if (v->views && v->fov.given)
@@ -179,11 +221,46 @@ static int check_samples(const option_number *samples)
     return message_usage(NULL, "--samples is '%d'; allowed is a square number: 1, 4, 9, 16, 25, 36, 49 or 64", (int)samples->value);
 }
 
+/* {word} in a name is one of its places. */
+static int check_places(const char *option_name, const char *pattern)
+{
+    int         length;
+    const char *place = name_unknown_place(pattern, &length);
+    if (!place)
+        return EXIT_DONE;
+    if (strncmp(place, "{view}", 6) == 0)
+        return message_usage("draw one view at a time with --view, or a sheet with --views", "--%s has {view}, but there is one picture for all views", option_name);
+    return message_usage("allowed are " NAME_PLACE " and " FRAME_PLACE, "--%s has %.*s, which stands for nothing", option_name, length < 60 ? length : 60, place);
+}
+
+static bool is_same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return a && b && strcmp(a, "-") != 0 && strcmp(b, "-") != 0 &&
+           (strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 && S_ISREG(one.st_mode) && one.st_dev == other.st_dev && one.st_ino == other.st_ino));
+}
+
+/* What is written must not be what is read, nor be written over. */
+static int check_overwriting(const draw_values *v, const word_list *inputs)
+{
+    const char *written[] = {v->output, v->report};
+    for (size_t i = 0; i < inputs->count; i++)
+        for (int k = 0; k < 2; k++)
+            if (is_same_file(written[k], inputs->items[i]))
+                return message_usage(NULL, "--%s is '%s', which is an input", k ? "report" : "output", written[k]);
+    if (is_same_file(v->output, v->report))
+        return message_usage(NULL, "--output and --report are the same file");
+    return EXIT_DONE;
+}
+
 /* Several pictures must not overwrite each other's side files. */
 static int check_side_name(const session *s, const char *option_name, const char *pattern)
 {
     if (!pattern || strcmp(pattern, "-") == 0)
         return EXIT_DONE;
+    int status = check_places(option_name, pattern);
+    if (status != EXIT_DONE)
+        return status;
     if (name_has_frame(pattern) && !s->frames.given)
         return message_usage(NULL, "--%s has {frame}, but there is no --frames", option_name);
     if (s->frames.given && !name_has_frame(pattern))
@@ -211,6 +288,10 @@ static int check_output(const session *s, const word_list *inputs)
     int status = check_format(s);
     if (status == EXIT_DONE)
         status = check_vectors(s);
+    if (status == EXIT_DONE)
+        status = check_places("output", v->output);
+    if (status == EXIT_DONE)
+        status = check_overwriting(v, inputs);
     if (status == EXIT_DONE)
         status = check_side_name(s, "report", v->report);
     return status == EXIT_DONE ? check_side_name(s, "aov", v->maps) : status;
@@ -246,13 +327,33 @@ static int set_one(lmn_look *look, const char *assignment)
     return message_error(&error);
 }
 
+static bool sets_same_key(const char *a, const char *b)
+{
+    size_t length = strcspn(a, "=");
+    return length == strcspn(b, "=") && strncmp(a, b, length) == 0;
+}
+
+/* Of two values for one key, one would be dropped in silence. */
+static int check_set_once(const draw_values *v, size_t index)
+{
+    const char *own = v->sets.items[index];
+    if (v->cut && sets_same_key(own, "scene.cut="))
+        return message_usage(NULL, "--cut and --set scene.cut exclude each other");
+    for (size_t i = 0; i < index; i++)
+        if (sets_same_key(own, v->sets.items[i]))
+            return message_usage(NULL, "--set %.*s is given twice; it holds one value", (int)strcspn(own, "="), own);
+    return EXIT_DONE;
+}
+
 static int load_look(session *s)
 {
     lmn_error error = {0};
     if (lmn_look_load(&s->look, s->values->look ? s->values->look : "edges", &error) != LMN_OK)
         return message_error(&error);
     for (size_t i = 0; i < s->values->sets.count; i++) {
-        int status = set_one(s->look, s->values->sets.items[i]);
+        int status = check_set_once(s->values, i);
+        if (status == EXIT_DONE)
+            status = set_one(s->look, s->values->sets.items[i]);
         if (status != EXIT_DONE)
             return status;
     }
@@ -280,6 +381,7 @@ static void fill_desc(session *s)
     d.samples = v->samples.given ? (int)v->samples.value : d.samples;
     d.background = v->background;
     d.select = v->select;
+    d.lenient = v->lenient;
     d.maps = v->maps != NULL;
     d.profile = v->report != NULL;
     d.progress = progress_report;
@@ -425,11 +527,23 @@ static bool is_final(int status)
     return status == EXIT_GL || status == EXIT_CANCELLED || status == EXIT_INTERNAL;
 }
 
+/* The last frame is refused before the first is drawn. */
+static int check_last_frame(const session *s, const lmn_scene *scene)
+{
+    lmn_error     error = {0};
+    lmn_draw_desc last = s->desc;
+    if (!s->frames.given)
+        return EXIT_DONE;
+    last.time_s = (double)s->frames.last / s->frames.rate;
+    return lmn_draw_check(scene, s->look, &last, s->vectors, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
+}
+
 static int draw_scene(session *s, const char *const *paths, size_t count)
 {
     lmn_scene *scene = NULL;
     double start = now_ms();
-    int status = scene_of_files(&scene, paths, count, up_axis_of(s->values->up_axis), &s->progress);
+    const program_wishes programs = {&s->values->defines, s->values->strict};
+    int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
         return status;
     double load_ms = now_ms() - start;
@@ -444,6 +558,8 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
             status = message_error(&error);
     }
     place_eye(s, scene);
+    if (status == EXIT_DONE)
+        status = check_last_frame(s, scene);
     s->progress.label = paths[0];
     for (long i = s->frames.first; i <= s->frames.last && status == EXIT_DONE; i++)
         status = draw_picture(s, scene, paths[0], i, load_ms);
@@ -472,14 +588,22 @@ static int run(const word_list *inputs, const void *values)
     if (status == EXIT_DONE)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
+        status = check_programs(inputs, &(program_wishes){&v->defines, v->strict});
+    if (status == EXIT_DONE)
         status = load_look(&s);
+    if (status == EXIT_DONE && v->samples.given && s.vectors && !lmn_look_needs_pixels(s.look))
+        status = message_usage(NULL, "--samples goes with pictures; with this look there are lines alone");
     char standard[64];
     snprintf(standard, sizeof standard, "%s%s", s.frames.given ? NAME_PLACE "-" FRAME_PLACE : NAME_PLACE, s.ending);
     s.pattern = v->output ? v->output : standard;
     progress_begin(&s.progress, v->quiet);
     fill_desc(&s);
+    lmn_task *task = NULL;
+    if (status == EXIT_DONE)
+        status = task_begin(&task, &v->task, &s.progress);
     if (status == EXIT_DONE)
         status = draw_all(&s, inputs);
+    lmn_task_end(&task);
     lmn_renderer_destroy(&s.renderer);
     lmn_look_destroy(&s.look);
     return status;

@@ -1,18 +1,24 @@
 /* limner info: what is in a model. */
 #include "cli.h"
+#include "task.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct info_values {
-    bool json;
-    int  up_axis;
+    bool        json, strict;
+    int         up_axis;
+    word_list   defines;
+    task_values task;
 } info_values;
 
 static const option options[] = {
     {"json", 0, OPTION_FLAG, offsetof(info_values, json), NULL, "Write JSON (docs/reference/info.md)."},
+    TASK_OPTIONS(info_values),
     {"up-axis", 0, OPTION_CHOICE, offsetof(info_values, up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
+    {"define", 'D', OPTION_LIST, offsetof(info_values, defines), "NAME=VALUE", "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
+    {"strict", 0, OPTION_FLAG, offsetof(info_values, strict), NULL, "Of OpenSCAD programs: warnings are errors."},
 };
 
 static void print_bounds(const json_t *bounds, const char *indent)
@@ -149,13 +155,13 @@ static void print_table(const json_t *root)
         message_warning(text_at(item, "text", ""), (size_t)number_at(item, "count", 1));
 }
 
-static int run(const word_list *inputs, const void *values)
+static int tell(const word_list *inputs, const info_values *v, progress *bar)
 {
-    const info_values *v = values;
     lmn_scene *scene = NULL;
-    progress bar;
-    progress_begin(&bar, v->json);
-    int status = scene_of_files(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &bar);
+    const program_wishes programs = {&v->defines, v->strict};
+    int status = check_programs(inputs, &programs);
+    if (status == EXIT_DONE)
+        status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, bar);
     if (status != EXIT_DONE)
         return status;
     char *text = lmn_scene_info_json(scene);
@@ -169,6 +175,19 @@ static int run(const word_list *inputs, const void *values)
         json_decref(root);
     }
     lmn_scene_destroy(&scene);
+    return status;
+}
+
+static int run(const word_list *inputs, const void *values)
+{
+    const info_values *v = values;
+    lmn_task *task;
+    progress bar;
+    progress_begin(&bar, v->json);
+    int status = task_begin(&task, &v->task, &bar);
+    if (status == EXIT_DONE)
+        status = tell(inputs, v, &bar);
+    lmn_task_end(&task);
     return status;
 }
 

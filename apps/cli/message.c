@@ -1,13 +1,21 @@
 #include "message.h"
 
+#include <pthread.h>
+#include <semaphore.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
-/* The one thing that a signal handler may write. */
+enum { CANCEL_NS = 150000000 };
+
+/* What a signal handler may write: that there was a signal, and who waits for one. */
 static volatile sig_atomic_t interrupted;
+static sem_t wake;
+static pthread_t guard_thread;
+static bool guarded;
 
 int message_exit_status(lmn_status status)
 {
@@ -98,16 +106,57 @@ static void on_interrupt(int signal_number)
 {
     (void)signal_number;
     interrupted = 1;
+    sem_post(&wake);
+}
+
+/* Ends the process where the work does not listen. Only calls that are safe whatever the other threads are doing. */
+static void *guard(void *unused)
+{
+    static const char line[] = "\r\033[Klimner: cancelled\n";
+    struct timespec left = {0, CANCEL_NS};
+    (void)unused;
+    while (sem_wait(&wake) != 0)
+        ;
+    if (!interrupted)
+        return NULL; /* the command is done */
+    while (nanosleep(&left, &left) != 0)
+        ;
+    bool terminal = isatty(STDERR_FILENO) != 0;
+    size_t skip = terminal ? 0 : strlen("\r\033[K");
+    if (write(STDERR_FILENO, line + skip, sizeof line - 1 - skip) < 0)
+        _exit(EXIT_CANCELLED);
+    _exit(EXIT_CANCELLED);
+    return NULL;
 }
 
 void progress_begin(progress *p, bool quiet)
 {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART}, before;
     sigemptyset(&action.sa_mask);
-    /* A second Ctrl-C ends the command at once, should the work not listen. */
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    guarded = sem_init(&wake, 0, 0) == 0 && pthread_create(&guard_thread, NULL, guard, NULL) == 0;
+    if (!guarded)
+        action.sa_flags |= (int)SA_RESETHAND; /* a second signal ends the command at once then */
+    /* nohup sets SIGHUP aside, and it stays so; shells do it with SIGINT for what runs in the background, where somebody who sends it means it. */
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        if (sigaction(signals[i], NULL, &before) == 0 && (signals[i] != SIGHUP || before.sa_handler != SIG_IGN))
+            sigaction(signals[i], &action, NULL);
     *p = (progress){.shown = !quiet && isatty(STDERR_FILENO), .label = "", .last_permille = -1};
+}
+
+void progress_end(void)
+{
+    if (!guarded || interrupted)
+        return; /* with a signal on its way, the thread ends the process or is ended with it */
+    guarded = false;
+    sem_post(&wake);
+    pthread_join(guard_thread, NULL);
+}
+
+bool progress_poll(double fraction, const char *stage, void *user)
+{
+    (void)fraction, (void)stage, (void)user;
+    return !interrupted;
 }
 
 bool progress_report(double fraction, const char *stage, void *user)

@@ -43,8 +43,14 @@ typedef struct progress {
     int         last_permille;
 } progress;
 
+/* From here on SIGINT, SIGTERM and SIGHUP cancel. What does not end by itself within 0.15 s, such as a driver that compiles, or a
+ * pipe that nobody reads, ends with the process; files are whole or not there in any case. */
 void progress_begin(progress *p, bool quiet);
+/* Before the process ends: nobody waits for signals any more. */
+void progress_end(void);
 bool progress_report(double fraction, const char *stage, void *user);
+/* The same for who only asks whether to go on. */
+bool progress_poll(double fraction, const char *stage, void *user);
 void progress_erase(progress *p);
 
 /* Was Ctrl-C pressed since progress_begin? */

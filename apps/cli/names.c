@@ -14,6 +14,18 @@ bool name_has_frame(const char *pattern)
     return pattern && strstr(pattern, FRAME_PLACE);
 }
 
+const char *name_unknown_place(const char *pattern, int *length)
+{
+    for (const char *at = pattern ? strchr(pattern, '{') : NULL; at; at = strchr(at + 1, '{')) {
+        size_t letters = strspn(at + 1, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-");
+        bool   known = strncmp(at, NAME_PLACE, strlen(NAME_PLACE)) == 0 || strncmp(at, FRAME_PLACE, strlen(FRAME_PLACE)) == 0;
+        *length = (int)letters + 2;
+        if (letters > 0 && at[letters + 1] == '}' && !known)
+            return at;
+    }
+    return NULL;
+}
+
 /* First character of the stem and its length. */
 static const char *stem_at(const char *path, size_t *length)
 {

@@ -10,6 +10,9 @@
 bool name_has_name(const char *pattern);
 bool name_has_frame(const char *pattern);
 
+/* The first {word} of a name that is none of its places: `*length` characters, braces too; NULL: there is none. */
+const char *name_unknown_place(const char *pattern, int *length);
+
 /* The path's last part without its ending; free() it. NULL when memory is gone. */
 char *name_stem(const char *path);
 

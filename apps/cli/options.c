@@ -17,6 +17,7 @@ typedef struct parser {
     int            count, next;
     void          *values;
     word_list     *inputs;
+    bool          *given; /* by option */
     bool           help;
 } parser;
 
@@ -169,9 +170,22 @@ static int set_choice(const option *o, const char *value, int *out)
     return wrong_value(o, value, allowed);
 }
 
+/* Of two values one would be dropped in silence. */
+static int check_once(const parser *p, const option *o)
+{
+    size_t index = (size_t)(o - p->command->options);
+    if (p->given[index] && o->type != OPTION_LIST && o->type != OPTION_FLAG)
+        return message_usage(NULL, "--%s is given twice; it holds one value", o->name);
+    p->given[index] = true;
+    return 0;
+}
+
 static int set_option(const parser *p, const option *o, const char *value)
 {
     void *field = (char *)p->values + o->offset;
+    int   status = check_once(p, o);
+    if (status)
+        return status;
     switch (o->type) {
     case OPTION_FLAG: *(bool *)field = true; return 0;
     case OPTION_TEXT:
@@ -268,11 +282,14 @@ static int parse_all(parser *p)
 
 int options_parse(const command *c, int count, char **arguments, void *values, word_list *inputs, bool *help)
 {
-    parser p = {.command = c, .arguments = arguments, .count = count, .values = values, .inputs = inputs};
+    parser p = {.command = c, .arguments = arguments, .count = count, .values = values, .inputs = inputs, .given = calloc(c->option_count + 1, sizeof *p.given)};
+    if (!p.given)
+        return message_out_of_memory();
     for (size_t i = 0; i < c->option_count; i++)
         if (c->options[i].type == OPTION_CHOICE)
             *(int *)((char *)values + c->options[i].offset) = -1;
     int status = parse_all(&p);
+    free(p.given);
     *help = p.help;
     if (status || p.help)
         return p.help ? 0 : status;

@@ -52,10 +52,11 @@ typedef struct lmn_draw_desc {
     bool            profile;            /* time each pass in an extra frame */
     lmn_progress_fn progress;           /* NULL: silent */
     void           *progress_user;
+    bool            lenient;            /* what cannot be drawn is left out with a warning; else it is refused */
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT \
     {sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0, 0.9, \
-     0.0, 0, 1, NULL, NULL, false, false, NULL, NULL}
+     0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false}
 
 /* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.
  * A renderer belongs to the thread that made it. Errors: LMN_USAGE (desc), LMN_GL, LMN_MEMORY. */
@@ -67,9 +68,13 @@ LMN_API void lmn_renderer_destroy(lmn_renderer **renderer);
 /* The driver as JSON: versions, limits, paths, extensions used. Free with lmn_text_free. NULL when memory is gone. */
 LMN_API char *lmn_renderer_json(const lmn_renderer *renderer);
 
+/* Would drawing these be refused, as far as that can be told without drawing? `vectors`: by lmn_draw_sheet. For those who draw many pictures.
+ * Errors: LMN_USAGE. */
+LMN_API lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors, lmn_error *error);
+
 /* Draws. The result owns its pixels and its report; end it with lmn_drawing_destroy. The renderer keeps GPU copies of
  * the scene until another scene is drawn.
- * Errors: LMN_USAGE (desc, selector), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
+ * Errors: LMN_USAGE (desc, selector, a time that changes nothing), LMN_UNSUPPORTED (what the look cannot draw), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
 LMN_API lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                             const lmn_draw_desc *desc, lmn_error *error);
 

@@ -4,11 +4,13 @@
 
 #include "limner/draw.h"
 #include "limner/error.h"
+#include "limner/limits.h"
 #include "limner/look.h"
 #include "limner/scene.h"
 #include "limner/sheet.h"
 #include "limner/solid.h"
 #include "limner/strokes.h"
+#include "limner/task.h"
 #include "limner/version.h"
 
 #endif

@@ -19,8 +19,12 @@ typedef struct lmn_load_desc {
     lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY are +Y up, STL and OpenSCAD +Z */
     lmn_progress_fn progress;    /* NULL: silent */
     void           *progress_user;
+    /* Of OpenSCAD programs (.scad) alone; refused with others. */
+    const char *const *defines;  /* "NAME=VALUE": variables that replace those of the program */
+    size_t             define_count;
+    bool               strict;   /* openscad's warnings are errors */
 } lmn_load_desc;
-#define LMN_LOAD_DESC_INIT {sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL}
+#define LMN_LOAD_DESC_INIT {sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false}
 
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */
 typedef struct lmn_scene_info {

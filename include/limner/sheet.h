@@ -36,7 +36,7 @@ LMN_API bool lmn_look_needs_pixels(const lmn_look *look);
 
 /* Draws a sheet. Sizes in pixels of the description and the look are of 1/96 inch. `renderer` may be NULL; then surfaces that need pixels are left out, with a warning. `maps`,
  * `profile` do not matter; `samples` does for pictures below the lines. End it with lmn_sheet_destroy.
- * Errors: LMN_USAGE (descriptions, selector), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
+ * Errors: LMN_USAGE (descriptions, selector, sections, a time, a scale that leaves the page empty), LMN_UNSUPPORTED (solids), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
 LMN_API lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                                   const lmn_sheet_desc *sheet, lmn_error *error);
 

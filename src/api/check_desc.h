@@ -7,4 +7,7 @@
 /* Errors: LMN_USAGE. */
 lmn_status check_draw_desc(const lmn_draw_desc *desc, lmn_error *error);
 
+/* Has the picture no more pixels than the current work may draw? Errors: LMN_LIMIT. */
+lmn_status check_pixels(const lmn_draw_desc *desc, lmn_error *error);
+
 #endif

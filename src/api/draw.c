@@ -8,10 +8,13 @@
 #include "api/check_desc.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_store.h"
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/work.h"
 #include "draw/maps.h"
+#include "draw/refuse.h"
 #include "export/export.h"
 #include "limner/version.h"
 
@@ -75,6 +78,24 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
     return status;
 }
 
+lmn_status check_pixels(const lmn_draw_desc *d, lmn_error *error)
+{
+    uint64_t pixels = (uint64_t)d->width * (uint64_t)d->height * (uint64_t)d->samples, most = work_limits().pixels;
+    if (!most || pixels <= most)
+        return LMN_OK;
+    return work_exceeded(error, "pixels", "a picture of %dx%d pixels with %d samples each has %llu in all; allowed are %llu", d->width, d->height,
+                         d->samples, (unsigned long long)pixels, (unsigned long long)most);
+}
+
+lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors, lmn_error *error)
+{
+    if (!scene || !look)
+        return error_set(error, LMN_USAGE, "a scene and a look are needed to draw");
+    lmn_status status = check_draw_desc(desc, error);
+    refusal    r = {scene, status == LMN_OK && desc->lenient, NULL, error};
+    return status == LMN_OK ? refuse_time(&r, look, desc->time_s, !vectors) : status;
+}
+
 lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                     lmn_error *error)
 {
@@ -82,7 +103,17 @@ lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *
     if (!renderer || !scene || !look)
         return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
     lmn_status status = check_draw_desc(desc, error);
-    return status == LMN_OK ? renderer_draw(out, renderer, scene, look, desc, error) : status;
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, desc->progress, desc->progress_user);
+    status = check_pixels(desc, error);
+    if (status == LMN_OK)
+        status = renderer_draw(out, renderer, scene, look, desc, error);
+    status = work_end(&w, status, error);
+    if (status != LMN_OK)
+        drawing_destroy(out);
+    return status;
 }
 
 void lmn_drawing_destroy(lmn_drawing **drawing)
@@ -114,22 +145,26 @@ lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const
         error_hint(error, nearest ? "did you mean '%s'?" : "give the output a name that ends in %s", nearest ? nearest : ".png");
         return status;
     }
-    export_bytes png;
+    work w;
+    work_begin(&w, NULL, NULL);
+    export_bytes png = {0};
     lmn_status status = export_png(&png, drawing->pixels, drawing->width, drawing->height, error);
-    if (status != LMN_OK)
-        return status;
-    status = file_store(path, png.data, png.size, error);
+    if (status == LMN_OK)
+        status = file_store(path, png.data, png.size, error);
     if (bytes)
         *bytes = png.size;
     mem_free(png.data);
-    return status;
+    return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 
 lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error)
 {
     if (!drawing->maps.depth)
         return error_set(error, LMN_USAGE, "the drawing was made without its maps; set `maps` in its description");
-    return maps_write(&drawing->maps, drawing->part_count, directory, error);
+    work w;
+    work_begin(&w, NULL, NULL);
+    lmn_status status = maps_write(&drawing->maps, drawing->part_count, directory, error);
+    return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 
 char *lmn_drawing_report_json(const lmn_drawing *drawing)
@@ -164,6 +199,23 @@ static lmn_status load_all(lmn_look **loaded, const char *const *names, size_t c
     return LMN_OK;
 }
 
+static lmn_status bench_looks(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks, size_t look_count,
+                              const lmn_draw_desc *desc, int repeat, lmn_error *error)
+{
+    lmn_look **loaded = mem_calloc(look_count + 1, sizeof *loaded);
+    if (!loaded)
+        return error_memory(error);
+    lmn_status status = load_all(loaded, (const char *const[]){"plain"}, 1, error);
+    if (status == LMN_OK)
+        status = load_all(loaded + 1, looks, look_count, error);
+    if (status == LMN_OK)
+        status = bench_json(out, renderer, scene, (const lmn_look *const *)(loaded + 1), look_count, loaded[0], desc, repeat, error);
+    for (size_t i = 0; i <= look_count; i++)
+        lmn_look_destroy(&loaded[i]);
+    mem_free(loaded);
+    return status;
+}
+
 lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks, size_t look_count,
                           const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
@@ -175,16 +227,15 @@ lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *s
         status = check_range(error, "the number of repeats", repeat, 1, 10000);
     if (status != LMN_OK)
         return status;
-    lmn_look **loaded = mem_calloc(look_count + 1, sizeof *loaded);
-    if (!loaded)
-        return error_memory(error);
-    status = load_all(loaded, (const char *const[]){"plain"}, 1, error);
+    work w;
+    work_begin(&w, desc->progress, desc->progress_user);
+    status = check_pixels(desc, error);
     if (status == LMN_OK)
-        status = load_all(loaded + 1, looks, look_count, error);
-    if (status == LMN_OK)
-        status = bench_json(out, renderer, scene, (const lmn_look *const *)(loaded + 1), look_count, loaded[0], desc, repeat, error);
-    for (size_t i = 0; i <= look_count; i++)
-        lmn_look_destroy(&loaded[i]);
-    mem_free(loaded);
+        status = bench_looks(out, renderer, scene, looks, look_count, desc, repeat, error);
+    status = work_end(&w, status, error);
+    if (status != LMN_OK) {
+        mem_free(*out);
+        *out = NULL;
+    }
     return status;
 }

@@ -5,8 +5,9 @@
 
 #include "api/load_desc.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_store.h"
 #include "base/memory.h"
+#include "base/work.h"
 #include "import/import.h"
 #include "scene/scene.h"
 
@@ -55,11 +56,20 @@ lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load
     lmn_status status = load_desc_complete(&full, desc, "lmn_scene_add_file", error);
     if (status != LMN_OK)
         return status;
+    work w;
+    work_begin(&w, full.progress, full.progress_user);
     lmn_scene *loaded = NULL;
     status = import_file(&loaded, path, &full, error);
     if (status == LMN_OK)
+        status = work_check(error);
+    if (status == LMN_OK)
         status = scene_merge(scene, loaded, path, error);
     scene_free(loaded);
+    if (status == LMN_OK)
+        return work_end_done(&w);
+    status = work_end(&w, status, error);
+    if (error && !error->file[0])
+        error_file(error, path);
     return status;
 }
 

@@ -6,8 +6,10 @@
 #include "api/check_desc.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_store.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/work.h"
 #include "draw/vector.h"
 #include "export/export.h"
 
@@ -51,7 +53,14 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
     lmn_status status = check_draw_desc(desc, error);
     if (status == LMN_OK)
         status = complete(&full, sheet, error);
-    return status == LMN_OK ? vector_draw(out, renderer, scene, look, desc, &full, error) : status;
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, desc->progress, desc->progress_user);
+    status = work_end(&w, vector_draw(out, renderer, scene, look, desc, &full, error), error);
+    if (status != LMN_OK)
+        vector_destroy(out);
+    return status;
 }
 
 typedef lmn_status (*export_fn)(export_bytes *out, const sheet *s, lmn_error *error);
@@ -89,15 +98,16 @@ lmn_status lmn_sheet_write(const lmn_sheet *s, const char *path, const char *for
         which++;
     if (which == FORMATS)
         return unknown_format(path, format, error);
-    export_bytes data;
+    work w;
+    work_begin(&w, NULL, NULL);
+    export_bytes data = {0};
     lmn_status   status = formats[which].write(&data, &s->page, error);
-    if (status != LMN_OK)
-        return status;
-    status = file_store(path, data.data, data.size, error);
+    if (status == LMN_OK)
+        status = file_store(path, data.data, data.size, error);
     if (bytes)
         *bytes = data.size;
     mem_free(data.data);
-    return status;
+    return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 
 char *lmn_sheet_report_json(const lmn_sheet *s)

@@ -9,6 +9,7 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/work.h"
 #include "construct/construct.h"
 #include "import/gather.h"
 #include "import/import.h"
@@ -182,8 +183,12 @@ lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent,
         status = load_desc_complete(&full, desc, "lmn_solid_add_file", error);
     if (status != LMN_OK)
         return status;
+    work w;
+    work_begin(&w, full.progress, full.progress_user);
     lmn_scene *loaded = NULL;
     status = import_file(&loaded, path, &full, error);
+    if (status == LMN_OK)
+        status = work_check(error);
     char *name = status == LMN_OK ? scene_name_of_file(path) : NULL;
     if (status == LMN_OK && !name)
         status = error_memory(error);
@@ -198,7 +203,7 @@ lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent,
     }
     mem_free(name);
     scene_free(loaded);
-    return status;
+    return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 
 /* --- editing ------------------------------------------------------------------------------------------------------------ */

@@ -6,8 +6,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_store.h"
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/work.h"
 #include "export/export.h"
 #include "halftone/strokes.h"
 
@@ -76,8 +78,11 @@ lmn_status lmn_strokes_create(lmn_strokes **out, const lmn_pattern_desc *desc, l
     if (!made)
         return error_memory(error);
     pattern_wishes wishes = {(stroke_pattern)full.pattern, full.count, (float)full.length, (float)full.uneven, full.seed};
+    work w;
+    work_begin(&w, NULL, NULL);
     if (desc)
         status = strokes_generate(&made->list, &wishes, error);
+    status = work_end(&w, status, error);
     if (status == LMN_OK)
         *out = made;
     else
@@ -93,7 +98,9 @@ lmn_status lmn_strokes_load(lmn_strokes **out, const char *path, lmn_error *erro
     lmn_strokes *made = allocate();
     if (!made)
         return error_memory(error);
-    lmn_status status = strokes_load(&made->list, path, error);
+    work w;
+    work_begin(&w, NULL, NULL);
+    lmn_status status = work_end(&w, strokes_load(&made->list, path, error), error);
     if (status == LMN_OK)
         *out = made;
     else
@@ -248,10 +255,13 @@ lmn_status lmn_strokes_write(const lmn_strokes *s, const char *path, const char 
         error_hint(error, "strokes are written as .stx, .svg or .png");
         return LMN_USAGE;
     }
-    if (!png)
-        return write_text(&s->list, path, svg, error);
-    lmn_status status = complete(&full, sizeof full, view, "lmn_strokes_write", "LMN_STROKES_VIEW_INIT", error);
-    if (status == LMN_OK)
+    lmn_status status = complete(&full, sizeof full, png ? view : NULL, "lmn_strokes_write", "LMN_STROKES_VIEW_INIT", error);
+    if (status == LMN_OK && png)
         status = check_view(&full, error);
-    return status == LMN_OK ? write_picture(&s->list, path, &full, error) : status;
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, NULL, NULL);
+    status = png ? write_picture(&s->list, path, &full, error) : write_text(&s->list, path, svg, error);
+    return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }

@@ -48,6 +48,12 @@ lmn_status error_in_file(lmn_error *error, lmn_status status, const char *file, 
     return status;
 }
 
+void error_file(lmn_error *error, const char *file)
+{
+    if (error)
+        copy_into(error->file, sizeof error->file, file);
+}
+
 void error_hint(lmn_error *error, const char *format, ...)
 {
     if (!error)

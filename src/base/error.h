@@ -12,6 +12,9 @@ lmn_status error_set(lmn_error *error, lmn_status status, const char *format, ..
 lmn_status error_in_file(lmn_error *error, lmn_status status, const char *file, int line, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
+/* Adds the file that is to blame to an error that was set before. */
+void error_file(lmn_error *error, const char *file);
+
 /* Adds what to do about it to an error that was set before. */
 void error_hint(lmn_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -11,7 +11,6 @@
 #define LIMIT_NODE_DEPTH      1024                /* of the node tree */
 #define LIMIT_IMAGE_SIDE      16384               /* pixels, a texture's width or height */
 #define LIMIT_IMAGE_PIXELS    ((size_t)1 << 28)
-#define LIMIT_SCENE_PIXELS    ((size_t)1 << 30)   /* of all textures of a scene */
 #define LIMIT_ELEMENTS        ((size_t)400000000) /* values read from glTF accessors, repeated use counted again */
 #define LIMIT_ZERO_ELEMENTS   ((size_t)1 << 24)   /* of accessors without a buffer view */
 #define LIMIT_JSON_BYTES      ((size_t)1 << 29)   /* a .gltf file, or the JSON chunk of a .glb */

@@ -1,9 +1,12 @@
 #include "base/memory.h"
 
+#include <malloc.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/work.h"
 
 /* 0 = never fail; otherwise the number of allocations left until failure, 1 = the next fails. Set by tests only. */
 static atomic_long allocations_left;
@@ -13,8 +16,11 @@ void mem_fail_at(long n)
     atomic_store(&allocations_left, n);
 }
 
+/* Work that is to stop gets no memory either: it then ends on the same ways as without any. */
 static bool must_fail(void)
 {
+    if (work_stopped())
+        return true;
     long left = atomic_load_explicit(&allocations_left, memory_order_relaxed);
     if (left == 0)
         return false;
@@ -24,23 +30,41 @@ static bool must_fail(void)
     return false;
 }
 
+static void *counted(void *block)
+{
+    if (block)
+        work_count((long long)malloc_usable_size(block));
+    return block;
+}
+
 void *mem_alloc(size_t size)
 {
-    return must_fail() ? NULL : malloc(size ? size : 1);
+    return must_fail() || !work_has_room(size) ? NULL : counted(malloc(size ? size : 1));
 }
 
 void *mem_calloc(size_t count, size_t size)
 {
-    return must_fail() ? NULL : calloc(count ? count : 1, size ? size : 1);
+    size_t bytes;
+    if (must_fail() || !size_mul(count, size, &bytes) || !work_has_room(bytes))
+        return NULL;
+    return counted(calloc(count ? count : 1, size ? size : 1));
 }
 
 void *mem_realloc(void *block, size_t size)
 {
-    return must_fail() ? NULL : realloc(block, size ? size : 1);
+    if (must_fail() || !work_has_room(size))
+        return NULL;
+    long long before = block ? (long long)malloc_usable_size(block) : 0;
+    void *moved = realloc(block, size ? size : 1);
+    if (moved)
+        work_count((long long)malloc_usable_size(moved) - before);
+    return moved;
 }
 
 void mem_free(void *block)
 {
+    if (block)
+        work_count(-(long long)malloc_usable_size(block));
     free(block);
 }
 

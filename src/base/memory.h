@@ -1,4 +1,4 @@
-/* Allocation through one door, so that tests can make the n-th call fail, and arithmetic on sizes that cannot wrap. */
+/* Allocation through one door, so that limits hold (base/work.h) and tests can make the n-th call fail, and arithmetic on sizes that cannot wrap. */
 #ifndef LIMNER_BASE_MEMORY_H
 #define LIMNER_BASE_MEMORY_H
 

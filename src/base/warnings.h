@@ -9,8 +9,10 @@
 #define WARNING_CODES(X)                                                                                              \
     X(WARNING_IGNORED, "ignored")                 /* valid content that Limner does not use */                        \
     X(WARNING_MISSING_FILE, "missing-file")       /* a texture or buffer beside the model */                          \
+    X(WARNING_REFUSED_FILE, "refused-file")       /* a file that the model may not have */                            \
     X(WARNING_BAD_VALUE, "bad-value")             /* a value that was dropped or replaced */                          \
     X(WARNING_BAD_GEOMETRY, "bad-geometry")       /* degenerate triangles, NaN vertices: left out */                  \
+    X(WARNING_REDUCED, "reduced")                 /* a texture made smaller to keep within limits */                  \
     X(WARNING_BAD_TEXTURE, "bad-texture")         /* an image that cannot be decoded */                               \
     X(WARNING_TRANSPARENCY, "transparency")       /* drawn as a cut-out */                                            \
     X(WARNING_NO_MATCH, "no-match")               /* a rule that selects nothing */                                   \

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "construct/construct_private.h"
+#include "construct/fenced.h"
 
 /* A contour on the grid, and the operand it belongs to. */
 typedef struct path {
@@ -273,7 +274,7 @@ static lmn_status cover_paths(cover *c, region *out)
     return status;
 }
 
-lmn_status region_cover(region *out, const region *operands, size_t count, cover_rule rule, lmn_error *error)
+static lmn_status cover_here(region *out, const region *operands, size_t count, cover_rule rule, lmn_error *error)
 {
     *out = (region){0};
     cover c = {.rule = rule};
@@ -288,7 +289,7 @@ lmn_status region_cover(region *out, const region *operands, size_t count, cover
     return cover_end(&c, status, error);
 }
 
-lmn_status region_unite_polygons(region *out, const region *polygons, lmn_error *error)
+static lmn_status unite_here(region *out, const region *polygons, lmn_error *error)
 {
     *out = (region){0};
     cover c = {.rule = COVER_UNION};
@@ -305,4 +306,74 @@ lmn_status region_unite_polygons(region *out, const region *polygons, lmn_error 
         GEOSGeom_destroy_r(c.geos, parts);
     }
     return cover_end(&c, status, error);
+}
+
+/* --- behind the fence and before it ------------------------------------------------------------------------------------- */
+
+enum { UNITE_POLYGONS = 1000 }; /* beside the rules */
+
+static void release_all(region *regions, size_t count)
+{
+    for (size_t i = 0; regions && i < count; i++)
+        region_release(&regions[i]);
+    mem_free(regions);
+}
+
+/* Request: rule, number of operands, operands. Answer: the region. */
+static lmn_status cover_request(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
+{
+    fence_reader r = fence_read(request, size);
+    uint32_t rule = fence_take_u32(&r), count = fence_take_u32(&r);
+    region *operands = mem_calloc(count, sizeof *operands), out = {0};
+    bool good = operands != NULL;
+    for (uint32_t i = 0; good && i < count; i++)
+        good = region_take(&operands[i], &r);
+    lmn_status status = LMN_MEMORY;
+    if (good)
+        status = rule == UNITE_POLYGONS ? unite_here(&out, operands, error) : cover_here(&out, operands, count, (cover_rule)rule, error);
+    else
+        error_memory(error);
+    if (status == LMN_OK)
+        region_put(answer, out.contours, out.count);
+    release_all(operands, count);
+    region_release(&out);
+    return status;
+}
+
+static lmn_status cover_fenced(region *out, const region *operands, size_t count, uint32_t rule, lmn_error *error)
+{
+    fence_bytes request = {0}, answer;
+    fence_put_u32(&request, rule);
+    fence_put_u32(&request, (uint32_t)count);
+    for (size_t i = 0; i < count; i++)
+        region_put(&request, operands[i].contours, operands[i].count);
+    lmn_status status = fence_call_always(&answer, cover_request, "a set operation on regions", &request, error);
+    fence_reader r = fence_read(answer.bytes, answer.size);
+    if (status == LMN_OK && !region_take(out, &r)) {
+        region_release(out);
+        status = error_memory(error);
+    }
+    mem_free(request.bytes);
+    mem_free(answer.bytes);
+    return status;
+}
+
+static bool is_large(const region *operands, size_t count)
+{
+    size_t points = 0;
+    for (size_t i = 0; i < count; i++)
+        points += region_point_count(&operands[i]);
+    return points > FENCED_PLANE_POINTS;
+}
+
+lmn_status region_cover(region *out, const region *operands, size_t count, cover_rule rule, lmn_error *error)
+{
+    *out = (region){0};
+    return is_large(operands, count) ? cover_fenced(out, operands, count, (uint32_t)rule, error) : cover_here(out, operands, count, rule, error);
+}
+
+lmn_status region_unite_polygons(region *out, const region *polygons, lmn_error *error)
+{
+    *out = (region){0};
+    return is_large(polygons, 1) ? cover_fenced(out, polygons, 1, UNITE_POLYGONS, error) : unite_here(out, polygons, error);
 }

@@ -3,9 +3,11 @@
 #include <libqhull_r/qhull_ra.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "construct/construct_private.h"
+#include "construct/fenced.h"
 
 /* The facet's corners, all facets turned the same way; builder_finish sees which way that is. */
 static void add_facet(qhT *qh, solid_builder *b, facetT *facet)
@@ -25,11 +27,12 @@ static void add_facet(qhT *qh, solid_builder *b, facetT *facet)
         builder_triangle(b, corners[0], corners[2], corners[1]);
 }
 
-/* Qhull's exit code. It reports in words as well; to nowhere, because a library does not print. */
-static int find_hull(solid_builder *b)
+/* Qhull's exit code. It reports in words as well; to a little memory, because a library does not print, and behind the fence no file can be opened. */
+static int find_hull_here(solid_builder *b)
 {
+    enum { WORDS = 1 << 12 };
     qhT qh;
-    FILE *nowhere = fopen("/dev/null", "w");
+    FILE *nowhere = fmemopen(NULL, WORDS, "w");
     if (!nowhere)
         return qh_ERRmem;
     qh_zero(&qh, nowhere);
@@ -47,13 +50,58 @@ static int find_hull(solid_builder *b)
     return code;
 }
 
+/* Request: the points. Answer: Qhull's exit code, then the corners. */
+static lmn_status hull_request(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
+{
+    solid_builder b = {0};
+    for (size_t at = 0; at + sizeof(point3) <= size; at += sizeof(point3)) {
+        point3 p;
+        memcpy(&p, request + at, sizeof p);
+        builder_point(&b, p.x, p.y, p.z);
+    }
+    int code = b.failed ? qh_ERRmem : find_hull_here(&b);
+    if (b.failed)
+        code = qh_ERRmem;
+    fence_put_u32(answer, (uint32_t)code);
+    fence_put(answer, b.triangles, b.triangle_count * 3 * sizeof *b.triangles);
+    builder_release(&b);
+    return answer->failed ? error_memory(error) : LMN_OK;
+}
+
+/* The same with Qhull's exit code in *code. */
+static lmn_status find_hull_fenced(solid_builder *b, int *code, lmn_error *error)
+{
+    fence_bytes request = {.bytes = (unsigned char *)b->points, .size = b->point_count * sizeof *b->points}, answer;
+    lmn_status status = fence_call_always(&answer, hull_request, "the search for a hull", &request, error);
+    if (status != LMN_OK)
+        return status;
+    fence_reader r = fence_read(answer.bytes, answer.size);
+    *code = (int)fence_take_u32(&r);
+    const unsigned char *at;
+    while ((at = fence_take(&r, 3 * sizeof(uint32_t)))) {
+        uint32_t corners[3];
+        memcpy(corners, at, sizeof corners);
+        if (corners[0] < b->point_count && corners[1] < b->point_count && corners[2] < b->point_count)
+            builder_triangle(b, corners[0], corners[1], corners[2]);
+    }
+    mem_free(answer.bytes);
+    return LMN_OK;
+}
+
 /* The hull of the builder's points, which has no triangles yet. The builder is empty afterwards. */
 static lmn_status finish_hull(solid_builder *b, polyhedron *out, lmn_error *error)
 {
     *out = (polyhedron){0};
     int code = qh_ERRsingular;
-    if (!b->failed && b->point_count >= 4)
-        code = find_hull(b);
+    lmn_status status = LMN_OK;
+    if (!b->failed && b->point_count > FENCED_HULL_POINTS)
+        status = find_hull_fenced(b, &code, error);
+    else if (!b->failed && b->point_count >= 4)
+        code = find_hull_here(b);
+    if (status != LMN_OK) {
+        builder_release(b);
+        return status;
+    }
     if (b->failed || code == qh_ERRmem) {
         builder_release(b);
         return error_memory(error);
@@ -64,7 +112,7 @@ static lmn_status finish_hull(solid_builder *b, polyhedron *out, lmn_error *erro
         bool flat = code == qh_ERRsingular || code == qh_ERRinput || code == qh_ERRprec;
         return flat ? LMN_OK : error_set(error, LMN_INTERNAL, "no convex hull could be made: Qhull ended with %d", code);
     }
-    lmn_status status = builder_finish(b, out, error);
+    status = builder_finish(b, out, error);
     out->convex = status == LMN_OK && out->triangle_count > 0;
     return status;
 }

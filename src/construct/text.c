@@ -1,5 +1,5 @@
-/* Outlines of letters: Fontconfig finds the font, HarfBuzz says which glyphs stand where, FreeType has their curves. The three take
- * memory past base/memory.h and give it back, but for what Fontconfig keeps about the installed fonts. */
+/* Outlines of letters: Fontconfig finds the font; behind the fence, HarfBuzz says which glyphs stand where and FreeType has their curves. The three
+ * take memory past base/memory.h and give it back, but for what Fontconfig keeps about the installed fonts. */
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -9,9 +9,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/limits.h"
 #include "base/memory.h"
 #include "construct/construct_private.h"
+#include "fence/fence.h"
 
 /* OpenSCAD sets every font at this size, in 64ths of a point, at 100 dots an inch, and scales the outlines from there. */
 #define FONT_SIZE       100000
@@ -31,8 +33,6 @@ typedef struct lettering {
     point2           last;     /* where the curve begins, in the font's units */
     region_builder   outline;  /* of one glyph */
     size_t           points;   /* of all glyphs so far */
-    region          *glyphs;
-    size_t           glyph_count;
 } lettering;
 
 /* --- the font -------------------------------------------------------------------------------------------------------- */
@@ -68,10 +68,14 @@ static FcPattern *match_font(const char *name, bool *missing)
     return match;
 }
 
-static lmn_status open_font(lettering *l, const char *name, bool *missing, lmn_error *error)
+/* The font's file and which of its faces. The name comes from the model: Fontconfig's parser of names sees no more than NAME_LONGEST of it. */
+static lmn_status find_font(file_data *out, int *index, const char *name, bool *missing, lmn_error *error)
 {
+    enum { NAME_LONGEST = 256 };
     FcChar8 *file;
-    int index = 0;
+    *index = 0;
+    if (name && strlen(name) > NAME_LONGEST)
+        return error_set(error, LMN_FORMAT, "text: the name of the font has %zu letters; allowed are %d", strlen(name), NAME_LONGEST);
     FcPattern *match = match_font(name, missing);
     if (!match || FcPatternGetString(match, FC_FILE, 0, &file) != FcResultMatch) {
         if (match)
@@ -80,14 +84,17 @@ static lmn_status open_font(lettering *l, const char *name, bool *missing, lmn_e
         error_hint(error, "install one, such as the Liberation fonts");
         return LMN_UNSUPPORTED;
     }
-    FcPatternGetInteger(match, FC_INDEX, 0, &index);
-    bool opened = FT_Init_FreeType(&l->library) == 0 && FT_New_Face(l->library, (const char *)file, index, &l->face) == 0 &&
-                  FT_Set_Char_Size(l->face, 0, FONT_SIZE, FONT_RESOLUTION, FONT_RESOLUTION) == 0;
-    lmn_status status = LMN_OK;
-    if (!opened)
-        status = error_in_file(error, LMN_UNSUPPORTED, (const char *)file, 0, "text: the font cannot be read");
+    FcPatternGetInteger(match, FC_INDEX, 0, index);
+    lmn_status status = file_load(out, (const char *)file, error);
     FcPatternDestroy(match);
     return status;
+}
+
+static lmn_status open_font(lettering *l, const void *bytes, size_t size, int index, lmn_error *error)
+{
+    bool opened = FT_Init_FreeType(&l->library) == 0 && FT_New_Memory_Face(l->library, bytes, (FT_Long)size, index, &l->face) == 0 &&
+                  FT_Set_Char_Size(l->face, 0, FONT_SIZE, FONT_RESOLUTION, FONT_RESOLUTION) == 0;
+    return opened ? LMN_OK : error_set(error, LMN_UNSUPPORTED, "text: the font cannot be read");
 }
 
 /* --- from letters to glyphs -------------------------------------------------------------------------------------------- */
@@ -207,8 +214,8 @@ static int on_cubic(const FT_Vector *first, const FT_Vector *second, const FT_Ve
     return l->outline.failed;
 }
 
-/* The glyph's outline where it stands, by the even-odd rule. */
-static lmn_status add_glyph(lettering *l, unsigned glyph, const hb_glyph_position_t *place, lmn_error *error)
+/* The glyph's contours where it stands: how many, and each with its points. */
+static lmn_status put_glyph(lettering *l, unsigned glyph, const hb_glyph_position_t *place, fence_bytes *answer, lmn_error *error)
 {
     static const FT_Outline_Funcs functions = {on_move, on_line, on_conic, on_cubic, 0, 0};
     l->x += place->x_offset;
@@ -219,36 +226,30 @@ static lmn_status add_glyph(lettering *l, unsigned glyph, const hb_glyph_positio
     l->y += place->y_advance * l->spacing - place->y_offset;
     if (l->outline.count > 0)
         builder_end_contour(&l->outline);
-    region outline;
-    lmn_status status = region_builder_finish(&l->outline, &outline, error);
-    if (status == LMN_OK)
-        status = check_point_count("text", (double)l->points, error);
-    if (status == LMN_OK)
-        status = region_cover(&l->glyphs[l->glyph_count], &outline, 1, COVER_ODD, error);
-    l->glyph_count += status == LMN_OK;
-    region_release(&outline);
-    return status;
+    fence_put_u32(answer, (uint32_t)l->outline.count);
+    for (size_t i = 0; i < l->outline.count; i++) {
+        fence_put_u32(answer, (uint32_t)l->outline.contours[i].count);
+        fence_put(answer, l->outline.contours[i].points, l->outline.contours[i].count * sizeof(point2));
+    }
+    bool failed = l->outline.failed;
+    region_builder_release(&l->outline);
+    return failed ? error_memory(error) : check_point_count("text", (double)l->points, error);
 }
 
-static lmn_status add_glyphs(lettering *l, lmn_error *error)
+static lmn_status put_glyphs(lettering *l, fence_bytes *answer, lmn_error *error)
 {
     unsigned count;
     hb_glyph_info_t *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
     hb_glyph_position_t *places = hb_buffer_get_glyph_positions(l->buffer, &count);
-    l->glyphs = mem_calloc(count, sizeof *l->glyphs);
-    if (!l->glyphs)
-        return error_memory(error);
     lmn_status status = LMN_OK;
+    fence_put_u32(answer, count);
     for (unsigned i = 0; status == LMN_OK && i < count; i++)
-        status = add_glyph(l, glyphs[i].codepoint, &places[i], error);
+        status = put_glyph(l, glyphs[i].codepoint, &places[i], answer, error);
     return status;
 }
 
 static void lettering_release(lettering *l)
 {
-    for (size_t i = 0; i < l->glyph_count; i++)
-        region_release(&l->glyphs[i]);
-    mem_free(l->glyphs);
     region_builder_release(&l->outline);
     hb_buffer_destroy(l->buffer);
     hb_font_destroy(l->font);
@@ -256,6 +257,90 @@ static void lettering_release(lettering *l)
         FT_Done_Face(l->face);
     if (l->library)
         FT_Done_FreeType(l->library);
+}
+
+/* --- behind the fence and before it ------------------------------------------------------------------------------------- */
+
+/* What stands first in a request. Then: the texts of the style, the text itself, the font. */
+typedef struct text_numbers {
+    double  size, spacing;
+    int32_t segments, face;
+} text_numbers;
+
+enum { STYLE_TEXTS = 5 };
+
+static lmn_status shape_text(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
+{
+    fence_reader r = fence_read(request, size);
+    text_numbers n = {0};
+    const void *at = fence_take(&r, sizeof n);
+    if (at)
+        memcpy(&n, at, sizeof n);
+    char *texts[STYLE_TEXTS + 1];
+    bool good = true;
+    for (int i = 0; i <= STYLE_TEXTS; i++)
+        good = (texts[i] = fence_take_text(&r)) && good;
+    const text_style style = {.direction = texts[0], .language = texts[1], .script = texts[2], .halign = texts[3], .valign = texts[4]};
+    lettering l = {.size = n.size, .spacing = n.spacing, .segments = n.segments};
+    lmn_status status = good ? open_font(&l, r.at, (size_t)(r.end - r.at), n.face, error) : error_memory(error);
+    if (status == LMN_OK)
+        status = shape(&l, texts[STYLE_TEXTS], &style, error);
+    if (status == LMN_OK) {
+        align(&l, &style);
+        status = put_glyphs(&l, answer, error);
+    }
+    lettering_release(&l);
+    for (int i = 0; i <= STYLE_TEXTS; i++)
+        mem_free(texts[i]);
+    return status;
+}
+
+/* One glyph of the answer, by the even-odd rule. */
+static lmn_status take_glyph(region *out, fence_reader *r, lmn_error *error)
+{
+    region_builder outline = {0};
+    for (uint32_t i = 0, count = fence_take_u32(r); i < count && !r->ended && !outline.failed; i++) {
+        uint32_t points = fence_take_u32(r);
+        const unsigned char *at = fence_take(r, (size_t)points * sizeof(point2));
+        builder_contour(&outline);
+        for (uint32_t k = 0; at && k < points; k++) {
+            point2 p;
+            memcpy(&p, at + k * sizeof p, sizeof p);
+            builder_place(&outline, p.x, p.y);
+        }
+        builder_end_contour(&outline);
+    }
+    region whole;
+    lmn_status status = region_builder_finish(&outline, &whole, error);
+    if (status == LMN_OK)
+        status = check_region("text", &whole, error);
+    if (status == LMN_OK)
+        status = region_cover(out, &whole, 1, COVER_ODD, error);
+    region_release(&whole);
+    region_builder_release(&outline);
+    return status;
+}
+
+static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error *error)
+{
+    fence_reader r = fence_read(answer->bytes, answer->size);
+    size_t count = fence_take_u32(&r), made = 0;
+    /* A glyph takes four bytes at least. */
+    if (count > answer->size / 4)
+        return error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
+    region *glyphs = mem_calloc(count, sizeof *glyphs);
+    lmn_status status = glyphs ? LMN_OK : error_memory(error);
+    while (status == LMN_OK && made < count)
+        if ((status = take_glyph(&glyphs[made], &r, error)) == LMN_OK)
+            made++;
+    if (status == LMN_OK && r.ended)
+        status = error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
+    if (status == LMN_OK)
+        status = region_combine(out, glyphs, made, REGION_UNION, error);
+    for (size_t i = 0; i < made; i++)
+        region_release(&glyphs[i]);
+    mem_free(glyphs);
+    return status;
 }
 
 lmn_status construct_text(region *out, const char *utf8, const text_style *style, facets f, bool *missing, lmn_error *error)
@@ -268,17 +353,25 @@ lmn_status construct_text(region *out, const char *utf8, const text_style *style
     if (status != LMN_OK || style->size == 0 || !*utf8)
         return status;
     /* A curve has an eighth of a circle's facets. */
-    lettering l = {.size = style->size, .spacing = style->spacing, .segments = facets_of_circle(style->size, f) / 8 + 1};
-    l.segments = l.segments < 2 ? 2 : l.segments;
-    status = open_font(&l, style->font, missing, error);
-    if (status == LMN_OK)
-        status = shape(&l, utf8, style, error);
+    text_numbers n = {.size = style->size, .spacing = style->spacing, .segments = facets_of_circle(style->size, f) / 8 + 1};
+    n.segments = n.segments < 2 ? 2 : n.segments;
+    file_data font = {0};
+    int face = 0;
+    fence_bytes request = {0}, answer = {0};
+    status = find_font(&font, &face, style->font, missing, error);
     if (status == LMN_OK) {
-        align(&l, style);
-        status = add_glyphs(&l, error);
+        n.face = face;
+        const char *texts[] = {style->direction, style->language, style->script, style->halign, style->valign, utf8};
+        fence_put(&request, &n, sizeof n);
+        for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+            fence_put_text(&request, texts[i]);
+        fence_put(&request, font.data, font.size);
+        status = fence_call(&answer, shape_text, "the reader of fonts", &request, error);
     }
     if (status == LMN_OK)
-        status = region_combine(out, l.glyphs, l.glyph_count, REGION_UNION, error);
-    lettering_release(&l);
+        status = join_glyphs(out, &answer, error);
+    file_data_release(&font);
+    mem_free(request.bytes);
+    mem_free(answer.bytes);
     return status;
 }

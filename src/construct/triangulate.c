@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "construct/construct_private.h"
+#include "construct/fenced.h"
 
 typedef struct filling {
     uint32_t *corners;
@@ -120,8 +121,7 @@ static point2 *all_points(const contour *contours, size_t count, size_t *point_c
     return points;
 }
 
-lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact,
-                                lmn_error *error)
+static lmn_status triangulate_here(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact, lmn_error *error)
 {
     filling f = {0};
     size_t point_count;
@@ -137,4 +137,60 @@ lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t 
     *corners = f.corners;
     *corner_count = f.count;
     return LMN_OK;
+}
+
+/* --- behind the fence and before it ------------------------------------------------------------------------------------- */
+
+/* Request: the contours. Answer: whether it is exact, then the corners. */
+static lmn_status triangulate_request(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
+{
+    fence_reader r = fence_read(request, size);
+    region contours;
+    uint32_t *corners = NULL;
+    size_t count = 0;
+    bool exact = false;
+    lmn_status status = region_take(&contours, &r) ? triangulate_here(contours.contours, contours.count, &corners, &count, &exact, error) : error_memory(error);
+    if (status == LMN_OK) {
+        fence_put_u32(answer, exact);
+        fence_put(answer, corners, count * sizeof *corners);
+    }
+    mem_free(corners);
+    region_release(&contours);
+    return status;
+}
+
+static lmn_status triangulate_fenced(const contour *contours, size_t count, size_t points, uint32_t **corners, size_t *corner_count, bool *exact, lmn_error *error)
+{
+    fence_bytes request = {0}, answer;
+    region_put(&request, contours, count);
+    lmn_status status = fence_call_always(&answer, triangulate_request, "the division into triangles", &request, error);
+    mem_free(request.bytes);
+    if (status != LMN_OK)
+        return status;
+    fence_reader r = fence_read(answer.bytes, answer.size);
+    *exact = fence_take_u32(&r) != 0;
+    *corner_count = (size_t)(r.end - r.at) / sizeof **corners;
+    *corners = mem_copy(r.at, *corner_count * sizeof **corners);
+    bool good = *corner_count % 3 == 0;
+    for (size_t i = 0; *corners && good && i < *corner_count; i++)
+        good = (*corners)[i] < points;
+    mem_free(answer.bytes);
+    if (*corners && good)
+        return LMN_OK;
+    status = *corners ? error_set(error, LMN_INTERNAL, "the division into triangles gave a wrong answer") : error_memory(error);
+    mem_free(*corners);
+    *corners = NULL;
+    return status;
+}
+
+lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact, lmn_error *error)
+{
+    size_t points = 0;
+    for (size_t i = 0; i < count; i++)
+        points += contours[i].count;
+    *corners = NULL;
+    *corner_count = 0;
+    *exact = false;
+    return points > FENCED_PLANE_POINTS ? triangulate_fenced(contours, count, points, corners, corner_count, exact, error)
+                                        : triangulate_here(contours, count, corners, corner_count, exact, error);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "draw/refuse.h"
 
 static double dot3(const double a[3], const double b[3])
 {
@@ -192,7 +193,7 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
         set_view(c, right, up, forward);
         return LMN_OK;
     }
-    lmn_status status = error_set(error, LMN_USAGE, "the scene has no camera '%s'", desc->camera);
+    lmn_status status = error_in_file(error, LMN_USAGE, refuse_file(scene), 0, "the scene has no camera '%s'", desc->camera);
     const char *nearest = text_nearest(desc->camera, names, name_count);
     if (nearest)
         error_hint(error, "did you mean '%s'?", nearest);

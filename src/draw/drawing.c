@@ -6,6 +6,8 @@
 #include "base/limits.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "draw/refuse.h"
+#include "draw/room.h"
 #include "finish/finish.h"
 #include "light/light.h"
 
@@ -127,6 +129,8 @@ static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn
     else
         upload_release(&earlier, r->g); /* at once: two scenes may not fit */
     status = upload_create(&r->up, r->g, scene, &wanted, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    if (status != LMN_OK)
+        refuse_in_file(error, scene);
     upload_release(&earlier, r->g);
     r->scene = scene;
     r->up_valid = status == LMN_OK;
@@ -141,7 +145,7 @@ static int square_root(int samples)
     return side;
 }
 
-static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_draw_desc *desc, lmn_error *error)
+static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *notes, lmn_error *error)
 {
     view_camera *c = &s->frame.camera;
     lmn_status status = camera_place(c, desc, scene, s->renderer->up.worlds, s->plan.box, error);
@@ -151,6 +155,8 @@ static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_dra
     for (size_t i = 0; i < s->plan.part_count; i++)
         if (s->plan.selected[i] && !box3_is_empty(s->renderer->up.part_boxes[i]))
             camera_depth_range(c, s->renderer->up.part_boxes[i], &nearest, &farthest);
+    if (!c->orthographic && s->plan.selected_count && farthest <= 0)
+        warnings_add(notes, WARNING_UNUSED, "the model is behind the viewer: the page stays empty");
     if (!(farthest >= nearest))
         nearest = farthest = 1;
     camera_set_range(c, nearest, farthest);
@@ -240,31 +246,27 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     memset(s, 0, sizeof *s);
     s->renderer = r;
     gpu_make_current(r->g);
-    lmn_status status = bring_scene(r, scene, look, desc, error);
     int side = maps ? 1 : square_root(desc->samples);
+    lmn_status status = room_check_sides(r->g, desc->width, desc->height, side, error);
+    if (status == LMN_OK)
+        status = bring_scene(r, scene, look, desc, error);
     plan_wishes wishes = {.select = desc->select, .pixel_scale = side, .as_sprites = maps};
     if (status == LMN_OK)
         status = find_ground(&wishes.ground, look, desc, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
+    if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
+        gpu_targets_trim(r->g);
+    if (status == LMN_OK)
+        status = room_check(r->g, &s->plan, &(room_wishes){desc->width, desc->height, side, !maps && (desc->maps || desc->profile)}, error);
     if (status == LMN_OK)
         note_lights(scene, look, notes);
     if (status == LMN_OK)
         status = bring_textures(r, &s->plan, maps, notes, error);
     if (status == LMN_OK)
-        status = place_camera(s, scene, desc, error);
+        status = place_camera(s, scene, desc, notes, error);
     if (status != LMN_OK)
         return status;
-    const gpu_facts *facts = gpu_facts_of(r->g);
-    int limit = facts->max_texture < LIMIT_PICTURE_SIDE ? facts->max_texture : LIMIT_PICTURE_SIDE;
-    if (desc->width * side > limit || desc->height * side > limit) {
-        status = error_set(error, LMN_LIMIT, "a picture of %dx%d pixels with %d samples a pixel needs %d pixels a side, the limit is %d",
-                           desc->width, desc->height, desc->samples, (desc->width > desc->height ? desc->width : desc->height) * side, limit);
-        error_hint(error, "ask for a smaller --size or fewer --samples");
-        return status;
-    }
-    if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
-        gpu_targets_trim(r->g);
     r->width = desc->width;
     r->height = desc->height;
     r->samples = desc->samples;
@@ -322,36 +324,56 @@ static bool has_strokes(const rule *r)
     return false;
 }
 
+static bool has_solids(const plan *p, const figure *fig)
+{
+    for (size_t k = 0; k < p->scene->part_count; k++)
+        if (fig->designated[k] && p->scene->nodes[p->scene->parts[k].node].solid != NONE)
+            return true;
+    return false;
+}
+
 /* Strokes know the meshes of parts as they are in the scene. */
-static void note_strokes(const session *s, const upload *up, warnings *notes)
+static lmn_status refuse_strokes(const refusal *r, const session *s, const upload *up)
 {
     bool solids = false, cut = false;
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         bool strokes = has_strokes(fig->rule);
-        for (size_t k = 0; k < s->plan.part_count && strokes; k++)
-            solids = solids || (fig->designated[k] && s->plan.scene->nodes[s->plan.scene->parts[k].node].solid != NONE);
+        solids = solids || (strokes && has_solids(&s->plan, fig));
         cut = cut || (strokes && up->section.cut.cell_count > 0);
     }
+    const char *instead = "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)";
+    lmn_status status = LMN_OK;
     if (solids)
-        warnings_add(notes, WARNING_UNUSED, "lines 'strokes' are those of meshes: solids have none; operators like 'discontinuity' draw theirs");
-    if (cut)
-        warnings_add(notes, WARNING_UNUSED, "lines 'strokes' are those of whole parts: what a section takes away is drawn too; operators like 'discontinuity' draw what is left");
+        status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, instead, "lines 'strokes' are those of meshes: solids have none");
+    if (cut && status == LMN_OK)
+        status = refuse(r, LMN_USAGE, WARNING_UNUSED, instead, "lines 'strokes' are those of whole parts: what a section takes away is drawn too");
+    return status;
 }
 
 /* Marks lie on the triangles of parts as they are in the scene. */
+static lmn_status refuse_marks(const refusal *r, const session *s)
+{
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        const figure *fig = &s->plan.figures[i];
+        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
+        if (!surface || !surface->technique->marks || !has_solids(&s->plan, fig))
+            continue;
+        lmn_status status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, "'dots' and 'hatch' are worked out on any surface (--set surface.technique=hatch)",
+                                   "surface '%s' lies on meshes: solids have none", surface->technique->name);
+        if (status != LMN_OK)
+            return status;
+    }
+    return LMN_OK;
+}
+
 static void note_marks(const session *s, warnings *notes)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = rule_shades_again(fig->rule);
-        bool solids = false;
         if (!surface || !surface->technique->marks)
             continue;
-        for (size_t k = 0; k < s->plan.part_count; k++)
-            solids = solids || (fig->designated[k] && s->plan.scene->nodes[s->plan.scene->parts[k].node].solid != NONE);
-        if (solids)
-            warnings_add(notes, WARNING_UNUSED, "surface '%s' lies on meshes: solids have none; 'dots' and 'hatch' are worked out on any surface", surface->technique->name);
         if (compose)
             warnings_add(notes, WARNING_UNUSED, "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them", compose->technique->name, surface->technique->name);
     }
@@ -363,7 +385,6 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     const scene_values *v = look->wide[KIND_SCENE].values;
     const upload *up = &r->up;
     bool cut_out = false, spares = false;
-    note_strokes(s, up, &d->warnings);
     note_marks(s, &d->warnings);
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
@@ -372,6 +393,8 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     }
     if (cut_out)
         warnings_add(&d->warnings, WARNING_TRANSPARENCY, "transparent materials are drawn as cut-outs");
+    if (up->section.cut.cell_count > 0 && up->triangles == 0)
+        warnings_add(&d->warnings, WARNING_UNUSED, "the section leaves nothing of the model: the page stays empty");
     if (up->open_parts)
         warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", up->open_parts,
                      scene->part_count);
@@ -404,9 +427,13 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
             return error_memory(error);
     warnings_append(&d->warnings, &scene->warnings);
     keep_notes(d, r, scene, look, s);
-    if (desc->time_s != 0 && scene->animation_count)
-        warnings_add(&d->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
-    return LMN_OK;
+    refusal refusals = {scene, desc->lenient, &d->warnings, error};
+    lmn_status status = refuse_time(&refusals, look, desc->time_s, true);
+    if (status == LMN_OK && s->plan.figure_count == 0)
+        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL, "no rule of the look '%s' selects a part: the page stays empty", d->look);
+    if (status == LMN_OK)
+        status = refuse_strokes(&refusals, s, &r->up);
+    return status == LMN_OK ? refuse_marks(&refusals, s) : status;
 }
 
 /* An extra frame with one sample and all buffers read back. */

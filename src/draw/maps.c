@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/colour.h"
-#include "base/file.h"
+#include "base/file_store.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "export/export.h"

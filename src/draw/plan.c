@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "compose/compose.h"
+#include "draw/refuse.h"
 #include "layer/layer.h"
 #include "lines/lines.h"
 
@@ -247,13 +248,13 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
     selector_destroy(&wanted);
     if (status == LMN_OK && p->selected_count == 0) {
         if (!select) {
-            error_set(error, LMN_FORMAT, "the scene has no parts to draw");
+            error_in_file(error, LMN_FORMAT, refuse_file(p->scene), 0, "the scene has no parts to draw");
             /* What was left out while loading is why. */
             if (p->scene->warnings.count > 0)
                 error_hint(error, "%s", p->scene->warnings.items[0].text);
             return LMN_FORMAT;
         }
-        status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
+        status = error_in_file(error, LMN_USAGE, refuse_file(p->scene), 0, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
         error_hint(error, "`limner info` lists the parts with their names and paths");
     }
     return status;

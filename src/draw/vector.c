@@ -8,6 +8,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "draw/plan.h"
+#include "draw/refuse.h"
 #include "draw/vector_private.h"
 #include "export/export.h"
 #include "finish/finish.h"
@@ -15,6 +16,7 @@
 
 static const double gap_between_views = 12; /* mm */
 static const double verify_apart = 2;       /* pixels between samples */
+static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
 
 /* What one drawing needs while it is made. */
 typedef struct vector_job {
@@ -57,7 +59,20 @@ static bool report_part(double fraction, const char *stage, void *user)
     return !j->desc->progress || j->desc->progress(j->reported, stage, j->desc->progress_user);
 }
 
+static refusal refusal_of(const vector_job *j, lmn_error *error)
+{
+    return (refusal){j->scene, j->desc->lenient, &j->out->warnings, error};
+}
+
 /* --- what is drawn --------------------------------------------------------------------------------------------------- */
+
+/* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they lack. */
+static bool lacks_solids(const vector_job *j, const rule *r)
+{
+    stroke_wishes wishes;
+    stroke_style  style;
+    return !j->pixels || vector_rule_strokes(r, &wishes, &style) || vector_rule_marks(r);
+}
 
 /* Gives each selected part to the last rule that selects it. Solids have no strokes. */
 static lmn_status share_parts(vector_job *j, lmn_error *error)
@@ -77,23 +92,23 @@ static lmn_status share_parts(vector_job *j, lmn_error *error)
                 j->rules[i] = &j->look->rules[r];
         }
         bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
-        solids += solid;
+        solids += solid && j->rules[i] && lacks_solids(j, j->rules[i]);
         j->selected[i] = j->rules[i] != NULL && !solid;
     }
     selector_destroy(&wanted);
     if (status != LMN_OK)
         return status;
     if (count == 0 && j->desc->select) {
-        status = error_set(error, LMN_USAGE, "the selection '%s' matches none of %zu parts", j->desc->select, scene->part_count);
+        status = error_in_file(error, LMN_USAGE, refuse_file(scene), 0, "the selection '%s' matches none of %zu parts", j->desc->select, scene->part_count);
         error_hint(error, "`limner info` lists the parts with their names and paths");
         return status;
     }
     if (count == 0)
-        return error_set(error, LMN_FORMAT, "the scene has no parts to draw");
-    if (solids)
-        warnings_add(&j->out->warnings, WARNING_NO_STROKES, "%zu solids of set operations have no lines in vector drawings%s", solids,
-                     j->pixels ? "" : " and are left out");
-    return LMN_OK;
+        return error_in_file(error, LMN_FORMAT, refuse_file(scene), 0, "the scene has no parts to draw");
+    refusal r = refusal_of(j, error);
+    return solids ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)", "%zu solids of set operations have no lines in vector drawings%s", solids,
+                           j->pixels ? "" : " and are left out")
+                  : LMN_OK;
 }
 
 /* Marks are drawn here, and leave paper to the renderer. */
@@ -123,12 +138,12 @@ static lmn_status make_bare(vector_job *j, lmn_error *error)
         j->bare_rules[i].use_counts[KIND_LINES] = 0;
         leave_marks_out(j, i);
     }
-    if (values->cut.text[0])
-        warnings_add(&j->out->warnings, WARNING_NO_STROKES, "sections have no lines in vector drawings: the model is drawn whole");
+    refusal r = refusal_of(j, error);
+    bool    cut = values->cut.text[0] != '\0';
     values->cut.text[0] = '\0';
     j->bare.rules = j->bare_rules;
     j->bare.wide[KIND_SCENE].values = values;
-    return LMN_OK;
+    return cut ? refuse(&r, LMN_USAGE, WARNING_NO_STROKES, "draw a picture (.png)", "sections have no lines in vector drawings, which show the model whole") : LMN_OK;
 }
 
 static lmn_status find_ground(vector_job *j, lmn_error *error)
@@ -518,8 +533,65 @@ static lmn_status make_scene(vector_job *j, double crease, lmn_error *error)
     return status == LMN_OK && marked && refine > 0 ? stroke_scene_create(&j->as_is, j->scene, j->worlds, j->selected, crease, report_part, j, error) : status;
 }
 
+/* The largest usual scale at which all views lie on the page; 0: there is none. */
+static double scale_that_fits(const vector_job *j, lmn_error *error)
+{
+    const lmn_sheet *s = j->out;
+    double           area[4], sizes[VIEWS_MOST][2];
+    vector_view      views[VIEWS_MOST];
+    vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
+    memcpy(views, s->views, sizeof views);
+    for (size_t i = 0; i < s->view_count; i++) {
+        if (measure_view(j, &views[i], sizes[i], error) != LMN_OK)
+            return 0;
+        sizes[i][0] *= j->unit_mm;
+        sizes[i][1] *= j->unit_mm;
+        if (!(sizes[i][0] > 0 || sizes[i][1] > 0))
+            return 0;
+    }
+    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12), .angle = j->wanted->angle, .usual = true, .fit = 1};
+    memcpy(how.area, area, sizeof how.area);
+    return vector_place_views(&how, views, s->view_count, (const double (*)[2])sizes);
+}
+
+/* How large the largest view of the model is on the page, mm; infinite where that is not told by a scale. */
+static double size_on_page(const vector_job *j)
+{
+    double most = 0;
+    for (size_t i = 0; i < j->out->view_count && j->out->scale > 0; i++) {
+        double    size[2];
+        lmn_error ignored = {0};
+        if (measure_view(j, &j->out->views[i], size, &ignored) == LMN_OK)
+            most = fmax(most, fmax(size[0], size[1]) * j->unit_mm * j->out->scale);
+    }
+    return j->out->scale > 0 ? most : INFINITY;
+}
+
+/* A page on which nothing of the model is to be seen is no drawing of it. */
+static lmn_status check_page(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    refusal    r = refusal_of(j, error);
+    char       scale[32], instead[80] = "";
+    double     size = j->wanted->scale ? size_on_page(j) : INFINITY;
+    bool       speck = size < speck_on_page;
+    if (s->page.item_count > 0 && !speck)
+        return LMN_OK;
+    if (!j->wanted->scale && s->view_count == 1 && !j->desc->eye_given && !j->desc->camera)
+        return refuse(&r, LMN_USAGE, WARNING_PAGE, "take another look, or draw a picture (.png)", "nothing of the model lies on the page: the look '%s' has no strokes for it",
+                      j->look->name ? j->look->name : "");
+    double fitting = scale_that_fits(j, error);
+    if (fitting > 0 && s->scale > 0) {
+        vector_print_scale(scale, fitting);
+        snprintf(instead, sizeof instead, "it fits at --scale %s", scale);
+    }
+    if (speck)
+        return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "at %s the model is %.2g mm large on the page, with %s as its unit", s->scale_text, size, s->unit);
+    return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "nothing of the model lies on the page%s%s", s->scale > 0 ? " at " : "", s->scale > 0 ? s->scale_text : "");
+}
+
 /* What reaches beyond the paper, or the inside of its frame, is cut off: plotters and CAD programs have no clips. */
-static void finish_page(vector_job *j)
+static lmn_status finish_page(vector_job *j, lmn_error *error)
 {
     lmn_sheet *s = j->out;
     double     area[4] = {0, 0, s->page.width, s->page.height};
@@ -528,9 +600,10 @@ static void finish_page(vector_job *j)
     bool cut = sheet_clip(&s->page, area[0], area[1], area[2], area[3]);
     if (cut && j->wanted->scale && !j->wanted->views)
         warnings_add(&s->warnings, WARNING_PAGE, "at %s the model reaches beyond the page", j->wanted->scale);
-    if (s->page.item_count == 0)
-        warnings_add(&s->warnings, WARNING_PAGE, "nothing of the model lies on the page");
-    vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+    lmn_status status = check_page(j, error);
+    if (status == LMN_OK)
+        vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+    return status;
 }
 
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
@@ -547,7 +620,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
         status = draw_view(j, &s->views[i], error);
     }
     if (status == LMN_OK)
-        finish_page(j);
+        status = finish_page(j, error);
     if (status == LMN_OK && j->wanted->plotter)
         status = vector_order_for_plotter(&s->page, error);
     if (status == LMN_OK && s->page.failed)
@@ -596,10 +669,9 @@ static lmn_status keep_facts(vector_job *j, lmn_error *error)
     const char *file = j->scene->file_count ? strrchr(j->scene->files[0], '/') : NULL, *title = j->wanted->title;
     file = file ? file + 1 : j->scene->file_count ? j->scene->files[0] : NULL;
     sheet_set_title(&s->page, title && *title ? title : file, description);
-    if (j->desc->time_s != 0 && j->scene->animation_count)
-        warnings_add(&s->warnings, WARNING_UNUSED, "the scene is drawn in its rest pose; time is not used yet");
     note_marks(j);
-    return LMN_OK;
+    refusal r = refusal_of(j, error);
+    return refuse_time(&r, j->look, j->desc->time_s, false);
 }
 
 lmn_status vector_draw(lmn_sheet **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, const lmn_sheet_desc *wanted,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/work.h"
 
 static const double points_per_mm = 72 / 25.4;
 static const char   fixed_date[] = "2000-01-01T00:00:00Z";
@@ -211,8 +212,9 @@ static void draw_sheet(pdf_writer *w)
         set_ink(c, w->s->ground);
         cairo_paint(c);
     }
-    for (size_t i = 0; i < w->s->item_count && !w->failed && cairo_status(c) == CAIRO_STATUS_SUCCESS; i++)
+    for (size_t i = 0; i < w->s->item_count && !w->failed && !work_stopped() && cairo_status(c) == CAIRO_STATUS_SUCCESS; i++)
         draw_item(w, &w->s->items[i]);
+    w->failed = w->failed || work_stopped();
     cairo_show_page(c);
 }
 

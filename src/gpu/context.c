@@ -140,6 +140,7 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
     glBindVertexArray(0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    pace_start(g);
     *out = g;
     return LMN_OK;
 }
@@ -182,7 +183,9 @@ void gpu_destroy(gpu **handle)
     gpu *g = *handle;
     if (g->context != EGL_NO_CONTEXT) {
         gpu_make_current(g);
-        release_objects(g);
+        /* Without the context GL has no functions to call; its objects go with it. */
+        if (eglGetCurrentContext() == g->context)
+            release_objects(g);
         mem_free(g->programs);
         mem_free(g->targets);
         mem_free(g->buffers);

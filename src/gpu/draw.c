@@ -106,6 +106,7 @@ void gpu_pass_begin(gpu *g, const gpu_pass *pass)
     if (pass->clear)
         clear_targets(pass);
     set_scissor(pass->scissor);
+    memcpy(g->box, pass->scissor[2] > 0 ? pass->scissor : (const int[]){0, 0, any->width, any->height}, sizeof g->box);
 }
 
 static const GLenum compares[] = {GL_LEQUAL, GL_LESS, GL_EQUAL, GL_NOTEQUAL, GL_GREATER, GL_ALWAYS};
@@ -165,20 +166,30 @@ void gpu_cull_faces(gpu *g, gpu_cull cull)
     glCullFace(cull == GPU_CULL_BACK ? GL_BACK : GL_FRONT);
 }
 
+/* Row after row of the pass's box. */
 void gpu_draw_screen(gpu *g)
 {
-    if (g->failed || !g->program)
-        return;
+    int rows = pace_rows(g, g->box[2], g->box[3]);
+    bool pieces = g->box[3] > rows;
     glBindVertexArray(g->empty_array);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    g->draws++;
+    for (int y = 0; y < g->box[3] && pace_goes_on(g); y += rows) {
+        rows = pieces ? pace_rows(g, g->box[2], g->box[3]) : rows;
+        int height = g->box[3] - y < rows ? g->box[3] - y : rows;
+        if (pieces)
+            set_scissor((const int[]){g->box[0], g->box[1] + y, g->box[2], height});
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        pace_drawn(g, 3, (int64_t)g->box[2] * height);
+    }
+    if (pieces)
+        set_scissor(g->box);
+    g->draws += !g->failed && g->program;
 }
 
-void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count)
+/* Boxes are small: tiles. */
+static void draw_some_boxes(gpu *g, int (*boxes)[4], size_t count)
 {
-    if (g->failed || !g->program || !count)
-        return;
     float *corners = mem_alloc(count * 12 * sizeof *corners);
+    int64_t pixels = 0;
     if (!corners) {
         gpu_fail(g, LMN_MEMORY, "out of memory");
         return;
@@ -186,13 +197,27 @@ void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count)
     for (size_t i = 0; i < count; i++) {
         float x = (float)boxes[i][0], y = (float)boxes[i][1], right = x + (float)boxes[i][2], top = y + (float)boxes[i][3];
         memcpy(&corners[12 * i], (float[]){x, y, right, y, right, top, x, y, right, top, x, top}, 12 * sizeof *corners);
+        pixels += (int64_t)boxes[i][2] * boxes[i][3];
     }
     glBindVertexArray(g->boxes_array);
     glBindBuffer(GL_ARRAY_BUFFER, g->boxes_buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 12 * sizeof *corners), corners, GL_STREAM_DRAW);
     glDrawArrays(GL_TRIANGLES, 0, (GLsizei)(count * 6));
     mem_free(corners);
-    g->draws++;
+    pace_drawn(g, (uint32_t)count * 6, pixels);
+}
+
+void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count)
+{
+    for (size_t i = 0, next; i < count && pace_goes_on(g); i = next) {
+        int64_t pixels = 0;
+        for (next = i; next < count && (next == i || pixels < g->piece_pixels); next++)
+            pixels += (int64_t)boxes[next][2] * boxes[next][3];
+        if (!g->facts.software)
+            next = count;
+        draw_some_boxes(g, &boxes[i], next - i);
+    }
+    g->draws += count && !g->failed && g->program;
 }
 
 static void add_attribute(gpu_mesh *m, GLuint index, int components, uint32_t count, const float *data)
@@ -282,27 +307,25 @@ uint32_t gpu_mesh_triangles(const gpu_mesh *m)
     return m ? m->index_count / 3 : 0;
 }
 
-/* Indices that a software driver may have in flight. It bins triangles faster than it fills them and keeps every bin in memory:
- * without a stop, a million triangles held 110 MiB; with one, a frame takes an eighth longer. */
-enum { SOFTWARE_INDICES_IN_FLIGHT = 900000 };
-
 static void draw_indices(gpu *g, uint32_t first, uint32_t count)
 {
     if (gpu_has_uniform(g, "u_first_primitive"))
         gpu_set_uint(g, "u_first_primitive", first / 3);
     glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(sizeof(uint32_t) * (size_t)first));
-    if (!g->facts.software)
-        return;
-    g->indices_in_flight += count;
-    if (g->indices_in_flight >= SOFTWARE_INDICES_IN_FLIGHT)
-        gpu_finish(g);
+    pace_drawn(g, count, 0);
+}
+
+static void draw_range(gpu *g, uint32_t first, uint32_t end)
+{
+    for (uint32_t count; first < end && pace_goes_on(g); first += count) {
+        count = pace_indices(g, end - first);
+        draw_indices(g, first, count);
+    }
 }
 
 void gpu_draw_indices(gpu *g, uint32_t count)
 {
-    uint32_t most = g->facts.software ? SOFTWARE_INDICES_IN_FLIGHT : count;
-    for (uint32_t first = 0; first < count; first += most)
-        draw_indices(g, first, count - first < most ? count - first : most);
+    draw_range(g, 0, count);
     g->draws++;
 }
 
@@ -315,7 +338,7 @@ void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count)
         uint32_t end = runs[i][0] + runs[i][1];
         for (next = i + 1; next < count && runs[next][0] == end; next++)
             end += runs[next][1];
-        draw_indices(g, runs[i][0], end - runs[i][0]);
+        draw_range(g, runs[i][0], end);
     }
     g->draws++;
 }

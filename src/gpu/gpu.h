@@ -70,6 +70,8 @@ void         gpu_texture_destroy(gpu *g, gpu_texture **t);
 /* A picture to draw into, from a pool; nearest sampling, clamped. Its content is undefined. */
 gpu_texture *gpu_target_acquire(gpu *g, int width, int height, gpu_format format);
 void         gpu_target_release(gpu *g, gpu_texture *t);
+/* Does the driver say that it can make such a picture? Nothing is made. Some say so too readily. */
+bool         gpu_target_possible(gpu *g, int width, int height, gpu_format format);
 /* Frees the pool's unused pictures. */
 void gpu_targets_trim(gpu *g);
 int  gpu_texture_width(const gpu_texture *t);

@@ -104,7 +104,7 @@ size_t gpu_marks_count(const gpu_marks *m)
 
 void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)
 {
-    if (g->failed || !g->program || !m || !count)
+    if (!m || !count || !pace_goes_on(g))
         return;
     count = count < m->count ? count : m->count;
     glBindVertexArray(m->array);
@@ -117,6 +117,7 @@ void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)
     glDrawArrays(GL_POINTS, 0, (GLsizei)count);
     if (!g->facts.es)
         glDisable(GL_PROGRAM_POINT_SIZE);
+    pace_drawn(g, (uint32_t)count, 0);
     g->draws++;
 }
 

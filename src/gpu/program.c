@@ -163,6 +163,8 @@ static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *pat
             glDeleteShader(shader);
             shader = 0;
         }
+    } else {
+        gpu_fail(g, LMN_MEMORY, "out of memory"); /* where it was something else, that was said first */
     }
     source_release(&s);
     return shader;

@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/clock.h"
+
 void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
 {
     if (g->failed)
@@ -35,7 +37,12 @@ lmn_status gpu_check(gpu *g, lmn_error *error)
 void gpu_finish(gpu *g)
 {
     glFinish();
+    /* What is sent anew with each call is not asked about there. */
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        gpu_fail(g, LMN_MEMORY, "the driver ran out of memory");
     g->indices_in_flight = 0;
+    g->pixels_in_flight = 0;
+    g->finished_ms = clock_ms();
 }
 
 const gpu_facts *gpu_facts_of(const gpu *g)

@@ -69,6 +69,13 @@ static gpu_texture *make_empty(gpu *g, GLenum target, int width, int height, gpu
     return t;
 }
 
+/* To be asked after a texture got its memory. */
+static void check_memory(gpu *g, const gpu_texture *t)
+{
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        gpu_fail(g, LMN_MEMORY, "the driver has no memory for a texture of %dx%d pixels", t->width, t->height);
+}
+
 static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const void *pixels, gpu_wrap wrap_u, gpu_wrap wrap_v)
 {
     gpu_texture *t = make_empty(g, GL_TEXTURE_2D, width, height, format);
@@ -76,6 +83,7 @@ static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const
         return NULL;
     const format_row *row = &formats[format];
     glTexImage2D(GL_TEXTURE_2D, 0, (GLint)row->internal, width, height, 0, row->format, row->type, pixels);
+    check_memory(g, t);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap_of(wrap_u));
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap_of(wrap_v));
     return t;
@@ -111,6 +119,7 @@ gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *l)
         int width = l->width >> k > 1 ? l->width >> k : 1, height = l->height >> k > 1 ? l->height >> k : 1;
         glTexImage3D(target, k, (GLint)row->internal, width, height, l->layers, 0, row->format, row->type, l->data[k]);
     }
+    check_memory(g, t);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, l->levels - 1);
     GLint wrap = l->clamped ? GL_CLAMP_TO_EDGE : GL_REPEAT;
@@ -161,6 +170,20 @@ void gpu_target_release(gpu *g, gpu_texture *t)
     (void)g;
     if (t)
         t->in_use = false;
+}
+
+bool gpu_target_possible(gpu *g, int width, int height, gpu_format format)
+{
+    GLint got = 0;
+    if (g->failed || width > g->facts.max_texture || height > g->facts.max_texture)
+        return false;
+    if (g->facts.es)
+        return true; /* it cannot be asked */
+    const format_row *row = &formats[format];
+    glActiveTexture(SCRATCH_UNIT);
+    glTexImage2D(GL_PROXY_TEXTURE_2D, 0, (GLint)row->internal, width, height, 0, row->format, row->type, NULL);
+    glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &got);
+    return got == width;
 }
 
 void gpu_targets_trim(gpu *g)

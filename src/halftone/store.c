@@ -2,6 +2,8 @@
 #include "halftone/store.h"
 
 #include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file.h"
+#include "base/file_store.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -60,7 +62,7 @@ static bool find_path(char *out, size_t room, const char *folder, const char *de
     return length > 0 && (size_t)length < room;
 }
 
-/* Is a file one of ours, or a half-written one that was left behind? Other files in the folder are never touched. */
+/* Is a file one of ours, or a half-written one that an earlier version left behind? Other files in the folder are never touched. */
 static bool is_ours(const char *name)
 {
     size_t digits = strspn(name, "0123456789abcdef");
@@ -107,31 +109,53 @@ static bool read_levels(mip_chain *out, const header *h, const unsigned char *at
 }
 
 /* Nothing is allocated before all sizes are known to be those of the file. */
-static bool read_chain(mip_chain *out, const file_data *file, const char *description)
+static bool read_chain(mip_chain *out, const unsigned char *data, size_t size, const char *description)
 {
     header   h;
     uint64_t sum;
     size_t   told = strlen(description);
-    if (file->size < sizeof h + sizeof sum)
+    if (size < sizeof h + sizeof sum)
         return false;
-    memcpy(&h, file->data, sizeof h);
-    if (!is_sensible(&h) || h.description_size != told || file->size != sizeof h + told + content_size(&h) + sizeof sum)
+    memcpy(&h, data, sizeof h);
+    if (!is_sensible(&h) || h.description_size != told || size != sizeof h + told + content_size(&h) + sizeof sum)
         return false;
-    memcpy(&sum, file->data + file->size - sizeof sum, sizeof sum);
-    if (memcmp(file->data + sizeof h, description, told) != 0 || sum != store_hash(file->data, file->size - sizeof sum))
+    memcpy(&sum, data + size - sizeof sum, sizeof sum);
+    if (memcmp(data + sizeof h, description, told) != 0 || sum != store_hash(data, size - sizeof sum))
         return false;
-    return read_levels(out, &h, file->data + sizeof h + told);
+    return read_levels(out, &h, data + sizeof h + told);
+}
+
+/* The bytes of a regular file of this user, which a link or a pipe with its name is not; the caller frees them. Read, not mapped: another writer may cut
+ * it while it is looked at. NULL: there is none. */
+static unsigned char *read_own(const char *path, size_t *size)
+{
+    struct stat    facts;
+    unsigned char *bytes = NULL;
+    int            descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    bool           own = descriptor >= 0 && fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == geteuid();
+    if (own && facts.st_size > 0 && (uint64_t)facts.st_size <= KEPT_MOST)
+        bytes = mem_alloc((size_t)facts.st_size);
+    *size = 0;
+    for (ssize_t got = 1; bytes && got != 0 && *size < (size_t)facts.st_size; *size += got > 0 ? (size_t)got : 0) {
+        got = read(descriptor, bytes + *size, (size_t)facts.st_size - *size);
+        if (got < 0 && errno != EINTR)
+            break;
+    }
+    if (descriptor >= 0)
+        close(descriptor);
+    return bytes;
 }
 
 bool store_find(mip_chain *out, const char *description)
 {
-    char      folder[PATH_ROOM], path[PATH_ROOM];
-    file_data file;
+    char   folder[PATH_ROOM], path[PATH_ROOM];
+    size_t size;
     memset(out, 0, sizeof *out);
-    if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description) || file_load(&file, path, NULL) != LMN_OK)
+    if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description))
         return false;
-    bool found = read_chain(out, &file, description);
-    file_data_release(&file);
+    unsigned char *bytes = read_own(path, &size);
+    bool           found = bytes && read_chain(out, bytes, size, description);
+    mem_free(bytes);
     return found;
 }
 
@@ -216,7 +240,7 @@ void store_keep(const mip_chain *chain, const char *description)
     if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description) || file_make_folder(folder, NULL) != LMN_OK)
         return;
     write_chain(&bytes, chain, description);
-    if (!bytes.failed && bytes.size <= KEPT_MOST && file_store(path, bytes.data, bytes.size, NULL) == LMN_OK)
+    if (!bytes.failed && bytes.size <= KEPT_MOST && file_replace(path, bytes.data, bytes.size, NULL) == LMN_OK)
         make_room(folder);
     text_release(&bytes);
 }

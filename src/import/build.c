@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "import/access.h"
 
 int32_t build_plain_material(lmn_scene *scene, bool has_colours)
 {
@@ -65,12 +66,23 @@ lmn_status build_side_file(const import_job *job, const char *what, const char *
     char *path = file_beside(job->path, name);
     if (!path)
         return error_memory(error);
-    lmn_error problem;
-    lmn_status status = file_load(out, path, &problem);
+    lmn_error problem = {0};
+    bool refused;
+    lmn_status status = access_read(job, what, path, out, &refused, &problem);
     mem_free(path);
     if (status == LMN_MEMORY)
         return error_memory(error);
-    if (status != LMN_OK)
+    if (refused)
+        warnings_add(&job->scene->warnings, WARNING_REFUSED_FILE, "%s; %s", problem.message, problem.hint);
+    else if (status != LMN_OK)
         warnings_add(&job->scene->warnings, WARNING_MISSING_FILE, "%s \"%s\": %s", what, name, problem.message);
     return LMN_OK;
+}
+
+bool build_has_file(const import_job *job, const char *name)
+{
+    char *path = file_beside(job->path, name);
+    bool there = path && access_has(job, path);
+    mem_free(path);
+    return there;
 }

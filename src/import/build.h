@@ -22,7 +22,11 @@ bool build_attribute(node *n, const char *key, const char *value);
  * vertex numbers in range; `out` has room for 3 · (corners − 2). */
 void build_triangulate(const vec3 *positions, const uint32_t *corners, uint32_t count, uint32_t *out);
 
-/* Loads a file beside the model; a missing one is a warning that calls it `what`, and out->data is NULL. Errors: LMN_MEMORY. */
+/* Is there a file beside the model, that it may have? */
+bool build_has_file(const import_job *job, const char *name);
+
+/* Loads a file beside the model; one that is missing, or that the model may not have, is a warning that calls it `what`, and out->data is NULL.
+ * Errors: LMN_MEMORY. */
 lmn_status build_side_file(const import_job *job, const char *what, const char *name, file_data *out, lmn_error *error);
 
 /* Adds the image in a file beside the model. When it is missing or cannot be decoded, that is a warning and *out is NONE.

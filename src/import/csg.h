@@ -40,6 +40,7 @@ typedef struct csg_reader {
     csg_shape        *shapes;
     size_t            shape_count, shape_capacity;
     bool              absent; /* set by a reader of files that finds nothing to read */
+    bool              refused; /* the model may not have the file that it names */
     lmn_error        *error;  /* never NULL */
 } csg_reader;
 

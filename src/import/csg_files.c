@@ -4,9 +4,11 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/image_read.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/work.h"
+#include "fence/image_read.h"
+#include "import/access.h"
 #include "import/build.h"
 #include "import/csg.h"
 #include "import/gather.h"
@@ -50,7 +52,7 @@ static lmn_status gather_scene(csg_reader *r, int32_t node, const lmn_scene *s, 
 /* A file that is missing or broken is a warning, and the model is drawn without it. */
 static lmn_status without_file(csg_reader *r, int32_t node, lmn_status status)
 {
-    if (status == LMN_MEMORY || status == LMN_CANCELLED || status == LMN_OK)
+    if (status == LMN_MEMORY || status == LMN_CANCELLED || status == LMN_OK || r->refused || work_stopped())
         return status;
     csg_warn(r, node, WARNING_MISSING_FILE, "%s() is left out: %s", csg_word(&r->tree, node), r->error->message);
     memset(r->error, 0, sizeof *r->error);
@@ -58,14 +60,29 @@ static lmn_status without_file(csg_reader *r, int32_t node, lmn_status status)
     return LMN_OK;
 }
 
+/* The path of the file that a node names, which the model must be allowed to have: what it lacks then cannot be left out. */
+static lmn_status find_file(csg_reader *r, int32_t node, char **path)
+{
+    *path = file_beside(r->job->path, name_of(r, node));
+    lmn_error problem = {0};
+    lmn_status status = *path ? access_check(r->job, "file", *path, &problem) : error_memory(r->error);
+    if (*path && status != LMN_OK) {
+        error_in_file(r->error, status, r->job->path, r->evaluated ? 0 : (int)r->tree.nodes[node].line, "%s", problem.message);
+        error_hint(r->error, "%s", problem.hint);
+    }
+    return status;
+}
+
 lmn_status csg_import_mesh(csg_reader *r, int32_t node, polyhedron *out)
 {
-    char *path = file_beside(r->job->path, name_of(r, node));
-    if (!path)
-        return error_memory(r->error);
-    const lmn_load_desc desc = {.struct_size = sizeof desc, .progress = r->job->progress, .progress_user = r->job->progress_user};
+    char *path = NULL;
     lmn_scene *scene = NULL;
-    lmn_status status = import_file(&scene, path, &desc, r->error);
+    lmn_status status = find_file(r, node, &path);
+    if (status != LMN_OK) {
+        mem_free(path);
+        return status;
+    }
+    status = import_named_file(&scene, r->job, path, r->error);
     if (status == LMN_OK)
         status = gather_scene(r, node, scene, out);
     scene_free(scene);
@@ -78,8 +95,11 @@ lmn_status csg_import_mesh(csg_reader *r, int32_t node, polyhedron *out)
 static lmn_status load(csg_reader *r, int32_t node, file_data *out)
 {
     *out = (file_data){0};
-    char *path = file_beside(r->job->path, name_of(r, node));
-    lmn_status status = path ? file_load(out, path, r->error) : error_memory(r->error);
+    char *path = NULL;
+    lmn_status status = find_file(r, node, &path);
+    r->refused = status != LMN_OK;
+    if (status == LMN_OK)
+        status = access_read(r->job, "file", path, out, NULL, r->error);
     mem_free(path);
     return status;
 }
@@ -150,7 +170,7 @@ static lmn_status read_heights(csg_reader *r, const file_data *file, height_fiel
 static lmn_status heights_of_image(csg_reader *r, const file_data *file, bool invert, height_field *f)
 {
     image_pixels picture;
-    lmn_status status = image_read(&picture, file->data, file->size, r->error);
+    lmn_status status = image_read(&picture, file->data, file->size, 0, r->error);
     if (status != LMN_OK)
         return status;
     f->columns = picture.width;

@@ -104,6 +104,8 @@ void csg_set_dimensions(csg_reader *r)
             csg_warn(r, i, WARNING_BACKGROUND, "%s() is background (%%) and left out", csg_word(t, i));
         else if (unknown)
             csg_warn(r, i, WARNING_IGNORED, "%.60s() is not known and left out", csg_word(t, i));
+        else if (csg_meaning_of(r, i)->dimension < 0 && n->dimension == 0)
+            csg_warn(r, i, WARNING_MISSING_FILE, "%s() is left out: the ending of \"%.200s\" is none that is read", csg_word(t, i), csg_string(t, i, "file", 0, ""));
         i = background || unknown || (n->modifiers & CSG_DISABLED) ? n->after : i + 1;
     }
 }

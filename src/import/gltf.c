@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/work.h"
 #include "import/draco.h"
 
 enum { GLB_HEADER = 12, CHUNK_HEADER = 8, CHUNK_JSON = 0x4E4F534A, CHUNK_BIN = 0x004E4942 };
@@ -81,13 +82,18 @@ static bool split_glb(gltf_reader *r, const unsigned char **json, size_t *json_s
     return *json != NULL;
 }
 
-/* Nesting is checked before the parser recurses. */
-static bool check_depth(gltf_reader *r, const unsigned char *json, size_t size)
+/* What the parser makes of one value, bytes. It takes memory past base/memory.h. */
+enum { VALUE_BYTES = 96 };
+
+/* Nesting is checked before the parser recurses, and that what it makes will find room. */
+static bool check_json(gltf_reader *r, const unsigned char *json, size_t size)
 {
     int depth = 0;
+    size_t values = 0;
     bool quoted = false;
     for (size_t i = 0; i < size; i++) {
         unsigned char c = json[i];
+        values += !quoted && (c == ',' || c == '{' || c == '[' || c == ':');
         if (quoted) {
             i += c == '\\';
             quoted = c != '"';
@@ -100,7 +106,23 @@ static bool check_depth(gltf_reader *r, const unsigned char *json, size_t size)
             depth--;
         }
     }
-    return true;
+    return work_has_room(size + values * VALUE_BYTES) || gltf_out_of_memory(r);
+}
+
+/* A part of the text for the parser, which can be stopped in between. */
+typedef struct json_text {
+    const unsigned char *at, *end;
+} json_text;
+
+static size_t next_part(void *buffer, size_t size, void *user)
+{
+    json_text *t = user;
+    size_t left = (size_t)(t->end - t->at), some = left < size ? left : size;
+    if (work_stopped())
+        return (size_t)-1;
+    memcpy(buffer, t->at, some);
+    t->at += some;
+    return some;
 }
 
 static bool parse(gltf_reader *r)
@@ -123,13 +145,13 @@ static bool parse(gltf_reader *r)
         size--;
     if (size > LIMIT_JSON_BYTES)
         return gltf_fail(r, LMN_LIMIT, "%zu bytes of JSON, allowed are %zu", size, LIMIT_JSON_BYTES), false;
-    if (!check_depth(r, json, size))
+    if (!check_json(r, json, size))
         return false;
     json_error_t problem;
-    r->root = json_loadb((const char *)json, size, 0, &problem);
+    r->root = json_load_callback(next_part, &(json_text){json, json + size}, 0, &problem);
     if (!r->root) {
         bool memory = json_error_code(&problem) == json_error_out_of_memory;
-        if (memory)
+        if (memory || work_stopped())
             return gltf_out_of_memory(r);
         gltf_fail(r, LMN_FORMAT, "JSON: %s", problem.text);
         if (r->error) {

@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/memory.h"
+#include "fence/fence.h"
+#include "import/access.h"
 #include "import/gltf.h"
 
 static int hex_digit(char c)
@@ -107,13 +109,24 @@ bool gltf_load_uri(gltf_reader *r, const char *uri, const char *kind, unsigned c
     char *path = file_beside(r->job->path, decoded);
     mem_free(decoded);
     lmn_error problem = {.message = "limner does not fetch from the network"};
+    bool refused = false;
     bool good = *name && path;
     lmn_status status = LMN_READ;
     if (good && !has_scheme(uri))
-        status = file_load(file, path, &problem);
+        status = access_read(r->job, kind, path, file, &refused, &problem);
     mem_free(path);
     if (!good || status == LMN_MEMORY)
         return gltf_out_of_memory(r);
+    /* Without a texture a model is still a model; without a buffer it is not. */
+    if (refused && strcmp(kind, "buffer") == 0) {
+        gltf_fail(r, LMN_READ, "%s", problem.message);
+        error_hint(r->error, "%s", problem.hint);
+        return false;
+    }
+    if (refused) {
+        gltf_warn(r, WARNING_REFUSED_FILE, "%s; %s", problem.message, problem.hint);
+        return false;
+    }
     if (status == LMN_LIMIT)
         return gltf_fail(r, LMN_LIMIT, "%s \"%s\": %s", kind, *name, problem.message), false;
     if (status != LMN_OK)
@@ -228,28 +241,62 @@ static bool check_packed(gltf_reader *r, const packed *p, const char *where)
     return true;
 }
 
+static void apply_filter(const char *filter, void *data, size_t count, size_t stride)
+{
+    if (strcmp(filter, "OCTAHEDRAL") == 0)
+        meshopt_decodeFilterOct(data, count, stride);
+    else if (strcmp(filter, "QUATERNION") == 0)
+        meshopt_decodeFilterQuat(data, count, stride);
+    else if (strcmp(filter, "EXPONENTIAL") == 0)
+        meshopt_decodeFilterExp(data, count, stride);
+}
+
+/* Behind the fence. Request: count, stride, mode, filter, and the packed bytes, all of them checked before. */
+static lmn_status decode_packed(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
+{
+    fence_reader r = fence_read(request, size);
+    uint64_t counts[2] = {0, 0};
+    const void *at = fence_take(&r, sizeof counts);
+    if (at)
+        memcpy(counts, at, sizeof counts);
+    char *mode = fence_take_text(&r), *filter = fence_take_text(&r);
+    size_t count = (size_t)counts[0], stride = (size_t)counts[1], packed_size = (size_t)(r.end - r.at);
+    unsigned char *out = mode && filter ? mem_calloc(count, stride) : NULL;
+    int failed = 0;
+    if (out && strcmp(mode, "ATTRIBUTES") == 0)
+        failed = meshopt_decodeVertexBuffer(out, count, stride, r.at, packed_size);
+    else if (out && strcmp(mode, "TRIANGLES") == 0)
+        failed = meshopt_decodeIndexBuffer(out, count, stride, r.at, packed_size);
+    else if (out)
+        failed = meshopt_decodeIndexSequence(out, count, stride, r.at, packed_size);
+    if (out && !failed)
+        apply_filter(filter, out, count, stride);
+    mem_free(mode);
+    mem_free(filter);
+    *answer = (fence_bytes){.bytes = out, .size = out ? count * stride : 0, .capacity = out ? count * stride : 0};
+    return !out ? error_memory(error) : failed ? error_set(error, LMN_FORMAT, "the compressed data is damaged") : LMN_OK;
+}
+
 static bool unpack(gltf_reader *r, const packed *p, const char *where, gltf_view *v)
 {
     if (!check_packed(r, p, where))
         return false;
-    v->owned = gltf_alloc(r, p->count, p->stride);
-    if (!v->owned)
+    lmn_error problem = {0};
+    fence_bytes request = {0}, answer;
+    fence_put(&request, &(uint64_t[]){p->count, p->stride}, 2 * sizeof(uint64_t));
+    fence_put_text(&request, p->mode);
+    fence_put_text(&request, p->filter);
+    fence_put(&request, p->data, p->size);
+    lmn_status status = fence_call(&answer, decode_packed, "the reader of meshopt data", &request, &problem);
+    mem_free(request.bytes);
+    if (status == LMN_OK && answer.size != p->count * p->stride)
+        status = error_set(&problem, LMN_FORMAT, "the compressed data is damaged");
+    v->owned = answer.bytes;
+    if (status != LMN_OK) {
+        gltf_fail(r, status, "%s: %s", where, problem.message);
+        error_hint(r->error, "%s", problem.hint);
         return false;
-    int failed;
-    if (strcmp(p->mode, "ATTRIBUTES") == 0)
-        failed = meshopt_decodeVertexBuffer(v->owned, p->count, p->stride, p->data, p->size);
-    else if (strcmp(p->mode, "TRIANGLES") == 0)
-        failed = meshopt_decodeIndexBuffer(v->owned, p->count, p->stride, p->data, p->size);
-    else
-        failed = meshopt_decodeIndexSequence(v->owned, p->count, p->stride, p->data, p->size);
-    if (failed)
-        return gltf_fail(r, LMN_FORMAT, "%s: the compressed data is damaged", where), false;
-    if (strcmp(p->filter, "OCTAHEDRAL") == 0)
-        meshopt_decodeFilterOct(v->owned, p->count, p->stride);
-    else if (strcmp(p->filter, "QUATERNION") == 0)
-        meshopt_decodeFilterQuat(v->owned, p->count, p->stride);
-    else if (strcmp(p->filter, "EXPONENTIAL") == 0)
-        meshopt_decodeFilterExp(v->owned, p->count, p->stride);
+    }
     v->data = v->owned;
     v->size = p->count * p->stride;
     return true;

@@ -68,7 +68,7 @@ static void read_sampler(gltf_reader *r, json_t *texture, const char *where, tex
     use->nearest = gltf_number(sampler, "magFilter", 0) == FILTER_NEAREST;
 }
 
-static void read_transform(json_t *info, texture_use *use)
+static void read_transform(json_t *info, texture_use *use, double *uv_set)
 {
     json_t *transform = gltf_extension(info, "KHR_texture_transform");
     double pair[2];
@@ -81,7 +81,7 @@ static void read_transform(json_t *info, texture_use *use)
         use->scale[1] = (float)pair[1];
     }
     use->rotation = (float)gltf_number(transform, "rotation", 0);
-    use->uv_set = (int32_t)gltf_number(transform, "texCoord", use->uv_set);
+    *uv_set = gltf_number(transform, "texCoord", *uv_set);
 }
 
 static void read_texture(gltf_reader *r, json_t *parent, const char *key, const char *where, texture_use *use)
@@ -101,13 +101,14 @@ static void read_texture(gltf_reader *r, json_t *parent, const char *key, const 
             gltf_warn(r, WARNING_IGNORED, "%s: no image that limner reads", here);
         return;
     }
-    use->uv_set = (int32_t)gltf_number(info, "texCoord", 0);
+    double uv_set = gltf_number(info, "texCoord", 0);
     read_sampler(r, texture, here, use);
-    read_transform(info, use);
-    if (use->uv_set < 0 || use->uv_set >= UV_SETS) {
-        gltf_warn(r, WARNING_IGNORED, "texture coordinate set %d of %s; set 0 is used", use->uv_set, where);
-        use->uv_set = 0;
-    }
+    read_transform(info, use, &uv_set);
+    /* Files may have any number there, also ones that no integer can hold. */
+    if (uv_set >= 0 && uv_set < UV_SETS)
+        use->uv_set = (int32_t)uv_set;
+    else
+        gltf_warn(r, WARNING_IGNORED, "texture coordinate set %.15g of %s; set 0 is used", uv_set, where);
     use->image = get_image(r, source);
 }
 

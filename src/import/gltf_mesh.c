@@ -258,9 +258,12 @@ static void open_draco(gltf_reader *r, shape *s)
     if (!v)
         return;
     s->draco_ids = json_object_get(extension, "attributes");
-    s->draco = draco_open(v->data, v->size);
-    if (!s->draco)
-        gltf_fail(r, LMN_FORMAT, "%s: the Draco data is damaged", s->where);
+    lmn_error problem = {0};
+    lmn_status status = draco_open(&s->draco, v->data, v->size, &problem);
+    if (status != LMN_OK) {
+        gltf_fail(r, status, "%s: %s", s->where, problem.message);
+        error_hint(r->error, "%s", problem.hint);
+    }
 }
 
 static bool is_drawn(gltf_reader *r, size_t mode, const char *where)

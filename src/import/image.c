@@ -1,12 +1,13 @@
 /* Images of models: decoded into the scene, or warned about. */
 #include <string.h>
-#include <unistd.h>
 
 #include "base/file.h"
-#include "base/image_read.h"
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/work.h"
+#include "fence/image_read.h"
+#include "import/access.h"
 #include "import/build.h"
 #include "import/import.h"
 
@@ -24,7 +25,7 @@ static lmn_status find_strokes(const import_job *job, const char *name, char **o
     mem_free(own);
     if (!path)
         return error_memory(error);
-    if (access(path, R_OK) == 0)
+    if (access_has(job, path))
         *out = path;
     else
         mem_free(path);
@@ -47,6 +48,41 @@ static lmn_status build_strokes(const import_job *job, const char *name, int32_t
     return LMN_OK;
 }
 
+static void note_halved(const import_job *job, const char *name, const image *i, int times)
+{
+    warnings_add(&job->scene->warnings, WARNING_REDUCED, "texture \"%s\" was made smaller, to %u x %u (1/%d): the limit for textures is %.0f MiB", name, i->width, i->height,
+                 1 << times, (double)work_limits().textures / (1 << 20));
+}
+
+static size_t bytes_of(const image *i)
+{
+    return (size_t)i->width * i->height * 4;
+}
+
+/* Halves the largest textures until all fit. */
+static void make_room(const import_job *job, size_t room)
+{
+    lmn_scene *s = job->scene;
+    while (room && !work_stopped()) {
+        size_t total = 0;
+        image *largest = NULL;
+        for (size_t i = 0; i < s->image_count; i++) {
+            total += bytes_of(&s->images[i]);
+            if (!largest || bytes_of(&s->images[i]) > bytes_of(largest))
+                largest = &s->images[i];
+        }
+        if (total <= room || bytes_of(largest) <= 4)
+            return;
+        image_pixels p = {.width = largest->width, .height = largest->height, .rgba = largest->pixels};
+        image_halve(&p);
+        void *smaller = mem_realloc(p.rgba, (size_t)p.width * p.height * 4);
+        largest->pixels = smaller ? smaller : p.rgba;
+        largest->width = p.width;
+        largest->height = p.height;
+        note_halved(job, largest->name ? largest->name : "", largest, 1);
+    }
+}
+
 lmn_status build_image_bytes(const import_job *job, const char *name, const unsigned char *bytes, size_t size,
                              int32_t *out, lmn_error *error)
 {
@@ -57,23 +93,17 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
         return build_strokes(job, name, out, error);
     lmn_error problem;
     image_pixels pixels;
-    lmn_status status = image_read(&pixels, bytes, size, &problem);
+    size_t room = (size_t)work_limits().textures;
+    lmn_status status = image_read(&pixels, bytes, size, room, &problem);
     if (status == LMN_MEMORY)
         return error_memory(error);
+    if (status == LMN_CANCELLED || work_stopped())
+        return work_check(error);
     if (status != LMN_OK) {
         warnings_add(&job->scene->warnings, WARNING_BAD_TEXTURE, "texture \"%s\": %s", name, problem.message);
         return LMN_OK;
     }
     image decoded = {.width = pixels.width, .height = pixels.height, .pixels = pixels.rgba};
-    size_t total = (size_t)decoded.width * decoded.height;
-    for (size_t i = 0; i < job->scene->image_count; i++)
-        total += (size_t)job->scene->images[i].width * job->scene->images[i].height;
-    if (total > LIMIT_SCENE_PIXELS) {
-        warnings_add(&job->scene->warnings, WARNING_BAD_TEXTURE, "texture \"%s\": all textures together have more than %zu pixels",
-                     name, LIMIT_SCENE_PIXELS);
-        mem_free(decoded.pixels);
-        return LMN_OK;
-    }
     if (find_strokes(job, name, &decoded.strokes, error) != LMN_OK) {
         mem_free(decoded.pixels);
         return LMN_MEMORY;
@@ -88,6 +118,9 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
     }
     *added = decoded;
     *out = (int32_t)job->scene->image_count - 1;
+    if (pixels.halved)
+        note_halved(job, name, &decoded, pixels.halved);
+    make_room(job, room);
     return LMN_OK;
 }
 

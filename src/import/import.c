@@ -6,6 +6,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/work.h"
+#include "import/access.h"
 
 /* Asked in this order; the last takes every other ending. */
 static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl, &import_obj, &import_csg, &import_scad,
@@ -14,9 +16,10 @@ enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
 {
-    if (!job->progress || job->progress(fraction, stage, job->progress_user))
-        return LMN_OK;
-    return error_in_file(error, LMN_CANCELLED, job->path, 0, "loading was cancelled");
+    lmn_status status = work_progress(fraction, stage, error);
+    if (status != LMN_OK)
+        error_file(error, job->path);
+    return status;
 }
 
 static bool has_ending(const import_format *f, const char *ending)
@@ -80,6 +83,19 @@ static lmn_status name_single_node(lmn_scene *scene, const char *path, lmn_error
     return scene->nodes[0].name ? LMN_OK : error_memory(error);
 }
 
+static lmn_status check_triangles(const import_job *job, lmn_error *error)
+{
+    const lmn_scene *s = job->scene;
+    uint64_t total = 0, most = work_limits().triangles;
+    for (size_t i = 0; i < s->part_count; i++)
+        total += s->parts[i].triangles * node_draw_count(&s->nodes[s->parts[i].node]);
+    if (!most || total <= most)
+        return LMN_OK;
+    work_exceeded(error, "triangles", "the model has %llu triangles, instances counted; allowed are %llu", (unsigned long long)total, (unsigned long long)most);
+    error_file(error, job->path);
+    return LMN_LIMIT;
+}
+
 static lmn_status read_into(const import_job *job, const import_format *format, lmn_up_axis up, lmn_error *error)
 {
     lmn_status status = import_progress(job, 0, "reading", error);
@@ -91,35 +107,63 @@ static lmn_status read_into(const import_job *job, const import_format *format, 
         status = import_progress(job, 0.9, "checking", error);
     if (status == LMN_OK)
         status = scene_finish(job->scene, job->path, error);
+    if (status == LMN_OK)
+        status = check_triangles(job, error);
     job->scene->up = up == LMN_UP_Y ? 'y' : up == LMN_UP_Z ? 'z' : format->up;
     return status;
 }
 
-lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *desc, lmn_error *error)
+/* What is asked of programs must not be left out in silence where there is none. */
+static lmn_status check_wishes(const import_format *format, const char *path, const lmn_load_desc *desc, lmn_error *error)
+{
+    const lmn_task_desc *conditions = work_conditions();
+    if (format == &import_scad && conditions && (conditions->files == LMN_FILES_FOLDER || conditions->read_file)) {
+        error_in_file(error, LMN_UNSUPPORTED, path, 0, "this is a program, which openscad runs, and which may read any file");
+        error_hint(error, "--safe refuses programs; evaluate it where it may run: openscad -o model.csg model.scad");
+        return LMN_UNSUPPORTED;
+    }
+    if (format == &import_scad || (!desc->define_count && !desc->strict))
+        return LMN_OK;
+    return error_in_file(error, LMN_USAGE, path, 0, "%s for OpenSCAD programs (.scad), and this is %s", desc->define_count ? "definitions are" : "being strict is", format->name);
+}
+
+static lmn_status load(lmn_scene **out, const import_job *by, const char *path, const lmn_load_desc *desc, lmn_error *error)
 {
     *out = NULL;
     double start = clock_ms();
     file_data file;
-    lmn_status status = file_load(&file, path, error);
+    lmn_status status = access_read(by, by ? "file" : "model", path, &file, NULL, error);
     if (status != LMN_OK)
         return status;
     const import_format *format = NULL;
     lmn_scene *scene = scene_new();
     status = scene ? choose(&format, path, &file, error) : error_memory(error);
+    if (status == LMN_OK)
+        status = check_wishes(format, path, desc, error);
     if (status == LMN_OK) {
-        import_job job = {.path = path, .file = &file, .scene = scene, .progress = desc->progress,
-                          .progress_user = desc->progress_user};
+        import_job job = {.path = path, .model = by ? by->model : path, .file = &file, .scene = scene, .desc = desc};
         status = read_into(&job, format, desc->up_axis, error);
     }
     file_data_release(&file);
     if (status != LMN_OK) {
         /* Readers of parts of a file need not know its name. */
-        if (error && !error->file[0] && status != LMN_MEMORY)
-            strncpy(error->file, path, sizeof error->file - 1);
+        if (error && !error->file[0])
+            error_file(error, path);
         scene_free(scene);
         return status;
     }
     scene->load_ms = clock_ms() - start;
     *out = scene;
     return LMN_OK;
+}
+
+lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *desc, lmn_error *error)
+{
+    return load(out, NULL, path, desc, error);
+}
+
+lmn_status import_named_file(lmn_scene **out, const import_job *job, const char *path, lmn_error *error)
+{
+    const lmn_load_desc standard = LMN_LOAD_DESC_INIT;
+    return load(out, job, path, &standard, error);
 }

@@ -5,14 +5,13 @@
 #include "base/file.h"
 #include "scene/scene.h"
 
-/* What a reader gets: the file's bytes, its path for side files and messages, and an empty scene to fill. Progress may be
- * NULL; import_progress returns LMN_CANCELLED when the caller wants to stop. */
+/* What a reader gets: the file's bytes, its path for side files and messages, and an empty scene to fill. */
 typedef struct import_job {
     const char     *path;
+    const char     *model; /* the path that the caller gave; another one in files that it imports */
     const file_data *file;
     lmn_scene      *scene;
-    lmn_progress_fn progress;
-    void           *progress_user;
+    const lmn_load_desc *desc; /* what only one format has; NULL: nothing */
 } import_job;
 
 typedef struct import_format {
@@ -25,10 +24,13 @@ typedef struct import_format {
 
 extern const import_format import_gltf, import_stl, import_ply, import_obj, import_csg, import_scad, import_assimp;
 
-/* Reads a file into a new finished scene (owned by the caller). `up` LMN_UP_AUTO takes the format's convention.
+/* Reads a file into a new finished scene (owned by the caller). The description is complete; LMN_UP_AUTO takes the format's convention.
  * Content decides the format first, the ending second; a mismatch is an error that says so. */
 lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *desc, lmn_error *error);
+/* The same of a file that the job's model names; `path` is relative to the working directory. */
+lmn_status import_named_file(lmn_scene **out, const import_job *job, const char *path, lmn_error *error);
 
+/* Tells how far reading is. LMN_CANCELLED or LMN_LIMIT when it is to stop, then the error names the file. */
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error);
 
 #endif

@@ -1,6 +1,7 @@
 /* OpenSCAD programs (.scad): the program `openscad`, when it is on the PATH, evaluates them to .csg in a process group of its own, with
  * a limit on time; a .scad file is a program, and only OpenSCAD knows its language. */
 #define _GNU_SOURCE
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -17,6 +18,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/file_temporary.h"
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -53,15 +55,78 @@ static bool find_program(char out[PATH_ROOM])
 
 static lmn_status make_folder(evaluation *e)
 {
-    const char *where = getenv("TMPDIR");
-    int size = snprintf(e->folder, sizeof e->folder, "%s/limner-XXXXXX", where && *where == '/' ? where : "/tmp");
-    if (size >= (int)sizeof e->folder || !mkdtemp(e->folder)) {
-        e->folder[0] = '\0';
+    if (!temporary_folder_make(e->folder, sizeof e->folder))
         return error_in_file(e->error, LMN_WRITE, e->job->path, 0, "no temporary folder can be made: %s", strerror(errno));
-    }
     snprintf(e->output, sizeof e->output, "%s/model.csg", e->folder);
     return LMN_OK;
 }
+
+/* --- what the program is given ------------------------------------------------------------------------------------------- */
+
+static size_t define_count(const evaluation *e)
+{
+    return e->job->desc ? e->job->desc->define_count : 0;
+}
+
+/* How long the name before '=' is; 0: this is no definition. */
+static size_t name_length(const char *define)
+{
+    size_t length = 0;
+    while (isalnum((unsigned char)define[length]) || define[length] == '_' || (length == 0 && define[0] == '$'))
+        length++;
+    bool named = length > (define[0] == '$') && !isdigit((unsigned char)define[0]);
+    return named && define[length] == '=' && define[length + 1] ? length : 0;
+}
+
+/* Has the program's own text this word? What it includes is not looked at. */
+static bool has_word(const file_data *file, const char *word, size_t length)
+{
+    const char *begin = (const char *)file->data, *end = begin + file->size;
+    for (const char *at = begin; (at = memmem(at, (size_t)(end - at), word, length)) != NULL; at++) {
+        char before = at > begin ? at[-1] : ' ', after = at + length < end ? at[length] : ' ';
+        if (!isalnum((unsigned char)before) && before != '_' && !isalnum((unsigned char)after) && after != '_')
+            return true;
+    }
+    return false;
+}
+
+static lmn_status check_defines(evaluation *e)
+{
+    const file_data *file = e->job->file;
+    bool             alone = !has_word(file, "include", 7) && !has_word(file, "use", 3);
+    for (size_t i = 0; i < define_count(e); i++) {
+        const char *define = e->job->desc->defines[i];
+        size_t      length = define ? name_length(define) : 0;
+        if (!length) {
+            error_in_file(e->error, LMN_USAGE, e->job->path, 0, "the definition is '%.80s'; allowed is NAME=VALUE, where the name has letters, digits and '_'", define ? define : "");
+            error_hint(e->error, "for example -D width=20 or -D 'name=\"lid\"'");
+            return LMN_USAGE;
+        }
+        if (alone && define[0] != '$' && !has_word(file, define, length))
+            warnings_add(&e->job->scene->warnings, WARNING_NO_MATCH, "the program has no variable '%.*s' that the definition could change", (int)length, define);
+    }
+    return LMN_OK;
+}
+
+/* openscad's arguments; the caller frees the array. NULL: memory is gone. */
+static char **make_arguments(const evaluation *e, const char *input)
+{
+    size_t       count = 0, defines = define_count(e);
+    const char **arguments = mem_calloc(2 * defines + 5, sizeof *arguments);
+    if (!arguments)
+        return NULL;
+    arguments[count++] = "openscad";
+    arguments[count++] = "-o";
+    arguments[count++] = e->output;
+    for (size_t i = 0; i < defines; i++) {
+        arguments[count++] = "-D";
+        arguments[count++] = e->job->desc->defines[i];
+    }
+    arguments[count] = input;
+    return (char **)arguments;
+}
+
+/* --- the process --------------------------------------------------------------------------------------------------------- */
 
 static void limit(__rlimit_resource_t what, size_t value)
 {
@@ -70,7 +135,7 @@ static void limit(__rlimit_resource_t what, size_t value)
 }
 
 /* Never returns. Only calls that are safe between fork and exec. */
-static void run_child(const evaluation *e, const char *input, int pipe_end)
+static void run_child(const evaluation *e, char *const *arguments, int pipe_end)
 {
     static const int signals[] = {SIGTERM, SIGINT, SIGXCPU, SIGPIPE, SIGQUIT, SIGHUP};
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
@@ -88,7 +153,6 @@ static void run_child(const evaluation *e, const char *input, int pipe_end)
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, LIMIT_SCAD_SECONDS);
     limit(RLIMIT_AS, LIMIT_IMPORT_MEMORY);
-    char *const arguments[] = {(char *)"openscad", (char *)"-o", (char *)e->output, (char *)input, NULL};
     execv(e->program, arguments);
     _exit(127);
 }
@@ -98,11 +162,17 @@ static lmn_status start(evaluation *e)
     /* A name must not be taken for an option. */
     char input[PATH_ROOM];
     int ends[2], size = snprintf(input, sizeof input, "%s%s", e->job->path[0] == '-' ? "./" : "", e->job->path);
-    if (size >= (int)sizeof input || pipe2(ends, O_CLOEXEC) != 0)
+    char **arguments = make_arguments(e, input);
+    if (!arguments)
+        return error_memory(e->error);
+    if (size >= (int)sizeof input || pipe2(ends, O_CLOEXEC) != 0) {
+        mem_free(arguments);
         return error_in_file(e->error, LMN_INTERNAL, e->job->path, 0, "openscad cannot be started");
+    }
     e->id = fork();
     if (e->id == 0)
-        run_child(e, input, ends[1]);
+        run_child(e, arguments, ends[1]);
+    mem_free(arguments);
     close(ends[1]);
     e->pipe = ends[0];
     if (e->id > 0) {
@@ -180,15 +250,27 @@ static void pass_warning(const evaluation *e, const char *line)
     warnings_add(&e->job->scene->warnings, WARNING_BAD_VALUE, "openscad: %s", line);
 }
 
+/* The program's line, where the message tells one: "… in file model.scad, line 3". What it includes has lines of its own. */
+static int line_of(const evaluation *e, const char *message)
+{
+    const char *own = strrchr(e->job->path, '/'), *at = NULL;
+    own = own ? own + 1 : e->job->path;
+    size_t length = strlen(own);
+    for (const char *next = message; (next = strstr(next, "in file ")) != NULL; next++)
+        at = next + 8; /* the last: an assertion's own text may have the words, too */
+    const char *comma = at ? strstr(at, ", line ") : NULL;
+    long long   number = 0;
+    if (!comma || (size_t)(comma - at) < length || strncmp(comma - length, own, length) != 0 ||
+        !text_parse_int(comma + 7, message + strlen(message), &number) || number < 0 || number > INT_MAX)
+        return 0;
+    return (int)number;
+}
+
+/* The first one stays. */
 static void pass_error(const evaluation *e, const char *line)
 {
-    if (e->error->message[0])
-        return;
-    const char *at = strstr(line, "line ");
-    long long number = 0;
-    if (!at || !text_parse_int(at + 5, line + strlen(line), &number) || number < 0 || number > INT_MAX)
-        number = 0;
-    error_in_file(e->error, LMN_FORMAT, e->job->path, (int)number, "openscad: %.400s", line);
+    if (!e->error->message[0])
+        error_in_file(e->error, LMN_FORMAT, e->job->path, line_of(e, line), "openscad: %.400s", line);
 }
 
 static lmn_status explain(evaluation *e)
@@ -198,13 +280,16 @@ static lmn_status explain(evaluation *e)
         error_hint(e->error, "evaluate it yourself: openscad -o model.csg model.scad");
         return LMN_LIMIT;
     }
-    if (WIFEXITED(e->status) && WEXITSTATUS(e->status) == 0)
-        return LMN_OK;
+    /* Versions differ in whether a failed assertion fails the program; all of them write what came before it. */
     e->error->message[0] = '\0';
     each_line(e, "ERROR:", pass_error);
-    if (!e->error->message[0])
-        error_in_file(e->error, LMN_FORMAT, e->job->path, 0, "openscad failed%s%.300s", e->said[0] ? ": " : "", e->said);
-    return LMN_FORMAT;
+    if (!e->error->message[0] && e->job->desc && e->job->desc->strict)
+        each_line(e, "WARNING:", pass_error);
+    if (e->error->message[0])
+        return LMN_FORMAT;
+    if (WIFEXITED(e->status) && WEXITSTATUS(e->status) == 0)
+        return LMN_OK;
+    return error_in_file(e->error, LMN_FORMAT, e->job->path, 0, "openscad failed%s%.300s", e->said[0] ? ": " : "", e->said);
 }
 
 /* --- the format -------------------------------------------------------------------------------------------------------- */
@@ -236,8 +321,10 @@ static lmn_status read_scad(const import_job *job, lmn_error *error)
         status = error_in_file(&own, LMN_UNSUPPORTED, job->path, 0, "a .scad file is a program that openscad must evaluate, and it is not on the PATH");
         error_hint(&own, "install OpenSCAD, or where it is: openscad -o model.csg model.scad");
     } else {
-        status = make_folder(e);
+        status = check_defines(e);
     }
+    if (status == LMN_OK)
+        status = make_folder(e);
     if (status == LMN_OK)
         status = start(e);
     if (status == LMN_OK)
@@ -246,10 +333,8 @@ static lmn_status read_scad(const import_job *job, lmn_error *error)
         status = explain(e);
     if (status == LMN_OK)
         status = read_output(e);
-    if (e->folder[0]) {
-        unlink(e->output);
-        rmdir(e->folder);
-    }
+    if (e->folder[0])
+        temporary_folder_remove(e->folder);
     mem_free(e);
     if (status != LMN_OK && error)
         *error = own;

@@ -49,7 +49,7 @@ static const param params[] = {
                     .only_if = "lock=screen", .doc = "The field repeats after this length, both ways; 0: it does not."),
     PARAM_INT_ROW(uncertainty, seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true,
                   .doc = "Another number draws another wobble; counts with the drawing's own seed."),
-    PARAM_FLOAT_ROW(uncertainty, boil, .def = 0, .min = 0, .max = 60, .soft_max = 24, .cpu_only = true,
+    PARAM_FLOAT_ROW(uncertainty, boil, .a_second = true, .def = 0, .min = 0, .max = 60, .soft_max = 24, .cpu_only = true,
                     .doc = "New wobbles a second of the drawing's time: 12 is drawn on twos at 24 frames a second; 0 keeps one."),
     PARAM_ENUM_ROW(uncertainty, by, .names = by_names, .variant = true, .only_if = "lock=object",
                    .doc = "What of the surface the wobble depends on: place, direction or bend."),

@@ -21,7 +21,7 @@ static const param params[] = {
                     .doc = "Distance between dots, about."),
     PARAM_FLOAT_ROW(dots, wobble, .toggles = true, .def = 0.5, .min = 0, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .doc = "How far dots stray from their rows, share of their distance."),
     PARAM_FLOAT_ROW(dots, uneven, .toggles = true, .def = 0.05, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
-    PARAM_FLOAT_ROW(dots, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
+    PARAM_FLOAT_ROW(dots, change, .a_second = true, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the places and the unevenness change; 0 never."),
 };
 
 static const pass passes[] = {HALFTONE_PASSES};

@@ -32,7 +32,7 @@ static const param params[] = {
                     .doc = "How far lines waver, share of their distance."),
     PARAM_FLOAT_ROW(hatch, uneven, .toggles = true, .def = 0.15, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Unevenness of the tone, which makes lines swell and thin."),
     PARAM_FLOAT_ROW(hatch, loose, .toggles = true, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much strokes differ in width and place."),
-    PARAM_FLOAT_ROW(hatch, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the waver and the unevenness change; 0 never."),
+    PARAM_FLOAT_ROW(hatch, change, .a_second = true, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12, .doc = "How often a second the waver and the unevenness change; 0 never."),
 };
 
 static const pass passes[] = {HALFTONE_PASSES};

@@ -42,7 +42,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(screen_values, uneven, .toggles = true, .def = 0.04, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
     PARAM_INT_ROW(screen_values, frames, .def = 1, .min = 1, .max = 16, .cpu_only = true, .only_if = "change>0", .unit = UNIT_COUNT,
                   .doc = "Screens that follow each other in time, each drawn anew; of patterns only."),
-    PARAM_FLOAT_ROW(screen_values, change, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12,
+    PARAM_FLOAT_ROW(screen_values, change, .a_second = true, .toggles = true, .def = 0, .min = 0, .max = 60, .soft_max = 12,
                     .doc = "How often a second the screen, the waver and the unevenness change; 0 never."),
     PARAM_INT_ROW(screen_values, pattern_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .doc = "Another pattern of the same kind."),
 };

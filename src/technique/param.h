@@ -60,6 +60,7 @@ typedef struct param {
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool               toggles;     /* a number: WITH_KEY_IN_CAPITALS is defined where it is not 0, so that shaders leave out what it does */
     bool               cpu_only;    /* no uniform */
+    bool               a_second;    /* a float: above 0 the picture changes so many times a second of its time */
     bool               along;       /* a length along lines, which makes them no wider */
     float              reach;       /* lengths: how many times as far they can reach; 0 is once */
     const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */

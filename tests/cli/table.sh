@@ -68,6 +68,7 @@ gear=$examples/gearbox.stl
 box=$examples/box.glb
 
 group_usage() {
+    cp "$gear" in-own.stl && ln -s in-own.stl in-link.stl
     row 1 'no command is given' ''
     row 1 "did you mean 'limner draw'" '' drow
     row 1 'limner draw model.glb' '' model.glb
@@ -111,6 +112,31 @@ group_usage() {
     row 1 'one file for all inputs' '' draw "$gear" "$box" -o '{name}.png' --report r.json
     row 1 'another input has the same' '' draw a/x.stl b/x.stl -o '{name}.png'
     row 1 "cannot tell the format from '.gif'" '' draw "$gear" -o x.gif
+    # Of two values one would be dropped in silence; so would a place in a name that stands for nothing.
+    row 1 '^limner: --output is given twice' '' draw "$gear" -o a.png -o b.png
+    row 1 '^limner: --look is given twice' '' draw "$gear" -l edges --look toon
+    row 1 '^limner: --view is given twice' '' draw "$gear" --view top --view=top
+    row 1 '^limner: --size is given twice' '' draw "$gear" --size 8x8 --size 9x9
+    row 1 '^limner: --seed is given twice' '' draw "$gear" --seed 0 --seed 0
+    row 1 '^limner: --eye is given twice' '' draw "$gear" --eye 1,2,3 --eye 1,2,3
+    row 1 '^limner: --up-axis is given twice' '' info "$gear" --up-axis y --up-axis z
+    row 1 '^limner: --set lines.width is given twice' '' draw "$gear" --set lines.width=2 --set lines.width=3
+    row 1 '^limner: --cut and --set scene.cut exclude' '' draw "$gear" --set scene.cut=y --cut x
+    row 1 '^limner: --output has \{view\}' '' draw nosuch.stl -o 'a-{view}.png'
+    row 1 '^limner: --output has \{stem\}, which stands for nothing' '' draw nosuch.stl -o 'a-{stem}.png'
+    row 1 '^limner: --report has \{Name\}, which stands for nothing' '' draw nosuch.stl --report '{Name}.json'
+    row 1 '^limner: --aov has \{frames\}, which stands for nothing' '' draw nosuch.stl --aov 'maps-{frames}'
+    row 2 '^limner: nosuch.stl: ' '' draw nosuch.stl -o 'a-{}-{b c}-}{.png'
+    # Options that others leave without effect.
+    row 1 "the name 'x.svg' says svg and --format says png" '' draw nosuch.stl -o x.svg --format png
+    row 1 "is 'in-own.stl', which is an input" '' draw in-own.stl -o in-own.stl --format png
+    row 1 "is 'in-link.stl', which is an input" '' draw in-own.stl -o in-link.stl --format png
+    row 1 'are the same file' '' draw nosuch.stl -o x.png --report x.png
+    row 1 '--fit does not go with --eye' '' draw nosuch.stl --eye 1,2,3 --fit 0.5
+    row 1 '--fit does not go with --camera' '' draw nosuch.stl --camera a --fit 0.5
+    row 1 '--ortho does not go with --camera' '' draw nosuch.stl --camera a --ortho
+    row 1 '--define goes with OpenSCAD programs' '' draw "$gear" -D a=1
+    row 1 '--strict goes with OpenSCAD programs' '' info "$gear" --strict
     row 1 'there is no such format' '' draw "$gear" --format gif
     row 1 "there is no look 'edgs'" '' draw "$gear" --look edgs
     row 1 "did you mean 'edges'" '' draw "$gear" --look edgs
@@ -141,7 +167,19 @@ group_draw() {
     done
     row 0 '' 'x.png' draw "$gear" $small -o x.png --eye -300,-200,100.5
     row 0 '' 'x.png' draw "$gear" $small -o x.png --eye=300,-200,100 --target 0,0,0 --up 0,0,1
-    row 0 '' 'x.png' draw "$gear" $small -o x.png --ortho --fit 0.5 --time 0.5 --seed 7 --samples 4 --up-axis y
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --ortho --fit 0.5 --seed 7 --samples 4 --up-axis y
+    # A time that changes nothing is refused, before the first of several frames.
+    row 1 "^limner: $gear: the model has no animation" '' draw "$gear" $small -o x.png --time 0.5
+    row 1 "^limner: $gear: the model has no animation" '' draw "$gear" $small -o 'x-{frame}.png' --frames 0:1:24
+    row 1 "^limner: $gear: the model has no animation" '' draw "$gear" $small -o x.svg --look sketch --set perturb.boil=12 --time 1
+    row 0 'warning: the model has no animation' 'x.png' draw "$gear" $small -o x.png --time 0.5 --lenient
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --time 0.5 --look sketch --set perturb.boil=12
+    local moving=$examples/box-animated.glb
+    row 1 "^limner: $moving: animations are not posed yet" '' draw "$moving" $small -o x.png --time 0.5
+    row 1 "^limner: $moving: animations are not posed yet" '' draw "$moving" $small -o x.png --time 0.5 --look sketch --set perturb.boil=12
+    row 1 '^hint: --lenient draws what can be drawn' '' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24
+    row 0 'warning: animations are not posed yet' 'x-0000.png x-0001.png' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24 --lenient
+    row 0 '' 'x.png' draw "$moving" $small -o x.png --time 0
     row 0 '' 'x.png' draw "$gear" $small -o x.png --fov 60 --background none --select 'gear*'
     row 0 'drawn in [0-9]+ ms' 'x.png' draw "$gear" $small -o x.png --verbose
     row 0 '' 'x.png' draw "$gear" $small -o x.png --cut -x=40% && cp x.png in-cut.png
@@ -150,13 +188,22 @@ group_draw() {
     row 0 '' 'x.png' draw "$gear" $small -o x.png
     cmp -s x.png in-cut.png && complain "--cut changes nothing"
     row 0 '' 'x.png' draw "$gear" $small -o x.png --cut 'x;1,-1,0@0,0,5;box=50%,0%,50%:100%,100%,100%' --look toon
-    row 0 '' 'x.png' draw "$gear" $small -o x.png --cut x=-1e6
+    row 0 'warning: the section leaves nothing of the model' 'x.png' draw "$gear" $small -o x.png --cut x=-1e6
+    row 0 'warning: the model is behind the viewer' 'x.png' draw "$gear" $small -o x.png --eye 1000,0,0 --target 2000,0,0
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' > in-open.obj
     row 0 '1 of 1 parts are not closed' 'x.png' draw in-open.obj $small -o x.png --cut y=0.3
     row 1 'selector .a,. is wrong at character' '' draw "$gear" $small --select 'a,'
     row 1 'colour|background' '' draw "$gear" $small --background nosuch
-    row 1 "selection 'nosuch' matches none" '' draw "$gear" $small --select nosuch
-    row 1 "camera" '' draw "$gear" $small --camera nosuch
+    row 1 "^limner: $gear: the selection 'nosuch' matches none" '' draw "$gear" $small --select nosuch
+    row 1 "^limner: $gear: the scene has no camera" '' draw "$gear" $small --camera nosuch
+    # Strokes and marks lie on whole meshes.
+    row 1 "^limner: $gear: lines 'strokes' are those of whole parts" '' draw "$gear" $small --look line --cut x
+    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look line
+    row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
+    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look line --lenient -o x.png
+    # Sizes that cannot be are told before anything is drawn, and the one that is offered is smaller.
+    row 2 'needs 20000 pixels a side, the limit is' '' draw "$gear" --size 5000x5000 --samples 16
+    row 2 '^hint: with 16 samples at most --size [0-9]+x[0-9]+' '' draw "$gear" --size 5000x5000 --samples 16
     row 4 '^limner: nosuch/x.png: ' '' draw "$gear" $small -o nosuch/x.png
     row 4 '^limner: nosuch/r.json: ' 'x.png' draw "$gear" $small -o x.png --report nosuch/r.json
     row 0 '' 'a.png' draw "$gear" $small -o a.png && cp a.png in-first.png
@@ -169,7 +216,23 @@ group_draw() {
     row="info on a full disk"
     "$limner" info "$gear" > /dev/full 2> .stderr
     [ $? = 4 ] || complain "exit status is not 4"
+    row="info into a closed pipe"
+    { got=0; "$limner" info "$gear" 2> .stderr || got=$?; echo $got > .got; } | : # nobody reads
+    { sleep 0.3; got=0; "$limner" info "$gear" --json 2> .stderr || got=$?; echo $got > .got; } | :
+    [ "$(cat .got)" = 4 ] && grep -q '^limner: standard output: ' .stderr || complain "exit status $(cat .got), expected 4"
+    row="draw beyond the limit on files"
+    : > in-before.png
+    for status in 1 2; do
+        got=0
+        (ulimit -f 1; "$limner" draw "$gear" --size 300x300 -o in-before.png 2> .stderr) || got=$?
+        [ $got = 4 ] && [ ! -s in-before.png ] || complain "exit status $got, expected 4 and the file as it was"
+    done
+    find . -name '*limner-*' | grep -q . && complain "something temporary stays"
+    row 4 '^limner: /dev/full: cannot write: No space left' '' draw "$gear" $small -o /dev/full --format png
     row="draw -o LINK"
+    ln -s in-later.png in-dangling.png
+    "$limner" draw "$gear" $small -o in-dangling.png 2> .stderr
+    [ -L in-dangling.png ] && [ -s in-later.png ] || complain "the dangling link does not lead to the picture"
     : > in-named.png && ln -s in-named.png in-link.png
     "$limner" draw "$gear" $small -o in-link.png 2> .stderr
     [ -L in-link.png ] && [ -s in-named.png ] || complain "the link does not lead to the picture"
@@ -199,7 +262,7 @@ group_many() {
     row 2 '^limner: in-bad.stl:2: ' '' draw in-one.stl in-bad.stl $small
     row 1 'matches none' 'p-in-two.png' draw in-one.stl in-two.stl $small -o 'p-{name}.png' --select 'in-two*'
     row 0 '' 'x.png' draw in-one.stl in-two.stl $small -o x.png
-    row 0 '' 'gearbox-0003.png gearbox-0004.png' draw "$gear" $small --frames 3:4:24
+    row 0 '' 'gearbox-0003.png gearbox-0004.png' draw "$gear" $small --frames 3:4:24 --look sketch --set perturb.boil=12
     row 0 '' '0000-gearbox.png' draw "$gear" $small --frames 0:0:24 -o '{frame}-{name}.png'
     row 4 '^limner: nosuch/0000.png: ' '' draw "$gear" $small --frames 0:0:24 -o 'nosuch/{frame}.png'
 }
@@ -291,7 +354,8 @@ group_inputs() {
     row 0 '' 'x.png' draw in-two.obj $small --view front --look in-some.json -o x.png
     cmp -s x.png in-alone.png || complain "a part that is not drawn hides another"
     printf '{"version": 1, "rules": [{"select": "nosuch"}]}' > in-nothing.json
-    row 0 "rule 0 of look 'in-nothing' selects no part" 'x.png' draw in-two.obj $small --look in-nothing.json -o x.png
+    row 1 "^limner: in-two.obj: no rule of the look 'in-nothing' selects a part" '' draw in-two.obj $small --look in-nothing.json -o x.png
+    row 0 "rule 0 of look 'in-nothing' selects no part" 'x.png' draw in-two.obj $small --look in-nothing.json -o x.png --lenient
     sed 's/^ *//' > in-eyes.gltf << 'EOF'
     {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}, {"camera": 1, "name": "Side", "translation": [1, 0, 5]}],
@@ -394,6 +458,21 @@ group_solids() {
     local limner=without_openscad
     row 2 '^limner: in-program.scad: a .scad file is a program that openscad must evaluate' '' draw in-program.scad $small
     row 2 '^hint: install OpenSCAD' '' draw in-program.scad $small
+    limner=$real
+    if ! command -v openscad > /dev/null; then
+        echo "skipped: no openscad on the PATH"
+        return
+    fi
+    printf 'n = 1;\ncube(n);\nassert(n < 3, "too large");\n' > in-program.scad
+    row 0 '' '' info in-program.scad -D n=2; out '^bounds +0 0 0  to  2 2 2 '
+    row 0 '' 'x.png' draw in-program.scad $small -D n=2 --strict -o x.png
+    row 0 '' '' info in-program.scad "$gear" -D n=2
+    row 2 '^limner: in-program.scad:3: openscad: ERROR: Assertion .*too large' '' draw in-program.scad $small -D n=3
+    row 1 "^limner: in-program.scad: the definition is 'n'; allowed is NAME=VALUE" '' info in-program.scad -D n
+    row 0 "no variable 'm'" 'x.png' draw in-program.scad $small -D m=2 -o x.png
+    printf 'cube(1);\nnosuch();\n' > in-warned.scad
+    row 0 "warning: openscad: WARNING: .*'nosuch'" 'x.png' draw in-warned.scad $small -o x.png
+    row 2 "^limner: in-warned.scad:2: openscad: WARNING: .*'nosuch'" '' draw in-warned.scad $small --strict
 }
 
 group_strokes() {
@@ -522,7 +601,15 @@ group_vectors() {
     has x.svg '<title>A &amp; &lt;B&gt;</title>'; has x.svg '>A &amp; &lt;B&gt;</text>'; cp x.svg in-third.svg
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>' --projection first
     cmp -s x.svg in-third.svg && complain "first angle is third angle"
-    row 0 'warning: at 100:1 the views do not fit on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100:1 --page A6
+    row 0 'warning: at 2:1 the views do not fit on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 2:1 --page A6
+    # A page that stays empty is no drawing.
+    row 1 "^limner: $gear: nothing of the model lies on the page at 100000:1" '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
+    row 1 '^hint: it fits at --scale 1:2.5' '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 1:2.5 --page A6
+    row 1 "^limner: $gear: at 1:1000000 the model is 0\.0[0-9]+ mm large on the page" '' draw "$gear" "${sheet[@]}" -o x.svg --scale 1:1000000
+    row 1 "^limner: $examples/spot.obj: at 1:100 the model is 0\.0[0-9]+ mm large" '' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:100 --unit mm
+    row 0 'warning: nothing of the model lies on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --scale 100000:1 --page A6 --lenient
+    row 1 "the look 'plain' has no strokes for it" '' draw "$gear" --look plain -o x.dxf
     row 0 'warning: the file does not say its unit' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 50:1
     row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:2 --unit cm
     # Plotters, areas, surfaces.
@@ -534,12 +621,29 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
     # What has no strokes is said.
-    row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x
-    row 0 'warning: 1 solids of set operations have no lines in vector drawings and are left out' 'x.svg' draw "$examples/csg/widget.csg" "${sheet[@]}" -o x.svg
+    local widget=$examples/csg/widget.csg ending
+    for ending in svg pdf dxf; do
+        row 1 "^limner: $gear: sections have no lines in vector drawings" '' draw "$gear" "${sheet[@]}" -o x.$ending --cut x
+        row 2 "^limner: $widget: 1 solids of set operations have no lines in vector drawings" '' draw "$widget" "${sheet[@]}" -o x.$ending
+    done
+    row 1 '^hint: draw a picture \(.png\); --lenient' '' draw "$gear" "${sheet[@]}" -o x.svg --set scene.cut=x
+    row 2 'solids of set operations' '' draw "$widget" --look toon -o x.svg
+    row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x --lenient
+    row 0 'warning: 1 solids of set operations have no lines in vector drawings and are left out' 'x.svg' draw "$gear" "$widget" "${sheet[@]}" -o x.svg --lenient
     # Wrong arguments, before any work.
     row 1 '--views goes with vector drawings' '' draw nosuch.stl --views front -o x.png
     row 1 '--plotter goes with vector drawings' '' draw nosuch.stl --plotter
     row 1 '--aov goes with pictures' '' draw nosuch.stl -o x.svg --aov maps
+    row 1 '--samples goes with pictures' '' draw "$gear" -o x.svg "${sheet[@]}" --samples 4
+    row 1 '--samples goes with pictures' '' draw nosuch.stl -o x.dxf --samples 4
+    row 1 '--background does not go with .dxf' '' draw nosuch.stl -o x.dxf --background red
+    row 1 '--fill does not go with .dxf' '' draw nosuch.stl -o x.dxf --fill
+    row 1 '--fill does not go with --plotter' '' draw nosuch.stl -o x.svg --fill --plotter
+    row 1 '--title needs --frame in .dxf' '' draw nosuch.stl -o x.dxf --title T
+    row 1 '--projection says how --views lie' '' draw nosuch.stl -o x.svg --projection first
+    row 1 '--verify puts its result into the report' '' draw nosuch.stl -o x.svg --verify
+    row 1 '--fit does not go with --views' '' draw nosuch.stl -o x.svg --views front --fit 0.5
+    row 1 '--fit does not go with --scale' '' draw nosuch.stl -o x.svg --scale 1:2 --fit 0.5
     row 1 '--page and --size exclude' '' draw nosuch.stl -o x.svg --page A4 --size 10x10
     row 1 '--views excludes' '' draw nosuch.stl -o x.svg --views front --view top
     row 1 '--scale is for parallel' '' draw nosuch.stl -o x.svg --scale 1:2 --fov 20
@@ -559,7 +663,7 @@ group_vectors() {
     row="draw vectors with Ctrl-C"
     rows=$((rows + 1))
     local got=0 waited=0
-    "$limner" draw "$gear" "${sheet[@]}" --frames 0:9999:24 -o 'f-{frame}.svg' 2> .stderr &
+    "$limner" draw "$gear" "${sheet[@]}" --lenient --frames 0:9999:24 -o 'f-{frame}.svg' 2> .stderr &
     until [ -e f-0000.svg ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
     kill -INT $!
     wait $! || got=$?
@@ -585,7 +689,7 @@ group_cancel() {
     local got=0
     row="draw with Ctrl-C"
     rows=1
-    "$limner" draw "$gear" --frames 0:9999:24 -o 'f-{frame}.png' 2> .stderr &
+    "$limner" draw "$gear" --look sketch --set perturb.boil=12 --frames 0:9999:24 -o 'f-{frame}.png' 2> .stderr &
     local waited=0
     until [ -e f-0000.png ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
     kill -INT $!

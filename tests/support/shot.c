@@ -66,6 +66,7 @@ static lmn_draw_desc desc_of(const shot_view *view)
     desc.profile = view->profile;
     desc.seed = view->seed;
     desc.time_s = view->time_s;
+    desc.lenient = true; /* what is refused has tests of its own */
     desc.select = view->select;
     return desc;
 }

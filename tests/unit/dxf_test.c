@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "base/file.h"
+#include "base/file_store.h"
 #include "export/export.h"
 #include "../support/dxf_read.h"
 

@@ -356,6 +356,96 @@ static void programs_are_evaluated_by_openscad(void **state)
     lmn_scene_destroy(&s);
 }
 
+static lmn_status load_program(const char *name, const char *text, const char *const *defines, size_t count, bool strict, lmn_scene **out, lmn_error *error)
+{
+    lmn_load_desc desc = LMN_LOAD_DESC_INIT;
+    desc.defines = defines;
+    desc.define_count = count;
+    desc.strict = strict;
+    assert_int_equal(lmn_scene_create(out, NULL), LMN_OK);
+    lmn_status status = lmn_scene_add_file(*out, temp_file(name, text, strlen(text)), &desc, error);
+    if (status != LMN_OK)
+        lmn_scene_destroy(out);
+    return status;
+}
+
+static void what_programs_complain_of_is_passed_on(void **state)
+{
+    (void)state;
+    if (!has_openscad())
+        skip();
+    lmn_error   error;
+    lmn_scene  *s;
+    const char *text = "cube(1);\nassert(1 > 5, \"too small in file x.scad, line 9\");\ncube(2);\n";
+    assert_int_equal(load_program("asserted.scad", text, NULL, 0, false, &s, &error), LMN_FORMAT);
+    assert_non_null(strstr(error.message, "too small"));
+    assert_int_equal(error.line, 2);
+    const char *warned[] = {"cube(1);\nnosuch(3);\n", "cube(1);\ncube(nosuch);\n", "cube(1);\ncube(nosuch(3));\n"};
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(load_program("warned.scad", warned[i], NULL, 0, false, &s, &error), LMN_OK);
+        assert_int_equal(s->warnings.count, 1);
+        lmn_scene_destroy(&s);
+        assert_int_equal(load_program("warned.scad", warned[i], NULL, 0, true, &s, &error), LMN_FORMAT);
+        assert_non_null(strstr(error.message, "nosuch"));
+        assert_int_equal(error.line, 2);
+    }
+    assert_int_equal(load_program("good.scad", "cube(1);", NULL, 0, true, &s, &error), LMN_OK);
+    lmn_scene_destroy(&s);
+}
+
+static void programs_take_definitions(void **state)
+{
+    (void)state;
+    if (!has_openscad())
+        skip();
+    lmn_error         error;
+    lmn_scene        *s;
+    const char       *text = "n = 2; name = \"a\"; cube(name == \"it's; b\" ? n : 1);\n";
+    const char *const good[] = {"n=5", "name=\"it's; b\""};
+    assert_int_equal(load_program("defined.scad", text, good, 2, true, &s, &error), LMN_OK);
+    CHECK_BOX(s, 0, 0, 0, 5, 5, 5);
+    assert_int_equal(s->warnings.count, 0);
+    lmn_scene_destroy(&s);
+    const char *const other[] = {"m=5"};
+    assert_int_equal(load_program("defined.scad", text, other, 1, false, &s, &error), LMN_OK);
+    assert_int_equal(s->warnings.count, 1); /* nothing of the program is called so */
+    lmn_scene_destroy(&s);
+    static const char *const wrong[] = {"n", "=5", "n=", "5=n", "n m=5", "-o=x", "cube(9);n=1", "", "$=3"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(load_program("defined.scad", text, &wrong[i], 1, false, &s, &error), LMN_USAGE);
+        assert_non_null(strstr(error.message, "NAME=VALUE"));
+    }
+    assert_int_equal(load_program("plain.csg", "cube(size = 1);", good, 1, false, &s, &error), LMN_USAGE);
+    assert_non_null(strstr(error.file, "plain.csg"));
+    assert_int_equal(load_program("plain.csg", "cube(size = 1);", NULL, 0, true, &s, &error), LMN_USAGE);
+}
+
+/* What openscad writes lies in a folder that nothing is left of. */
+static void programs_leave_nothing(void **state)
+{
+    (void)state;
+    char here[] = "/tmp/limner-test-XXXXXX", left[64];
+    if (!has_openscad())
+        skip();
+    assert_non_null(mkdtemp(here));
+    char *before = mem_copy_text(getenv("TMPDIR"));
+    setenv("TMPDIR", here, 1);
+    lmn_error  error;
+    lmn_scene *s;
+    assert_int_equal(load_program("good.scad", "cube(1);", NULL, 0, false, &s, &error), LMN_OK);
+    lmn_scene_destroy(&s);
+    assert_int_equal(load_program("wrong.scad", "cube(1;", NULL, 0, false, &s, &error), LMN_FORMAT);
+    setenv("TMPDIR", "/nosuch-folder", 1);
+    assert_int_equal(load_program("good.scad", "cube(1);", NULL, 0, false, &s, &error), LMN_WRITE);
+    snprintf(left, sizeof left, "%s", here);
+    assert_int_equal(rmdir(left), 0);
+    if (before)
+        setenv("TMPDIR", before, 1);
+    else
+        unsetenv("TMPDIR");
+    mem_free(before);
+}
+
 static void programs_need_openscad(void **state)
 {
     (void)state;
@@ -387,6 +477,9 @@ int main(void)
         cmocka_unit_test(bad_numbers_leave_their_object_out),
         cmocka_unit_test(too_many_operands_are_a_limit),
         cmocka_unit_test(programs_are_evaluated_by_openscad),
+        cmocka_unit_test(what_programs_complain_of_is_passed_on),
+        cmocka_unit_test(programs_take_definitions),
+        cmocka_unit_test(programs_leave_nothing),
         cmocka_unit_test(programs_need_openscad),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

@@ -112,6 +112,39 @@ static void sparse_values_replace_zeros(void **state)
     assert_non_null(strstr(error.message, "sparse"));
 }
 
+/* Is there a warning with these words in it? */
+static bool warns_of(const lmn_scene *s, const char *words)
+{
+    for (size_t i = 0; i < s->warnings.count; i++)
+        if (strstr(s->warnings.items[i].text, words))
+            return true;
+    return false;
+}
+
+/* Found by fuzzing: the number was converted before it was looked at. */
+static void texture_coordinate_sets_beyond_any_integer_are_named(void **state)
+{
+    (void)state;
+    static const char *const numbers[] = {"4294967296", "-5000000000", "2"};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        char words[64];
+        put_square();
+        snprintf(g.json, sizeof g.json,
+                 "{" ASSET "," ONE_NODE "," BUFFER ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":48}],"
+                 "\"accessors\":[{\"bufferView\":0,\"count\":3," FLOAT3 "}],"
+                 "\"images\":[{\"uri\":\"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQD"
+                 "wAEhQGAhKmMIQAAAABJRU5ErkJggg==\"}],\"textures\":[{\"source\":0}],"
+                 "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"texCoord\":%s}}}],"
+                 "\"meshes\":[{\"primitives\":[{\"material\":0,\"attributes\":{\"POSITION\":0}}]}]}",
+                 g.bin_size, numbers[i]);
+        lmn_scene *s = load();
+        snprintf(words, sizeof words, "texture coordinate set %s of", numbers[i]);
+        assert_true(warns_of(s, words));
+        assert_int_equal(s->materials[0].base_texture.uv_set, 0);
+        lmn_scene_destroy(&s);
+    }
+}
+
 static void materials_and_textures_are_read(void **state)
 {
     (void)state;
@@ -408,6 +441,7 @@ int main(void)
         cmocka_unit_test(quantised_positions_keep_their_meaning),
         cmocka_unit_test(sparse_values_replace_zeros),
         cmocka_unit_test(materials_and_textures_are_read),
+        cmocka_unit_test(texture_coordinate_sets_beyond_any_integer_are_named),
         cmocka_unit_test(instances_are_counted_and_bounded),
         cmocka_unit_test(skins_morphs_and_animations_are_read),
         cmocka_unit_test(edge_visibility_is_unpacked),

@@ -17,6 +17,7 @@
 #include "base/memory.h"
 #include "import/import.h"
 #include "limner/scene.h"
+#include "limner/task.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 

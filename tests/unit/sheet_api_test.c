@@ -190,6 +190,66 @@ static void test_without_renderer(void **state)
     lmn_look_destroy(&toon);
 }
 
+/* What cannot be drawn is refused by name, and by lenient drawings left out with a warning of this code. */
+static void refuse_or_warn(const fixture *f, lmn_draw_desc how, const lmn_sheet_desc *desc, lmn_status wanted, const char *code)
+{
+    lmn_sheet  *s = NULL;
+    lmn_error   error = {0};
+    const char *got = NULL;
+    bool        found = false;
+    how.lenient = false;
+    assert_int_equal(lmn_draw_sheet(&s, NULL, f->scene, f->look, &how, desc, &error), wanted);
+    assert_null(s);
+    assert_non_null(strstr(error.file, "examples/"));
+    assert_non_null(strstr(error.hint, "--lenient"));
+    how.lenient = true;
+    assert_int_equal(lmn_draw_sheet(&s, NULL, f->scene, f->look, &how, desc, &error), LMN_OK);
+    for (size_t i = 0; i < lmn_sheet_warning_count(s); i++)
+        found = found || (lmn_sheet_warning_at(s, i, &got, NULL) && strcmp(got, code) == 0);
+    assert_true(found);
+    lmn_sheet_destroy(&s);
+}
+
+static void test_not_drawn(void **state)
+{
+    fixture              f = *(const fixture *)*state;
+    const lmn_draw_desc  plain = LMN_DRAW_DESC_INIT;
+    const lmn_sheet_desc good = LMN_SHEET_DESC_INIT;
+    lmn_draw_desc        how = plain;
+    lmn_sheet_desc       desc = good;
+    lmn_error            error = {0};
+    how.time_s = 1;
+    refuse_or_warn(&f, how, &good, LMN_USAGE, "unused");
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, true, &error), LMN_USAGE);
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, false, &error), LMN_USAGE);
+    how.lenient = true;
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, true, &error), LMN_OK);
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &plain, true, &error), LMN_OK);
+    desc.views = "front";
+    for (int i = 0; i < 3; i++) {
+        static const char *const scales[] = {"1:1000000000", "1000000:1", "1:10000000"};
+        desc.scale = scales[i];
+        refuse_or_warn(&f, plain, &desc, LMN_USAGE, "page");
+    }
+    assert_int_equal(lmn_look_load(&f.look, "sketch", &error), LMN_OK);
+    assert_int_equal(lmn_look_set(f.look, "perturb.boil", "12", &error), LMN_OK);
+    how.lenient = false;
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, false, &error), LMN_OK); /* it boils */
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, true, &error), LMN_USAGE); /* lines of vectors do not */
+    lmn_look_destroy(&f.look);
+    assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
+    assert_int_equal(lmn_look_set(f.look, "scene.cut", "x", &error), LMN_OK);
+    refuse_or_warn(&f, plain, &good, LMN_USAGE, "no-strokes");
+    lmn_look_destroy(&f.look);
+    f.scene = NULL;
+    assert_int_equal(lmn_scene_create(&f.scene, &error), LMN_OK);
+    assert_int_equal(lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/csg/widget.csg", NULL, &error), LMN_OK);
+    assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
+    refuse_or_warn(&f, plain, &good, LMN_UNSUPPORTED, "no-strokes");
+    lmn_look_destroy(&f.look);
+    lmn_scene_destroy(&f.scene);
+}
+
 /* --- what stops a drawing ------------------------------------------------------------------------------------------- */
 
 typedef struct progress_state {
@@ -278,6 +338,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused),   cmocka_unit_test(test_report),        cmocka_unit_test(test_scale),      cmocka_unit_test(test_without_renderer),
+        cmocka_unit_test(test_not_drawn),
         cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_same_again),
     };
     return cmocka_run_group_tests_name("sheet_api", tests, set_up, tear_down);

@@ -16,7 +16,7 @@
 #include <libxml/xpathInternals.h>
 #include <png.h>
 
-#include "base/file.h"
+#include "base/file_store.h"
 #include "base/memory.h"
 #include "draw/vector_private.h"
 #include "export/export.h"

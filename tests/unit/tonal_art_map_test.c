@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -788,6 +789,71 @@ static void places_are_found_or_done_without(void **state)
     mip_chain_release(&m);
 }
 
+/* An entry is a regular file of this user: what anybody else has laid there is neither read nor written. */
+static void entries_of_others_are_not_followed(void **state)
+{
+    (void)state;
+    mip_chain   m = sample(MIP_R8, 8, 2, 0), found;
+    char        path[600], moved[620];
+    struct stat facts;
+    store_keep(&m, "x");
+    assert_int_equal(visit_files(path, sizeof path), 1);
+    snprintf(moved, sizeof moved, "%s/moved", folder);
+    assert_int_equal(rename(path, moved), 0);
+    assert_int_equal(symlink(moved, path), 0);
+    assert_false(store_find(&found, "x"));
+    write_file(moved, (const unsigned char *)"mine", 4);
+    store_keep(&m, "x"); /* in place of the link, not through it */
+    assert_int_equal(lstat(path, &facts), 0);
+    assert_true(S_ISREG(facts.st_mode));
+    assert_int_equal(stat(moved, &facts), 0);
+    assert_int_equal(facts.st_size, 4);
+    assert_int_equal(unlink(moved), 0);
+    assert_true(store_find(&found, "x"));
+    mip_chain_release(&found);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_false(store_find(&found, "x")); /* does not wait for a writer */
+    store_keep(&m, "x");
+    assert_true(store_find(&found, "x"));
+    mip_chain_release(&found);
+    if (geteuid() == 0) {
+        assert_int_equal(chown(path, 12345, 12345), 0);
+        assert_false(store_find(&found, "x"));
+    }
+    mip_chain_release(&m);
+    visit_files(NULL, 0);
+}
+
+/* Several processes keep the same and look for it: whatever is found is whole. */
+static void writers_do_not_disturb_each_other(void **state)
+{
+    (void)state;
+    enum { WRITERS = 4, TURNS = 40 };
+    pid_t     writers[WRITERS];
+    mip_chain m = sample(MIP_R8, 64, 4, 0), found;
+    store_keep(&m, "x");
+    for (int i = 0; i < WRITERS; i++) {
+        writers[i] = fork();
+        assert_true(writers[i] >= 0);
+        for (int k = 0; writers[i] == 0 && k < TURNS; k++) {
+            store_keep(&m, "x");
+            if (!store_find(&found, "x") || !is_same(&m, &found))
+                _exit(1);
+            mip_chain_release(&found);
+        }
+        if (writers[i] == 0)
+            _exit(0);
+    }
+    for (int i = 0; i < WRITERS; i++) {
+        int status = 1;
+        assert_int_equal(waitpid(writers[i], &status, 0), writers[i]);
+        assert_int_equal(status, 0);
+    }
+    assert_int_equal(visit_files(NULL, 0), 1);
+    mip_chain_release(&m);
+}
+
 /* Old files make room; others' never. The large ones are holes, which take no room on the disk. */
 static void the_oldest_go_first(void **state)
 {
@@ -852,6 +918,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_kept_is_found, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(damage_is_not_found, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(places_are_found_or_done_without, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(entries_of_others_are_not_followed, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(writers_do_not_disturb_each_other, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(the_oldest_go_first, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(the_store_does_without_memory, make_folder, remove_folder),
     };

@@ -1,0 +1,184 @@
+/* Fuzzers of model files: what is accepted goes on through everything that is derived from meshes. Side files are looked for where there are none. */
+#define _GNU_SOURCE /* memfd_create */
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "base/limits.h"
+#include "base/memory.h"
+#include "fuzz.h"
+#include "fence/image_read.h"
+#include "import/assimp_stream.h"
+#include "import/csg.h"
+#include "import/draco.h"
+#include "import/obj.h"
+#include "scene/mesh.h"
+
+static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const uint8_t *bytes, size_t size)
+{
+    lmn_scene *scene = scene_new(), *into = scene_new();
+    bool       done = false;
+    if (scene && into) {
+        file_data  file = {.data = bytes, .size = size};
+        import_job job = {.path = path, .file = &file, .scene = scene};
+        lmn_error  error;
+        scene->up = into->up = up;
+        done = read(&job, &error) == LMN_OK && scene_finish(scene, job.path, &error) == LMN_OK &&
+               scene_merge(into, scene, job.path, &error) == LMN_OK;
+    }
+    scene_free(scene);
+    if (done)
+        return into;
+    scene_free(into);
+    return NULL;
+}
+
+lmn_scene *fuzz_read_model(fuzz_reader read, char up, const uint8_t *bytes, size_t size)
+{
+    return read_at("/nonexistent/fuzz", read, up, bytes, size);
+}
+
+/* A few numbers can stand for millions of triangles; with sanitizers these would take all the time. */
+enum { TRIANGLES_USED = 100000 };
+
+/* All that is worked out from meshes without drawing them. */
+static void use(lmn_scene *scene)
+{
+    if (!scene)
+        return;
+    const bool small = lmn_scene_info_of(scene).triangles <= TRIANGLES_USED;
+    for (size_t i = 0; small && i < scene->mesh_count; i++)
+        for (size_t k = 0; k < scene->meshes[i].primitive_count; k++) {
+            render_vertices vertices;
+            if (mesh_make_normals(&vertices, &scene->meshes[i].primitives[k], 0.5, NULL) == LMN_OK)
+                render_vertices_release(&vertices);
+            mem_free(mesh_adjacency(&scene->meshes[i].primitives[k]));
+        }
+    mem_free(scene_info_json(scene));
+    scene_free(scene);
+}
+
+void fuzz_gltf(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_gltf.read, 'y', bytes, size));
+}
+
+void fuzz_stl(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_stl.read, 'z', bytes, size));
+}
+
+void fuzz_ply(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_ply.read, 'y', bytes, size));
+}
+
+void fuzz_obj(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_obj.read, 'y', bytes, size));
+}
+
+void fuzz_csg(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_csg.read, 'z', bytes, size));
+}
+
+static lmn_status read_stream(const import_job *job, lmn_error *error)
+{
+    return assimp_stream_read(job, job->file->data, job->file->size, error);
+}
+
+void fuzz_stream(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(read_stream, 'y', bytes, size));
+}
+
+/* The library is a file in memory; the model beside it names it and uses its first materials. */
+void fuzz_mtl(const uint8_t *bytes, size_t size)
+{
+    int descriptor = memfd_create("fuzz", MFD_CLOEXEC);
+    if (descriptor < 0)
+        return;
+    if (size == 0 || write(descriptor, bytes, size) == (ssize_t)size) {
+        char model[128];
+        int  length = snprintf(model, sizeof model, "mtllib %d\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n", descriptor);
+        use(read_at("/proc/self/fd/model.obj", import_obj.read, 'y', (const uint8_t *)model, (size_t)length));
+    }
+    close(descriptor);
+}
+
+void fuzz_dxf(const uint8_t *bytes, size_t size)
+{
+    const csg_drawing how = {.layer = "", .scale = 1, .facets = {8, 12, 2}};
+    region            figure = {0};
+    lmn_error         error;
+    csg_dxf((const char *)bytes, size, &how, &figure, &error);
+    region_release(&figure);
+}
+
+/* Pictures that are large by their header alone are refused by a limit that other tests hold; here they would only take time. */
+static bool is_large_png(const uint8_t *bytes, size_t size)
+{
+    return size >= 24 && bytes[0] == 0x89 && (bytes[16] || bytes[17] || bytes[20] || bytes[21] || bytes[18] > 8 || bytes[22] > 8);
+}
+
+void fuzz_image(const uint8_t *bytes, size_t size)
+{
+    image_pixels pixels;
+    lmn_error    error;
+    if (is_large_png(bytes, size))
+        return;
+    if (image_read(&pixels, bytes, size, size % 3 ? 0 : 1 << 14, &error) != LMN_OK && pixels.rgba)
+        __builtin_trap(); /* image_read.h: nothing is left after an error */
+    mem_free(pixels.rgba);
+}
+
+/* A number of Draco's header: four bytes in old files, in new ones seven bits a byte. */
+static uint64_t draco_number(const uint8_t *bytes, size_t size, size_t *at, bool old)
+{
+    uint64_t number = 0;
+    for (int i = 0; *at < size && i < (old ? 4 : 5); i++) {
+        const uint8_t byte = bytes[(*at)++];
+        number |= (uint64_t)(old ? byte : byte & 127) << (old ? 8 : 7) * i;
+        if (!old && byte < 128)
+            break;
+    }
+    return number;
+}
+
+/* Draco makes room for what a header claims, so that a few bytes can ask for gigabytes. How much it may have is decided where it is called from, not here. */
+static bool claims_much(const uint8_t *bytes, size_t size)
+{
+    enum { METHOD = 8, FLAGS = 10, COUNTS = 11, MOST = 100000 };
+    if (size < COUNTS)
+        return false;
+    const unsigned version = bytes[5] * 256u + bytes[6];
+    const bool     edgebreaker = bytes[METHOD] == 1, old = version < (edgebreaker ? 0x200u : 0x202u);
+    size_t         at = COUNTS + edgebreaker;
+    bool           much = bytes[FLAGS] & 128; /* other data comes first, which may claim as much */
+    for (int i = 0; i < 2 + (edgebreaker && version < 0x202); i++)
+        much = draco_number(bytes, size, &at, old) > MOST || much;
+    return much;
+}
+
+/* Attributes of any id that occurs, as the glTF reader asks for them. */
+void fuzz_draco(const uint8_t *bytes, size_t size)
+{
+    draco_model *model = NULL;
+    lmn_error    error;
+    if (claims_much(bytes, size) || draco_open(&model, bytes, size, &error) != LMN_OK)
+        return;
+    size_t    vertices = draco_vertex_count(model), triangles = draco_triangle_count(model);
+    uint32_t *indices = mem_calloc(triangles, 3 * sizeof *indices);
+    float    *values = mem_calloc(vertices, 4 * sizeof *values);
+    if (indices && values && vertices <= LIMIT_VERTICES && triangles <= LIMIT_TRIANGLES) {
+        draco_read_indices(model, indices);
+        for (uint32_t id = 0; id < 8; id++)
+            for (int components = 1; components <= 4; components++)
+                draco_read_attribute(model, id, components, id % 2, values);
+    }
+    mem_free(indices);
+    mem_free(values);
+    draco_close(model);
+}
