@@ -45,7 +45,7 @@ static bool receive_all(void *out, size_t size)
 {
     unsigned char *at = out;
     while (size > 0) {
-        ssize_t got = read(FENCE_CHANNEL, at, size);
+        ssize_t got = recv(FENCE_CHANNEL, at, size, 0);
         if (got < 0 && errno == EINTR)
             continue;
         if (got <= 0)
@@ -71,7 +71,7 @@ static bool send_all(const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
     while (size > 0) {
-        ssize_t put = write(FENCE_CHANNEL, at, size);
+        ssize_t put = send(FENCE_CHANNEL, at, size, MSG_NOSIGNAL);
         if (put < 0 && errno == EINTR)
             continue;
         if (put <= 0)

@@ -96,7 +96,7 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
     size_t room = (size_t)work_limits().textures;
     lmn_status status = image_read(&pixels, bytes, size, room, &problem);
     if (status == LMN_MEMORY)
-        return error_memory(error);
+        return error_set(error, status, "texture \"%s\": %s", name, problem.message);
     if (status == LMN_CANCELLED || work_stopped())
         return work_check(error);
     if (status != LMN_OK) {

@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -179,6 +180,26 @@ ssize_t write(int descriptor, const void *bytes, size_t size)
         size = size / 2 + size % 2;
     }
     return REAL(write)(descriptor, bytes, size);
+}
+
+ssize_t send(int channel, const void *bytes, size_t size, int flags)
+{
+    if (fails(CALL_send, CALLER, EPIPE)) {
+        if (!state.halves)
+            return -1;
+        size = size / 2 + size % 2;
+    }
+    return REAL(send)(channel, bytes, size, flags);
+}
+
+ssize_t recv(int channel, void *out, size_t size, int flags)
+{
+    if (fails(CALL_recv, CALLER, ECONNRESET)) {
+        if (!state.halves)
+            return -1;
+        size = size / 2 + size % 2;
+    }
+    return REAL(recv)(channel, out, size, flags);
 }
 
 #define OPEN(name)                                            \

@@ -145,6 +145,8 @@ static unsigned allowed(int call, const scenario *s)
     case CALL_open:
     case CALL_close: return 1 << 0 | 1 << 2 | (s->output ? 1 << 4 : 0);
     case CALL_fork:
+    case CALL_send:
+    case CALL_recv:
     case CALL_pipe: return 1 << 0 | 1 << 2 | 1 << 6;
     case CALL_pthread_create: return 1 << 0;
     case CALL_glTexImage2D:
@@ -257,7 +259,7 @@ static void try_call(runner *r, const scenario *s, int call, long count, const c
     if (s->large && !r->every)
         return;
     /* A call that is interrupted or does half of its work is no failure. */
-    const bool moves = call == CALL_read || call == CALL_write;
+    const bool moves = call == CALL_read || call == CALL_write || call == CALL_send || call == CALL_recv;
     for (int half = 0; half < 2 && moves && count > 0; half++) {
         snprintf(fault, sizeof fault, "%s:1:%s", call_names[call], half ? "short" : "EINTR");
         try_fault(r, s, CALL_pthread_create, fault, good, good_size, false); /* only 0 is allowed */
