@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -172,6 +173,8 @@ static int run(int count, char **arguments)
 
 int main(int count, char **arguments)
 {
+    /* A limit on the size of files is an error of the write that meets it. Drivers write caches of their own, in threads of their own. */
+    signal(SIGXFSZ, SIG_IGN);
     int status = run(count, arguments);
     progress_end();
     if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)

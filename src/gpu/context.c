@@ -42,20 +42,26 @@ static EGLDisplay open_display(void)
     return display != EGL_NO_DISPLAY ? display : eglGetDisplay(EGL_DEFAULT_DISPLAY);
 }
 
+static EGLContext open_version(EGLDisplay display, bool es, int major, int minor, bool debug)
+{
+    EGLint profile = es ? EGL_NONE : EGL_CONTEXT_OPENGL_PROFILE_MASK;
+    EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor,
+        debug ? EGL_CONTEXT_OPENGL_DEBUG : profile, debug ? EGL_TRUE : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        debug ? profile : EGL_NONE, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        EGL_NONE,
+    };
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+}
+
+/* Some drivers give the newest version that contains the one asked for, others just that one: the newest of use comes first. */
 static EGLContext open_context(EGLDisplay display, bool es, bool debug)
 {
-    EGLint attributes[] = {
-        EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, es ? 0 : 3,
-        debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE, EGL_TRUE,
-        EGL_NONE,
-    };
-    EGLint core[] = {
-        EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE, EGL_TRUE,
-        EGL_NONE,
-    };
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, es ? attributes : core);
+    static const int versions[2][4][2] = {{{4, 6}, {4, 5}, {4, 3}, {3, 3}}, {{3, 2}, {3, 1}, {3, 0}, {3, 0}}};
+    EGLContext context = EGL_NO_CONTEXT;
+    for (int i = 0; i < 4 && context == EGL_NO_CONTEXT; i++)
+        context = open_version(display, es, versions[es][i][0], versions[es][i][1], debug);
+    return context;
 }
 
 static void read_facts(gpu *g, bool debug)
@@ -68,6 +74,7 @@ static void read_facts(gpu *g, bool debug)
     f->es = !epoxy_is_desktop_gl();
     f->debug = debug;
     f->software = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe") || strstr(f->renderer, "SwiftShader");
+    f->lanes_stay = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe");
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &f->max_texture);
     float points[2] = {1, 1};
     glGetFloatv(GL_ALIASED_POINT_SIZE_RANGE, points); /* core: GL_POINT_SIZE_RANGE, the same number */

@@ -44,6 +44,7 @@ void gpu_finish(gpu *g);
 typedef struct gpu_facts {
     const char *vendor, *renderer, *version, *shading; /* owned by the context */
     bool        es, debug, software; /* software: the driver runs on the CPU */
+    bool        lanes_stay; /* fragments that were discarded go on computing, so that their neighbours' derivatives stay right: LANES_STAY in shaders */
     int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
     float       max_point; /* diameter of points, pixels */
     bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */

@@ -75,15 +75,22 @@ bool outside_patch()
 #include "light/focus.glsl"
 #endif
 
+/* Where a fragment has left, its neighbours' derivatives are undefined, and with them the textures they read: so it stays to the end. Lanes of some software drivers stay
+ * anyway, and there leaving at once saves work. */
+#ifdef LANES_STAY
+#define LEAVE_IF(condition) if (condition) discard
+#else
+bool leaves = false;
+#define LEAVE_IF(condition) leaves = (condition) || leaves
+#endif
+
 void main()
 {
 #ifdef HAS_PATCHES
-    if (outside_patch())
-        discard;
+    LEAVE_IF(outside_patch());
 #endif
 #ifdef SOLID
-    if (!fetch_surface(u_part_id))
-        discard;
+    LEAVE_IF(!fetch_surface(u_part_id));
     gl_FragDepth = surface_depth;
     uint surface_id = (u_surface_id & ~SURFACE_INDEX_MASK) | surface_operand;
 #elif defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE) || defined(LAYERED)
@@ -96,28 +103,23 @@ void main()
     ivec2 at = ivec2(gl_FragCoord.xy);
     float before = texelFetch(t_before_depth, at, 0).r;
     float depth = stored_depth();
-    if (depth < before)
-        discard;
+    LEAVE_IF(depth < before);
     int same = depth == before ? 1 : 0;
     bool had = false;
     for (int once = 0; once < same; once++)
         had = order_of(id) <= order_of(texelFetch(t_before_id, at, 0).rg);
-    if (had)
-        discard;
+    LEAVE_IF(had);
 #endif
 #ifdef CLIPPED
-    if (dot(u_clip_plane.xyz, v_eye) + u_clip_plane.w < 0.0)
-        discard;
+    LEAVE_IF(dot(u_clip_plane.xyz, v_eye) + u_clip_plane.w < 0.0);
 #endif
 #ifdef MERGED
     /* Early z reject by hand: only what the first pass left visible goes through edge detection. */
-    if (WINDOW_DEPTH > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r + DEPTH_ROUNDING)
-        discard;
+    LEAVE_IF(WINDOW_DEPTH > texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r + DEPTH_ROUNDING);
 #endif
     vec4 albedo = model_colour();
 #ifdef CUT_OUT
-    if (albedo.a < u_alpha_cutoff)
-        discard;
+    LEAVE_IF(albedo.a < u_alpha_cutoff);
 #endif
 #ifdef CUT_FACE
     float alpha = 1.0;
@@ -138,8 +140,7 @@ void main()
 #endif
 #ifdef SHELL
     /* By normals and not by the way round of corners, which differs between files. */
-    if (!turned)
-        discard;
+    LEAVE_IF(!turned);
 #endif
 #ifdef AT_NORMAL_DEPTH
 #ifdef ENLARGED
@@ -197,6 +198,10 @@ void main()
 #ifdef LAYERED
     out_shade *= alpha;
 #endif
+#endif
+#ifndef LANES_STAY
+    if (leaves)
+        discard;
 #endif
 #ifdef INTO_LISTS
     vec4 shade = vec4(0.0), unlit = vec4(0.0);
