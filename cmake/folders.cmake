@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base fence scene sheet technique light gpu construct csg halftone stroke import export layer lines surface perturb compose finish look draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique light gpu construct csg pose halftone stroke import export layer lines surface perturb compose finish look plan stage solids frame vector draw api)
 
 set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 

@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "base/work.h"
 #include "draw/maps.h"
-#include "draw/refuse.h"
+#include "plan/refuse.h"
 #include "export/export.h"
 #include "limner/version.h"
 
@@ -109,7 +109,7 @@ lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *
     work_begin(&w, desc->progress, desc->progress_user);
     status = check_pixels(desc, error);
     if (status == LMN_OK)
-        status = renderer_draw(out, renderer, scene, look, desc, error);
+        status = renderer_draw(out, renderer, scene, look, &(draw_wishes){.desc = desc}, error);
     status = work_end(&w, status, error);
     if (status != LMN_OK)
         drawing_destroy(out);
@@ -163,7 +163,7 @@ lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *direct
         return error_set(error, LMN_USAGE, "the drawing was made without its maps; set `maps` in its description");
     work w;
     work_begin(&w, NULL, NULL);
-    lmn_status status = maps_write(&drawing->maps, drawing->part_count, directory, error);
+    lmn_status status = maps_write(&drawing->maps, drawing->facts.part_count, directory, error);
     return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 

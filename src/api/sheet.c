@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "base/work.h"
-#include "draw/vector.h"
+#include "draw/sheet.h"
 #include "export/export.h"
 
 static lmn_status missing(const char *caller, const char *what, lmn_error *error)
@@ -57,7 +57,7 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
         return status;
     work w;
     work_begin(&w, desc->progress, desc->progress_user);
-    status = work_end(&w, vector_draw(out, renderer, scene, look, desc, &full, error), error);
+    status = work_end(&w, sheet_draw(out, renderer, scene, look, desc, &full, error), error);
     if (status != LMN_OK)
         vector_destroy(out);
     return status;

@@ -44,12 +44,12 @@ static double time_frame(series *s)
 static json_t *passes_of(series *s, int repeat)
 {
     frame *f = &s->session.frame;
-    f->profile = true;
+    f->profile.on = true;
     for (int i = 0; i < repeat; i++)
         frame_draw(f, s->session.out);
     json_t *array = json_array();
-    for (size_t i = 0; i < f->time_count; i++)
-        json_array_append_new(array, json_pack("{s:s, s:f}", "name", f->times[i].name, "ms", f->times[i].ms / repeat));
+    for (size_t i = 0; i < f->profile.count; i++)
+        json_array_append_new(array, json_pack("{s:s, s:f}", "name", f->profile.times[i].name, "ms", f->profile.times[i].ms / repeat));
     return array;
 }
 
@@ -99,7 +99,7 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
     warnings notes = {0};
     for (size_t k = 0; k <= count && status == LMN_OK; k++) {
         all[k].ms = mem_calloc((size_t)repeat, sizeof(double));
-        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain, desc, false, &notes, error)
+        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain, &(draw_wishes){.desc = desc}, &notes, error)
                            : error_memory(error);
     }
     if (status == LMN_OK)

@@ -6,8 +6,8 @@
 #include "base/limits.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "draw/refuse.h"
-#include "draw/room.h"
+#include "plan/refuse.h"
+#include "frame/room.h"
 #include "finish/finish.h"
 #include "light/light.h"
 
@@ -33,102 +33,41 @@ void renderer_destroy(lmn_renderer **renderer)
     lmn_renderer *r = *renderer;
     gpu_make_current(r->g);
     upload_release(&r->up, r->g);
+    pose_release(&r->pose);
     made_textures_release(&r->made, r->g);
     gpu_destroy(&r->g);
     mem_free(r);
     *renderer = NULL;
 }
 
-/* The parts that a selector matches; NULL text or an empty one: `otherwise`. Ghosts go with their parts. */
-static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *text, bool otherwise, lmn_error *error)
+/* Poses the scene unless it is posed already. */
+static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, lmn_error *error)
 {
-    selector *wanted = NULL;
-    lmn_status status = text && text[0] ? selector_parse(&wanted, text, error) : LMN_OK;
-    *out = status == LMN_OK ? mem_calloc(scene->part_count + scene->ghost_count, sizeof **out) : NULL;
-    if (status == LMN_OK && !*out)
-        status = error_memory(error);
-    for (size_t i = 0; i < scene->part_count && *out; i++)
-        (*out)[i] = wanted ? selector_matches(wanted, scene, i) : otherwise;
-    for (size_t i = scene->part_count; i < scene->part_count + scene->ghost_count && *out; i++) {
-        size_t owner = scene_part_of_ghost(scene, i);
-        (*out)[i] = (wanted && selector_matches(wanted, scene, i)) || (owner != SIZE_MAX && (*out)[owner]);
-    }
-    selector_destroy(&wanted);
-    return status;
-}
-
-/* What the look cuts away; percentages count along the bounds of what is selected. */
-static lmn_status find_section(upload_section *out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
-{
-    const scene_values *v = look->wide[KIND_SCENE].values;
-    *out = (upload_section){.spared = NULL};
-    memset(&out->cut, 0, sizeof out->cut);
-    if (!v->cut.text[0])
+    if (r->pose.scene == scene && r->pose.revision == scene->revision)
         return LMN_OK;
-    bool *selected;
-    box3 box = box3_empty();
-    lmn_status status = match_parts(&selected, scene, desc->select, true, error);
-    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++)
-        if (selected[i])
-            box = box3_union(box, scene->parts[i].bounds);
-    mem_free(selected);
-    if (status == LMN_OK)
-        status = cut_parse(&out->cut, v->cut.text, box, error);
-    if (status == LMN_OK)
-        status = match_parts(&out->spared, scene, v->cut_keep.text, false, error);
+    pose_release(&r->pose);
+    lmn_status status = pose_create(&r->pose, scene, error);
+    if (status != LMN_OK)
+        pose_release(&r->pose);
     return status;
 }
 
-static bool same_section(const upload_section *a, const upload_section *b, size_t part_count)
+/* Puts the scene on the GPU as the plan needs it, unless it is there already. */
+static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_desc *desc, lmn_error *error)
 {
-    return memcmp(&a->cut, &b->cut, sizeof a->cut) == 0 && !a->spared == !b->spared &&
-           (!a->spared || memcmp(a->spared, b->spared, part_count * sizeof *a->spared) == 0);
-}
-
-static bool asks_for_removed(const lmn_look *look)
-{
-    for (size_t i = 0; i < look->rule_count; i++)
-        if (look->rules[i].selector && selector_names_removed(look->rules[i].selector))
-            return true;
-    return false;
-}
-
-/* What the look's surfaces want meshes to have. */
-static mesh_wishes wishes_of(const lmn_look *look)
-{
-    mesh_wishes all = {false, 0};
-    for (size_t i = 0; i < look->rule_count; i++) {
-        const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
-        if (!surface || !surface->technique->wishes)
-            continue;
-        mesh_wishes own = surface->technique->wishes(surface->values);
-        all.field = all.field || own.field;
-        all.patch = own.patch > 0 ? own.patch : all.patch;
-    }
-    return all;
-}
-
-/* Puts the scene on the GPU unless it is there already. */
-static lmn_status bring_scene(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
-{
-    const scene_values *v = look->wide[KIND_SCENE].values;
-    double crease = (double)v->crease_angle * (3.14159265358979323846 / 180);
-    upload_desc wanted = {.crease_angle = crease, .removed = scene->ghost_count > 0 && asks_for_removed(look), .wishes = wishes_of(look)};
-    lmn_status status = find_section(&wanted.section, scene, look, desc, error);
-    bool same_meshes = r->up.crease_angle == crease && (r->up.wishes.field || !wanted.wishes.field) &&
-                       (r->up.wishes.patch == wanted.wishes.patch || wanted.wishes.patch == 0);
-    bool there = r->up_valid && r->up.has_removed == wanted.removed && r->scene == scene && r->up.revision == scene->revision && same_meshes;
-    if (status != LMN_OK || (there && same_section(&r->up.section, &wanted.section, scene->part_count + scene->ghost_count))) {
-        mem_free(wanted.section.spared);
-        return status;
-    }
+    const lmn_scene *scene = p->scene;
+    upload_desc wanted = {.crease_angle = p->crease_angle, .removed = p->has_removed, .wishes = p->meshes, .section = &p->section};
+    bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.wishes.field || !p->meshes.field) && (r->up.wishes.patch == p->meshes.patch || p->meshes.patch == 0);
+    bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene && r->up.revision == scene->revision && same_meshes;
+    if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
+        return LMN_OK;
     upload earlier = r->up;
     bool related = r->up_valid && earlier.identity == scene->identity && same_meshes;
     if (related)
         wanted.wishes = earlier.wishes; /* what is taken over has them */
     else
         upload_release(&earlier, r->g); /* at once: two scenes may not fit */
-    status = upload_create(&r->up, r->g, scene, &wanted, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    lmn_status status = upload_create(&r->up, r->g, &r->pose, &wanted, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
     if (status != LMN_OK)
         refuse_in_file(error, scene);
     upload_release(&earlier, r->g);
@@ -143,86 +82,6 @@ static int square_root(int samples)
     while (side * side < samples)
         side++;
     return side;
-}
-
-static lmn_status place_camera(session *s, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *notes, lmn_error *error)
-{
-    view_camera *c = &s->frame.camera;
-    lmn_status status = camera_place(c, desc, scene, s->renderer->up.worlds, s->plan.box, error);
-    if (status != LMN_OK)
-        return status;
-    double nearest = INFINITY, farthest = -INFINITY;
-    for (size_t i = 0; i < s->plan.part_count; i++)
-        if (s->plan.selected[i] && !box3_is_empty(s->renderer->up.part_boxes[i]))
-            camera_depth_range(c, s->renderer->up.part_boxes[i], &nearest, &farthest);
-    if (!c->orthographic && s->plan.selected_count && farthest <= 0)
-        warnings_add(notes, WARNING_UNUSED, "the model is behind the viewer: the page stays empty");
-    if (!(farthest >= nearest))
-        nearest = farthest = 1;
-    camera_set_range(c, nearest, farthest);
-    return LMN_OK;
-}
-
-static lmn_status find_ground(colour *out, const lmn_look *look, const lmn_draw_desc *desc, lmn_error *error)
-{
-    *out = ((const sheet_values *)look->wide[KIND_FINISH].values)->ground;
-    if (!desc->background || colour_parse(desc->background, out))
-        return LMN_OK;
-    lmn_status status = error_set(error, LMN_USAGE, "'%s' is not a colour", desc->background);
-    error_hint(error, "give #rgb, #rrggbb, #rrggbbaa, a basic colour name, or none");
-    return status;
-}
-
-/* Where materials have strokes of their own, each gets its textures. */
-static lmn_status bring_by_material(lmn_renderer *r, figure *fig, const technique_use *surface, const lmn_scene *scene, lmn_error *error)
-{
-    void *values = mem_copy(surface->values, surface->technique->params_size);
-    fig->material_textures = mem_calloc(scene->material_count, sizeof *fig->material_textures);
-    lmn_status status = values && fig->material_textures ? LMN_OK : error_memory(error);
-    for (size_t i = 0; i < scene->material_count && status == LMN_OK; i++) {
-        int32_t index = scene->materials[i].base_texture.image;
-        memcpy(values, surface->values, surface->technique->params_size);
-        surface->technique->by_material(values, index >= 0 ? scene->images[index].strokes : NULL);
-        status = made_textures_find(&r->made, r->g, &(technique_use){surface->technique, values}, &fig->material_textures[i], error);
-    }
-    mem_free(values);
-    return status;
-}
-
-/* What was asked for and gives no ink. */
-static void note_textures(const figure *fig, const technique_use *surface, const plan *p, warnings *notes)
-{
-    bool none = fig->material_textures != NULL;
-    for (size_t i = 0; i < p->scene->image_count; i++)
-        none = none && !p->scene->images[i].strokes;
-    if (none)
-        warnings_add(notes, WARNING_UNUSED, "no material has strokes beside its picture (.stx): all are drawn with the standard ones");
-    for (size_t i = 0; surface && i < surface->technique->texture_count; i++)
-        if (fig->textures.textures[i] && fig->textures.blank[i])
-            warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere", surface->technique->textures[i].name, surface->technique->name);
-}
-
-/* What techniques, and unless maps are drawn the sheet, make on the CPU. */
-static lmn_status bring_textures(lmn_renderer *r, plan *p, bool maps, warnings *notes, lmn_error *error)
-{
-    made_textures_trim(&r->made, r->g);
-    lmn_status status = made_textures_find(&r->made, r->g, maps ? NULL : &p->look->wide[KIND_FINISH], &p->sheet_textures, error);
-    for (size_t i = 0; i < p->figure_count && status == LMN_OK; i++) {
-        figure *fig = &p->figures[i];
-        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
-        technique_use plain = {surface ? surface->technique : NULL, NULL};
-        bool differ = surface && surface->technique->by_material && (plain.values = mem_copy(surface->values, surface->technique->params_size)) &&
-                      surface->technique->by_material(plain.values, NULL);
-        status = made_textures_find(&r->made, r->g, differ ? &plain : surface, &fig->textures, error);
-        if (status == LMN_OK && differ)
-            status = bring_by_material(r, fig, surface, p->scene, error);
-        if (status == LMN_OK)
-            note_textures(fig, surface, p, notes);
-        if (status == LMN_OK)
-            status = made_textures_find(&r->made, r->g, rule_use(fig->rule, KIND_PERTURB), &fig->perturb_textures, error);
-        mem_free(plain.values);
-    }
-    return status;
 }
 
 /* Shadows that were asked for and cannot be. */
@@ -240,47 +99,59 @@ static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *
     }
 }
 
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                        bool maps, warnings *notes, lmn_error *error)
+/* The plan, and on the GPU what it needs. */
+static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_wishes *w, int side, warnings *notes, lmn_error *error)
 {
-    memset(s, 0, sizeof *s);
-    s->renderer = r;
-    gpu_make_current(r->g);
-    int side = maps ? 1 : square_root(desc->samples);
+    lmn_renderer *r = s->renderer;
+    const lmn_draw_desc *desc = w->desc;
+    plan_wishes wishes = {.select = desc->select, .background = desc->background, .pixel_scale = side, .as_sprites = w->maps, .surfaces_only = w->surfaces_only};
     lmn_status status = room_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
-        status = bring_scene(r, scene, look, desc, error);
-    plan_wishes wishes = {.select = desc->select, .pixel_scale = side, .as_sprites = maps};
+        status = bring_pose(r, scene, error);
     if (status == LMN_OK)
-        status = find_ground(&wishes.ground, look, desc, error);
+        status = plan_create(&s->plan, &r->pose, look, &wishes, notes, error);
     if (status == LMN_OK)
-        status = plan_create(&s->plan, scene, look, &r->up, &wishes, notes, error);
+        status = bring_stage(r, &s->plan, desc, error);
     if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
         gpu_targets_trim(r->g);
     if (status == LMN_OK)
-        status = room_check(r->g, &s->plan, &(room_wishes){desc->width, desc->height, side, !maps && (desc->maps || desc->profile)}, error);
+        status = room_check(r->g, &s->plan, &(room_wishes){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)}, error);
     if (status == LMN_OK)
         note_lights(scene, look, notes);
     if (status == LMN_OK)
-        status = bring_textures(r, &s->plan, maps, notes, error);
+        status = plan_textures_make(&s->textures, &r->made, r->g, &s->plan, !w->maps, notes, error);
+    return status;
+}
+
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, warnings *notes, lmn_error *error)
+{
+    const lmn_draw_desc *desc = wishes->desc;
+    int side = wishes->maps ? 1 : square_root(desc->samples);
+    frame *f = &s->frame;
+    memset(s, 0, sizeof *s);
+    s->renderer = r;
+    gpu_make_current(r->g);
+    lmn_status status = prepare(s, scene, look, wishes, side, notes, error);
     if (status == LMN_OK)
-        status = place_camera(s, scene, desc, notes, error);
+        status = camera_place(&f->camera, desc, &r->pose, s->plan.box, error);
     if (status != LMN_OK)
         return status;
+    plan_camera_range(&s->plan, &f->camera, notes);
     r->width = desc->width;
     r->height = desc->height;
     r->samples = desc->samples;
-    frame *f = &s->frame;
     f->g = r->g;
+    f->profile.g = r->g;
     f->up = &r->up;
     f->plan = &s->plan;
+    f->sheet = &s->textures.sheet;
     f->samples = side;
     f->width = desc->width * side;
     f->height = desc->height * side;
-    f->ground = wishes.ground;
+    f->ground = s->plan.ground;
     f->seed = desc->seed;
     f->time_s = desc->time_s;
-    if (!maps)
+    if (!wishes->maps)
         s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);
     return gpu_check(r->g, error);
 }
@@ -290,6 +161,7 @@ void session_close(session *s)
     if (s->renderer)
         gpu_target_release(s->renderer->g, s->out);
     plan_release(&s->plan);
+    plan_textures_release(&s->textures);
     memset(s, 0, sizeof *s);
 }
 
@@ -357,7 +229,7 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
-        if (!surface || !surface->technique->marks || !has_solids(&s->plan, fig))
+        if (!surface || !surface->technique->marks || fig->unmarked || !has_solids(&s->plan, fig))
             continue;
         lmn_status status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, "'dots' and 'hatch' are worked out on any surface (--set surface.technique=hatch)",
                                    "surface '%s' lies on meshes: solids have none", surface->technique->name);
@@ -372,7 +244,7 @@ static void note_marks(const session *s, warnings *notes)
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = rule_shades_again(fig->rule);
-        if (!surface || !surface->technique->marks)
+        if (!surface || !surface->technique->marks || fig->unmarked)
             continue;
         if (compose)
             warnings_add(notes, WARNING_UNUSED, "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them", compose->technique->name, surface->technique->name);
@@ -408,29 +280,23 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
                              const session *s, const lmn_draw_desc *desc, lmn_error *error)
 {
     const gpu_facts *facts = gpu_facts_of(r->g);
-    d->look = mem_copy_text(look->name ? look->name : "");
     d->vendor = mem_copy_text(facts->vendor);
     d->renderer = mem_copy_text(facts->renderer);
     d->version = mem_copy_text(facts->version);
-    d->seed = desc->seed;
     d->camera = s->frame.camera;
-    d->triangles = r->up.triangles;
-    d->bounds = s->plan.box;
-    d->load_ms = scene->load_ms;
-    size_t part_count = r->up.part_count;
-    d->part_names = mem_calloc(part_count, sizeof *d->part_names);
-    if (!d->part_names || !d->look || !d->vendor || !d->renderer || !d->version)
+    if (!d->vendor || !d->renderer || !d->version)
         return error_memory(error);
-    d->part_count = part_count;
-    for (size_t i = 0; i < part_count; i++)
-        if (!(d->part_names[i] = mem_copy_text(scene->parts[i].name)))
-            return error_memory(error);
+    lmn_status status = facts_take(&d->facts, scene, look, s->plan.part_count, desc->seed, error);
+    if (status != LMN_OK)
+        return status;
+    d->facts.triangles = r->up.triangles;
+    d->facts.bounds = s->plan.box;
     warnings_append(&d->warnings, &scene->warnings);
     keep_notes(d, r, scene, look, s);
     refusal refusals = {scene, desc->lenient, &d->warnings, error};
-    lmn_status status = refuse_time(&refusals, look, desc->time_s, true);
+    status = refuse_time(&refusals, look, desc->time_s, true);
     if (status == LMN_OK && s->plan.figure_count == 0)
-        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL, "no rule of the look '%s' selects a part: the page stays empty", d->look);
+        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL, "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
     if (status == LMN_OK)
         status = refuse_strokes(&refusals, s, &r->up);
     return status == LMN_OK ? refuse_marks(&refusals, s) : status;
@@ -445,7 +311,7 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
     warnings ignored = {0};
     if ((int64_t)desc->width * desc->height >= LARGE)
         gpu_targets_trim(r->g);
-    lmn_status status = session_open(&s, r, scene, look, desc, true, &ignored, error);
+    lmn_status status = session_open(&s, r, scene, look, &(draw_wishes){.desc = desc, .maps = true}, &ignored, error);
     if (status == LMN_OK)
         status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
     if (status == LMN_OK) {
@@ -457,7 +323,7 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
     warnings_release(&ignored);
     if (status != LMN_OK)
         return status;
-    d->part_pixels = mem_calloc(d->part_count, sizeof *d->part_pixels);
+    d->part_pixels = mem_calloc(d->facts.part_count, sizeof *d->part_pixels);
     if (!d->part_pixels)
         return error_memory(error);
     for (size_t i = 0, count = (size_t)desc->width * (size_t)desc->height; i < count; i++)
@@ -485,10 +351,9 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
         status = read_pixels(d, s, error);
     if (status != LMN_OK || !desc->profile)
         return status;
-    s->frame.profile = true;
+    s->frame.profile.on = true;
     frame_draw(&s->frame, s->out);
-    memcpy(d->times, s->frame.times, sizeof d->times);
-    d->time_count = s->frame.time_count;
+    d->profile = s->frame.profile;
     return gpu_check(s->renderer->g, error);
 }
 
@@ -497,9 +362,9 @@ static bool cancelled(const lmn_draw_desc *desc, double fraction, const char *st
     return desc->progress && !desc->progress(fraction, stage, desc->progress_user);
 }
 
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                         lmn_error *error)
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, lmn_error *error)
 {
+    const lmn_draw_desc *desc = wishes->desc;
     *out = NULL;
     lmn_drawing *d = mem_calloc(1, sizeof *d);
     if (!d)
@@ -507,7 +372,7 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
     d->width = desc->width;
     d->height = desc->height;
     session s;
-    lmn_status status = session_open(&s, r, scene, look, desc, false, &d->warnings, error);
+    lmn_status status = session_open(&s, r, scene, look, wishes, &d->warnings, error);
     if (status == LMN_OK && cancelled(desc, 0.3, "drawing"))
         status = error_set(error, LMN_CANCELLED, "cancelled");
     if (status == LMN_OK)
@@ -533,13 +398,10 @@ void drawing_destroy(lmn_drawing **drawing)
     mem_free(d->pixels);
     frame_maps_release(&d->maps);
     warnings_release(&d->warnings);
-    mem_free(d->look);
+    facts_release(&d->facts);
     mem_free(d->vendor);
     mem_free(d->renderer);
     mem_free(d->version);
-    for (size_t i = 0; i < d->part_count; i++)
-        mem_free(d->part_names[i]);
-    mem_free(d->part_names);
     mem_free(d->part_pixels);
     mem_free(d);
     *drawing = NULL;

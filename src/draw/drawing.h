@@ -2,12 +2,15 @@
 #ifndef LIMNER_DRAW_DRAWING_H
 #define LIMNER_DRAW_DRAWING_H
 
-#include "draw/frame.h"
-#include "draw/made_textures.h"
+#include "frame/frame.h"
 #include "limner/draw.h"
+#include "plan/facts.h"
+#include "pose/pose.h"
+#include "stage/made_textures.h"
 
 struct lmn_renderer {
     gpu            *g;
+    pose            pose; /* of the last scene that was drawn */
     upload          up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
     bool            up_valid;
@@ -21,18 +24,12 @@ struct lmn_drawing {
     frame_maps  maps;   /* all NULL unless asked for */
     warnings    warnings;
     /* for the report */
-    char       *look;
-    uint32_t    seed;
+    report_facts facts;
     view_camera camera;
     char       *vendor, *renderer, *version;
-    size_t      part_count;
-    char      **part_names;
-    uint64_t   *part_pixels; /* NULL unless profiled */
-    uint64_t    triangles;
-    box3        bounds;
-    double      load_ms, frame_ms;
-    pass_time   times[PASS_TIMES_MAX];
-    size_t      time_count;
+    uint64_t   *part_pixels; /* per part; NULL unless profiled */
+    double      frame_ms;
+    gpu_profile profile;
     uint64_t    strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
     int         layers;
     const char *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
@@ -40,8 +37,13 @@ struct lmn_drawing {
 };
 
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                         const lmn_draw_desc *desc, lmn_error *error);
+/* What a drawing is made for. */
+typedef struct draw_wishes {
+    const lmn_draw_desc *desc;
+    bool                 maps;          /* its buffers alone, one sample a pixel */
+    bool                 surfaces_only; /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
+} draw_wishes;
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, lmn_error *error);
 void       renderer_destroy(lmn_renderer **r);
 char      *renderer_json(const lmn_renderer *r);
 char      *drawing_report_json(const lmn_drawing *d);
@@ -51,11 +53,11 @@ void       drawing_destroy(lmn_drawing **d);
 typedef struct session {
     lmn_renderer *renderer;
     plan          plan;
+    plan_textures textures;
     frame         frame;
     gpu_texture  *out;
 } session;
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                        bool maps, warnings *notes, lmn_error *error);
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, warnings *notes, lmn_error *error);
 void       session_close(session *s);
 
 lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,

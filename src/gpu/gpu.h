@@ -52,6 +52,8 @@ typedef struct gpu_facts {
     bool        lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
 } gpu_facts;
 const gpu_facts *gpu_facts_of(const gpu *g);
+/* Is there storage enough to gather fragments in lists? */
+bool gpu_has_lists(const gpu *g);
 
 /* --- textures and targets ------------------------------------------------------------------------------------------ */
 

@@ -50,6 +50,11 @@ const gpu_facts *gpu_facts_of(const gpu *g)
     return &g->facts;
 }
 
+bool gpu_has_lists(const gpu *g)
+{
+    return g->facts.lists && g->facts.max_storage_mib >= 16;
+}
+
 uint64_t gpu_draw_count(const gpu *g)
 {
     return g->draws;

@@ -9,8 +9,8 @@
 
 typedef struct scene_builder {
     stroke_scene    *out;
+    const pose      *pose;
     const lmn_scene *scene;
-    const mat4      *worlds;
     double           crease_angle;
     int32_t          refine;
     int32_t         *shared; /* per mesh of the scene: its number in `out`, NONE */
@@ -18,51 +18,35 @@ typedef struct scene_builder {
     box3             box;
 } scene_builder;
 
-static mat4 *joint_matrices(const scene_builder *b, const node *n)
-{
-    const skin *s = &b->scene->skins[n->skin];
-    mat4 *out = mem_alloc(sizeof *out * (s->joint_count + 1));
-    for (size_t i = 0; out && i < s->joint_count; i++)
-        out[i] = s->inverse_binds ? mat4_multiply(&b->worlds[s->joints[i]], &s->inverse_binds[i]) : b->worlds[s->joints[i]];
-    return out;
-}
-
-/* Positions of all primitives in the node's pose. */
-static lmn_status pose_mesh(const scene_builder *b, const node *n, const mesh *m, vec3 **out, lmn_error *error)
+/* Positions of all primitives, deformed; NULL when memory is gone. */
+static vec3 *pose_positions(const mesh *m, const part_pose *pose)
 {
     size_t count = 0, at = 0;
     for (size_t i = 0; i < m->primitive_count; i++)
         count += m->primitives[i].vertex_count;
-    mat4 *joints = n->skin >= 0 ? joint_matrices(b, n) : NULL;
-    *out = mem_alloc(count * sizeof **out);
-    bool good = *out && (joints || n->skin < 0);
-    const float *weights = n->morph_weights ? n->morph_weights : m->morph_weights;
-    size_t weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
-    for (size_t i = 0; i < m->primitive_count && good; at += m->primitives[i++].vertex_count) {
+    vec3 *out = mem_alloc(count * sizeof *out);
+    for (size_t i = 0; i < m->primitive_count && out; at += m->primitives[i++].vertex_count) {
         const primitive *p = &m->primitives[i];
-        mesh_pose(p, weights, weight_count, joints, joints ? b->scene->skins[n->skin].joint_count : 0, NULL, NULL, p->vertex_count, *out + at, NULL);
+        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count, out + at, NULL);
     }
-    mem_free(joints);
-    if (!good) {
-        mem_free(*out);
-        *out = NULL;
-    }
-    return good ? LMN_OK : error_memory(error);
+    return out;
 }
 
-static bool has_pose(const node *n, const mesh *m)
+static bool is_deformed(const mesh *m, const part_pose *pose)
 {
-    bool weighted = n->morph_weights || m->morph_weights, morphs = false;
+    bool morphs = false;
     for (size_t i = 0; i < m->primitive_count; i++)
         morphs = morphs || m->primitives[i].morph_count > 0;
-    return n->skin >= 0 || (weighted && morphs);
+    return pose->joints || (pose->weights && morphs);
 }
 
 /* The number of the part's edge mesh, made when it is not there yet. */
-static lmn_status find_mesh(scene_builder *b, const node *n, uint32_t *out, lmn_error *error)
+static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, lmn_error *error)
 {
+    const node *n = &b->scene->nodes[b->scene->parts[part_index].node];
+    const part_pose *pose = &b->pose->parts[part_index];
     const mesh *m = &b->scene->meshes[n->mesh];
-    bool posed = has_pose(n, m);
+    bool posed = is_deformed(m, pose);
     if (!posed && b->shared[n->mesh] != NONE) {
         *out = (uint32_t)b->shared[n->mesh];
         return LMN_OK;
@@ -70,8 +54,8 @@ static lmn_status find_mesh(scene_builder *b, const node *n, uint32_t *out, lmn_
     stroke_scene *s = b->out;
     if (!mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
         return error_memory(error);
-    vec3 *places = NULL;
-    lmn_status status = posed ? pose_mesh(b, n, m, &places, error) : LMN_OK;
+    vec3 *places = posed ? pose_positions(m, pose) : NULL;
+    lmn_status status = posed && !places ? error_memory(error) : LMN_OK;
     if (status == LMN_OK)
         status = edge_mesh_create(&s->meshes[s->mesh_count], m, places, b->crease_angle, error);
     mem_free(places);
@@ -110,17 +94,14 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
         return LMN_OK;
     stroke_scene *s = b->out;
     uint32_t number = 0;
-    lmn_status status = find_mesh(b, n, &number, error);
+    lmn_status status = find_mesh(b, part_index, &number, error);
     size_t count = node_draw_count(n);
     if (status != LMN_OK)
         return status;
     if (!mem_grow((void **)&s->items, &b->item_capacity, s->item_count + count, sizeof *s->items))
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
-        /* A skin's joints already carry world places; the node's own matrix does not count (glTF 2.0, section 3.7.3.3). */
-        mat4 world = n->skin >= 0 ? mat4_identity() : b->worlds[b->scene->parts[part_index].node];
-        if (n->instance_count)
-            world = mat4_multiply(&world, &n->instances[i]);
+        mat4 world = pose_instance(b->pose, part_index, i);
         s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, number, world};
         const edge_mesh *m = &s->meshes[number];
         double grown = growth(&world);
@@ -132,17 +113,18 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
     return LMN_OK;
 }
 
-lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    return stroke_scene_create_refined(out, scene, worlds, parts, crease_angle, 0, progress, user, error);
+    return stroke_scene_create_refined(out, pose, parts, crease_angle, 0, progress, user, error);
 }
 
-lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                        int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    scene_builder b = {.out = out, .scene = scene, .worlds = worlds, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
+    const lmn_scene *scene = pose->scene;
+    scene_builder b = {.out = out, .pose = pose, .scene = scene, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
     b.shared = mem_alloc((scene->mesh_count + 1) * sizeof *b.shared);
     lmn_status status = b.shared ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < scene->mesh_count && status == LMN_OK; i++)

@@ -8,6 +8,7 @@
 #define LIMNER_STROKE_STROKE_H
 
 #include "limner/error.h"
+#include "pose/pose.h"
 #include "scene/scene.h"
 #include "stroke/edges.h"
 
@@ -86,12 +87,12 @@ typedef struct stroke_scene {
     double       extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how exact places are: where a node puts it is exact */
 } stroke_scene;
 
-/* Takes the parts with `parts[index]` (NULL: all) in their rest pose; worlds as scene_world_matrices gives them. Solids have no triangles and are left out.
+/* Takes the parts with `parts[index]` (NULL: all) as they are posed. Solids have no triangles and are left out.
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status stroke_scene_create(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
 /* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round as the lines are. Takes stroke_wishes.refine. Also LMN_LIMIT. */
-lmn_status stroke_scene_create_refined(stroke_scene *out, const lmn_scene *scene, const mat4 *worlds, const bool *parts, double crease_angle,
+lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                        int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "draw/marks.h"
+#include "stage/mark_ground.h"
 #include "halftone_scenes.h"
 #include "limner/limner.h"
 #include "shape.h"
@@ -188,8 +188,8 @@ static bool page_of(marks_page *page, const shot *s, const char *model, const st
     marks m = {.dots = NULL};
     technique_use use = {&surface_stipple, (void *)(uintptr_t)values};
     bool ok = lmn_scene_create(&scene, &error) == LMN_OK && lmn_scene_add_file(scene, check_path("%s", model), NULL, &error) == LMN_OK;
-    mat4 *worlds = ok ? scene_world_matrices(scene) : NULL;
-    ok = worlds && mark_ground_create(&ground, scene, worlds, NULL, scene->part_count, 0.5, &error) == LMN_OK && mark_ground_marks(&m, &ground, &use, &error) == LMN_OK;
+    pose at_rest = {.scene = NULL};
+    ok = ok && pose_create(&at_rest, scene, &error) == LMN_OK && mark_ground_create(&ground, &at_rest, NULL, scene->part_count, 0.5, &error) == LMN_OK && mark_ground_marks(&m, &ground, &use, &error) == LMN_OK;
     if (ok) {
         mark_view view = {.orthographic = s->orthographic, .width = s->width, .height = s->height, .light_count = 1, .lights = {{light[0], light[1], light[2], 0}}, .colours = {{1, 1, 1, 1}}};
         mat4 world = mat4_identity(), eye;
@@ -205,7 +205,7 @@ static bool page_of(marks_page *page, const shot *s, const char *model, const st
     check_that("EX-07", ok, "the CPU draws the same marks: %s", error.message);
     surface_marks_release(&m);
     mark_ground_release(&ground);
-    free(worlds);
+    pose_release(&at_rest);
     lmn_scene_destroy(&scene);
     return ok;
 }

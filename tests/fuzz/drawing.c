@@ -2,7 +2,7 @@
 #include <limner/limner.h>
 
 #include "base/memory.h"
-#include "draw/vector.h"
+#include "vector/vector.h"
 #include "export/export.h"
 #include "fuzz.h"
 #include "import/csg.h"

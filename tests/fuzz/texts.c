@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "draw/vector_private.h"
+#include "vector/vector_private.h"
 #include "fuzz.h"
 #include "look/look.h"
 #include "scene/cut.h"

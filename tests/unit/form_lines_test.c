@@ -147,9 +147,10 @@ static form_shot take(lmn_scene *s, stroke_camera camera, stroke_wishes wishes)
     lmn_error error = {0};
     if (!s->part_count)
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
-    mat4 *worlds = scene_world_matrices(s);
-    assert_int_equal(stroke_scene_create_refined(out.scene, s, worlds, NULL, 100 * field_pi / 180, wishes.refine, NULL, NULL, &error), LMN_OK);
-    mem_free(worlds);
+    pose at_rest;
+    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+    assert_int_equal(stroke_scene_create_refined(out.scene, &at_rest, NULL, 100 * field_pi / 180, wishes.refine, NULL, NULL, &error), LMN_OK);
+    pose_release(&at_rest);
     assert_int_equal(stroke_view_create(&out.view, out.scene, &camera, NULL, NULL, &error), LMN_OK);
     assert_int_equal(stroke_find(&out.set, out.view, &wishes, NULL, NULL, NULL, &error), LMN_OK);
     return out;
@@ -445,11 +446,12 @@ static void outlines_end_at_creases(void **state)
         stroke_camera c = look_along(-1, 0.37, -0.4, origin, 20, 5, true, PAGE, PAGE);
         lmn_error error = {0};
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
-        mat4 *worlds = scene_world_matrices(s);
+        pose at_rest;
+    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
         form_shot f = {.source = s, .scene = mem_alloc(sizeof *f.scene)};
         stroke_wishes w = only(CONTOURS_SMOOTH);
-        assert_int_equal(stroke_scene_create(f.scene, s, worlds, NULL, 70 * field_pi / 180, NULL, NULL, &error), LMN_OK);
-        mem_free(worlds);
+        assert_int_equal(stroke_scene_create(f.scene, &at_rest, NULL, 70 * field_pi / 180, NULL, NULL, &error), LMN_OK);
+        pose_release(&at_rest);
         assert_int_equal(stroke_view_create(&f.view, f.scene, &c, NULL, NULL, &error), LMN_OK);
         assert_int_equal(stroke_find(&f.set, f.view, &w, NULL, NULL, NULL, &error), LMN_OK);
         size_t straight = 0;

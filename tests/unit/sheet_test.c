@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "draw/vector_private.h"
+#include "vector/vector_private.h"
 #include "export/export.h"
 
 static const colour black = {0, 0, 0, 1};

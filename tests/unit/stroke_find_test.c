@@ -407,7 +407,8 @@ static void memory_may_run_out(void **state)
     add_box(s, -0.5, -0.5, 0, 2, 0.5, 0.5);
     lmn_error error = {0};
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
-    mat4 *worlds = scene_world_matrices(s);
+    pose at_rest;
+    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
     stroke_camera c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_wishes w = all_lines();
     bool done = false;
@@ -416,7 +417,7 @@ static void memory_may_run_out(void **state)
         stroke_view *view = NULL;
         stroke_set set;
         mem_fail_at(n);
-        lmn_status status = stroke_scene_create(&scene, s, worlds, NULL, 0.5, NULL, NULL, &error);
+        lmn_status status = stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error);
         if (status == LMN_OK) {
             status = stroke_view_create(&view, &scene, &c, NULL, NULL, &error);
             if (status == LMN_OK)
@@ -431,7 +432,7 @@ static void memory_may_run_out(void **state)
         done = status == LMN_OK;
     }
     assert_true(done);
-    mem_free(worlds);
+    pose_release(&at_rest);
     scene_free(s);
 }
 
@@ -449,15 +450,16 @@ static void work_can_be_cancelled(void **state)
     add_ball(s, 0, 0, 0, 1, 40, 30);
     lmn_error error = {0};
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
-    mat4 *worlds = scene_world_matrices(s);
+    pose at_rest;
+    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
     stroke_camera c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_wishes w = all_lines();
     stroke_scene scene;
     stroke_view *view;
     stroke_set set;
     int calls = 1;
-    assert_int_equal(stroke_scene_create(&scene, s, worlds, NULL, 0.5, stop_at_once, &calls, &error), LMN_CANCELLED);
-    assert_int_equal(stroke_scene_create(&scene, s, worlds, NULL, 0.5, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, stop_at_once, &calls, &error), LMN_CANCELLED);
+    assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
     calls = 1;
     assert_int_equal(stroke_view_create(&view, &scene, &c, stop_at_once, &calls, &error), LMN_CANCELLED);
     assert_null(view);
@@ -467,7 +469,7 @@ static void work_can_be_cancelled(void **state)
     assert_int_equal(set.stroke_count, 0);
     stroke_view_destroy(&view);
     stroke_scene_release(&scene);
-    mem_free(worlds);
+    pose_release(&at_rest);
     scene_free(s);
 }
 

@@ -139,10 +139,11 @@ static inline stroke_shot shoot(lmn_scene *s, stroke_camera camera, stroke_wishe
     lmn_error error = {0};
     if (!s->part_count)
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
-    mat4 *worlds = scene_world_matrices(s);
+    pose at_rest;
     out.scene = mem_alloc(sizeof *out.scene);
-    assert_int_equal(stroke_scene_create(out.scene, s, worlds, NULL, 30 * stroke_pi / 180, NULL, NULL, &error), LMN_OK);
-    mem_free(worlds);
+    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+    assert_int_equal(stroke_scene_create(out.scene, &at_rest, NULL, 30 * stroke_pi / 180, NULL, NULL, &error), LMN_OK);
+    pose_release(&at_rest);
     assert_int_equal(stroke_view_create(&out.view, out.scene, &camera, NULL, NULL, &error), LMN_OK);
     assert_int_equal(stroke_find(&out.set, out.view, &wishes, NULL, NULL, NULL, &error), LMN_OK);
     assert_int_equal(stroke_verify(&out.check, &out.set, out.view, 1, NULL, NULL, &error), LMN_OK);

@@ -18,7 +18,7 @@
 
 #include "base/file_store.h"
 #include "base/memory.h"
-#include "draw/vector_private.h"
+#include "vector/vector_private.h"
 #include "export/export.h"
 #include "look/look.h"
 

@@ -13,8 +13,8 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "draw/marks.h"
-#include "draw/vector.h"
+#include "stage/mark_ground.h"
+#include "vector/vector.h"
 #include "limner/limner.h"
 
 enum { ROWS = 24, COLUMNS = 36, SIDE = 400 };
@@ -221,14 +221,15 @@ static void find_dot(void *user, uint32_t part, double x, double y, double diame
 static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
 {
     lmn_sheet  *s = draw(f, f->stipple, how, NULL);
-    mat4       *worlds = scene_world_matrices(f->scene);
+    pose        at_rest;
     mark_ground ground;
     marks_page  page = {.dots = NULL};
     lmn_error   error = {0};
     const double crease = 30 * 3.14159265358979 / 180;
-    assert_int_equal(mark_ground_create(&ground, f->scene, worlds, NULL, f->scene->part_count, crease, &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, f->scene, &error), LMN_OK);
+    assert_int_equal(mark_ground_create(&ground, &at_rest, NULL, f->scene->part_count, crease, &error), LMN_OK);
     rays r = {&ground, &s->views[0].camera};
-    mark_page_wishes wishes = {.scene = f->scene, .look = f->stipple, .worlds = worlds, .part_count = f->scene->part_count, .crease_angle = crease,
+    mark_page_wishes wishes = {.pose = &at_rest, .look = f->stipple, .part_count = f->scene->part_count, .crease_angle = crease,
                                .surface = f->stipple->rules[0].uses[KIND_SURFACE], .camera = r.camera, .width = SIDE, .height = SIDE, .hidden = cast, .user = &r};
     assert_int_equal(marks_on_page(&page, &wishes, &error), LMN_OK);
     search look_for = {&page, calloc(page.dot_count, 1), 0};
@@ -246,7 +247,7 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
     free(look_for.found);
     marks_page_release(&page);
     mark_ground_release(&ground);
-    mem_free(worlds);
+    pose_release(&at_rest);
     lmn_sheet_destroy(&s);
 }
 

@@ -1,0 +1,139 @@
+/* A frame: figure after figure onto the page, then the page encoded. */
+#include "frame/frame_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "layer/layer.h"
+
+static void release_targets(frame *f, figure_state *s)
+{
+    for (int i = 0; i < TARGET_COUNT; i++)
+        gpu_target_release(f->g, s->targets[i]);
+    solids_release(f->g, &s->solids);
+}
+
+static void clear_page(frame *f)
+{
+    gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};
+    uniforms_linear(f->ground, pass.clear_values[0]);
+    for (int k = 0; k < 3; k++)
+        pass.clear_values[0][k] *= f->ground.a;
+    gpu_pass_begin(f->g, &pass);
+}
+
+static void draw_figures(frame *f);
+
+/* Draws everything but the mirror as its plane shows it, with lines of its own, into a picture of the page's size. */
+static void draw_reflection(frame *f, figure_state *s)
+{
+    frame inner;
+    if (!mirror_prepare(f, s->figure, &inner))
+        return;
+    stopwatch w = watch_start(&f->profile);
+    inner.page = frame_acquire(f, TARGET_PAGE);
+    inner.page_depth = frame_acquire(f, TARGET_DEPTH);
+    if (!gpu_failed(f->g)) {
+        clear_page(&inner);
+        draw_figures(&inner);
+    }
+    gpu_target_release(f->g, inner.page_depth);
+    s->targets[TARGET_REFLECTION] = inner.page;
+    watch_stop(&f->profile, w, "surface", "reflection");
+}
+
+/* From the figure's G-buffer to its sprite, or to its maps. */
+static void draw_sprite(frame *f, figure_state *s)
+{
+    /* Lines that are folded into the fill would move with it. */
+    bool one_by_one = !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
+    s->filled = true;
+    for (int k = KIND_LAYERS; k < KIND_FINISH; k++) {
+        bool wanted = !f->maps || (f->maps->whole && k != KIND_COMPOSE);
+        if (wanted && !(one_by_one && (k == KIND_LINES || k == KIND_COMPOSE)))
+            passes_run_kind(f, s, (kind_id)k);
+    }
+    if (one_by_one)
+        passes_compose_lines(f, s, false);
+    if (f->maps)
+        collect_figure(f, s);
+}
+
+static void draw_figure(frame *f, const figure *fig)
+{
+    figure_state s;
+    if (!figure_open(f, &s, fig))
+        return;
+    if (fig->reflects && !f->mirror)
+        draw_reflection(f, &s);
+    if (fig->direct && !f->maps) {
+        raster_direct(f, &s);
+    } else {
+        raster_figure(f, &s);
+        s.geometry = s.targets[TARGET_NORMAL_DEPTH];
+        if (fig->deferred) {
+            passes_prepare(f, &s);
+            raster_shade_deferred(f, &s);
+        }
+        if (s.targets[TARGET_SHADE])
+            marks_draw(f, &s, s.targets[TARGET_SHADE]);
+        draw_sprite(f, &s);
+        mem_free(s.edges);
+    }
+    release_targets(f, &s);
+}
+
+static void draw_figures(frame *f)
+{
+    const plan *p = f->plan;
+    for (size_t i = 0, next; i < p->figure_count; i = next) {
+        next = i + 1;
+        if (!p->figures[i].layered) {
+            if (&p->figures[i] != f->mirror)
+                draw_figure(f, &p->figures[i]);
+            continue;
+        }
+        while (next < p->figure_count && p->figures[next].layered && next - i < FIGURES_TOGETHER_MAX)
+            next++;
+        layered_draw(f, &p->figures[i], (int)(next - i));
+    }
+}
+
+static void encode(frame *f, gpu_texture *out)
+{
+    stopwatch w = watch_start(&f->profile);
+    text prelude = {0};
+    paper_declare(&prelude, f);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "finish/encode.frag", &prelude);
+    if (p && !gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {out}, .colour_count = 1});
+        gpu_use(f->g, p, (gpu_state){0});
+        gpu_set_texture(f->g, "t_page", f->page, false);
+        gpu_set_int(f->g, "u_samples", f->samples);
+        paper_set(f);
+        gpu_draw_screen(f->g);
+    }
+    watch_stop(&f->profile, w, "", "encode");
+}
+
+void frame_draw(frame *f, gpu_texture *out)
+{
+    f->page = frame_acquire(f, TARGET_PAGE);
+    f->page_depth = frame_acquire(f, TARGET_DEPTH);
+    memset(f->strokes, 0, sizeof f->strokes);
+    shadow_draw(f);
+    if (!gpu_failed(f->g))
+        visibility_draw(f);
+    if (!gpu_failed(f->g)) {
+        clear_page(f);
+        draw_figures(f);
+        if (out)
+            encode(f, out);
+    }
+    gpu_target_release(f->g, f->page);
+    gpu_target_release(f->g, f->page_depth);
+    gpu_target_release(f->g, f->shadow);
+    gpu_target_release(f->g, f->visibility);
+    f->shadow = f->visibility = NULL;
+}

@@ -1,0 +1,181 @@
+/* What the files that draw a frame share. */
+#ifndef LIMNER_FRAME_FRAME_PRIVATE_H
+#define LIMNER_FRAME_FRAME_PRIVATE_H
+
+#include "frame/frame.h"
+#include "solids/solids.h"
+#include "stage/view.h"
+#include "stage/uniforms.h"
+
+enum { TILES_SIDE = 64, TILE_BOXES_MAX = TILES_SIDE * TILES_SIDE / 2 };
+
+/* The tiles of a band. */
+typedef struct tile_grid {
+    int      band[4], size, columns, rows; /* tile size in pixels */
+    bool     full[TILES_SIDE][TILES_SIDE]; /* has pixels of the layer */
+    uint32_t mask[TILES_SIDE][TILES_SIDE]; /* pixels of what is to be uncovered */
+} tile_grid;
+
+/* --- tiles.c --- */
+void   tiles_start(tile_grid *t, const int band[4]); /* all full */
+/* The full tiles and those within `margin` pixels of them as boxes, at most TILE_BOXES_MAX, inside `limits`. Tiles at the rim of the
+ * band reach `margin` beyond it. Returns how many. */
+size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4]);
+
+/* A figure while it is drawn: its pictures and its range of depth. */
+typedef struct figure_state {
+    const figure *figure;
+    gpu_texture  *targets[TARGET_COUNT];
+    gpu_texture  *geometry;  /* the normal-depth buffer as it was drawn; techniques may filter a copy of it */
+    float        *edges;     /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
+    int           pixels[4]; /* where the figure and its lines can be: scissor */
+    int           around[4]; /* what passes there can look at: cleared */
+    int           band[4];   /* layered: what is composed now, a part of `pixels` */
+    int           layer;     /* layered: 0 = visible */
+    int           index;     /* layered: of the figure among those that share their layers */
+    bool          shared;    /* layered: other figures' surfaces are in the layers too */
+    float         rear;      /* layered: opacity */
+    int         (*boxes)[4]; /* layered: where passes are drawn; NULL: all of `pixels` */
+    size_t        box_count;
+    bool          filled;    /* the fill is drawn with these lines */
+    double        near, far;
+    solid_layers  solids;    /* of the figure and what may hide it */
+} figure_state;
+
+/* What the figures share that are seen through together: the pictures of one layer at a time. */
+typedef struct layer_stack {
+    figure_state *states;       /* one a figure; they borrow the pictures below and own their edge maps */
+    figure       *hidden;       /* the figures with the rules of hidden layers */
+    int           count;
+    unsigned      channels;
+    int           limit;        /* layers at most */
+    int           reach;        /* of the widest lines, pixels */
+    int           box[4];       /* all that is drawn */
+    int           band[4];      /* that is drawn now */
+    int           around[4];    /* the band and what passes there look at */
+    tile_grid     tiles;        /* of the layer before, later of the current one */
+    int         (*boxes)[4];    /* room for TILE_BOXES_MAX */
+    size_t        box_count;
+    gpu_texture  *targets[TARGET_COUNT]; /* of the current layer */
+    gpu_texture  *before_depth, *before_id; /* of the layer in front */
+    gpu_texture  *mask;         /* depth of what is to be uncovered, or NULL */
+    gpu_texture  *nodes[2];     /* lists: nodes of up to eight layers */
+    gpu_buffer   *heads, *list, *counter;
+    int           node_vectors;
+    solid_layers  solids;       /* of all figures */
+} layer_stack;
+
+/* --- figure.c --- */
+/* Sets range and pixels; false when nothing of it is on the page. */
+bool figure_open(frame *f, figure_state *s, const figure *fig);
+/* How far the figure's lines reach beyond it, pixels. */
+int  figure_reach(const figure *fig);
+
+/* --- lighting.c: what programs that ask for light get --- */
+void lights_declare(text *prelude, const frame *f); /* soft shadows and occlusion too, where they were drawn */
+void lights_set(frame *f);
+void shadow_set(frame *f);     /* uniforms of light/shadow.glsl */
+void visibility_set(frame *f); /* of light/light.glsl's soft shadows and occlusion */
+/* Are the first light's shadows drawn, and soft? */
+bool shadow_is_soft(const frame *f);
+/* The first light's direction in eye space, towards it; false when it has a place instead. */
+bool lights_first_direction(const frame *f, double out[3]);
+
+/* --- shadow.c --- */
+/* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a direction. The caller gives f->shadow back. */
+void shadow_draw(frame *f);
+
+/* --- visibility.c: soft shadows and ambient occlusion --- */
+/* Draws f->visibility, where the look wants it. The caller gives it back. */
+void visibility_draw(frame *f);
+
+/* What solids are evaluated for. */
+solid_view frame_solid_view(frame *f);
+
+/* --- bind.c: what programs of all passes get --- */
+gpu_texture         *frame_acquire(frame *f, target t);
+/* The same, coarse pictures in the size that the figure's perturbation asks for. */
+gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
+bool                 target_is_coarse(target t);
+void                 coarse_size(const frame *f, const figure_state *s, target t, int out[2]);
+/* What a technique works out once for all pixels. */
+void                 frame_set_numbers(frame *f, const technique_use *use);
+void                 frame_set_common(frame *f, const figure_state *s);
+/* For programs that tie something to parts: from eye space to the part's frame (upload_part_frames). */
+void frame_set_rest(frame *f, size_t part_index);
+/* The program of these files with this prelude, which is used up; NULL after an error. */
+gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
+param_set            use_own_set(kind_id id, const technique_use *use);
+param_set            use_common_set(kind_id id, const technique_use *use);
+const technique_use *rule_inked_lines(const rule *r); /* the line technique that a composition inks, or NULL */
+const pass          *rule_merged_detection(const rule *r); /* the pass that the composition does itself, or NULL */
+/* Declares, or sets, the pictures that these passes read and that are there; either pass may be NULL. */
+void                 reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
+void                 reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
+/* Does some line technique of the rule work on whole lines? */
+bool                 rule_traces_lines(const rule *r);
+bool                 pass_applies(kind_id id, const pass *p, const technique_use *use);
+gpu_texture         *target_of(const frame *f, const figure_state *s, target t);
+
+/* --- raster.c: the geometry pass --- */
+void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless deferred */
+void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
+void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
+void raster_shade_deferred(frame *f, figure_state *s);
+/* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
+void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
+/* The figure's parts with their surfaces moved outwards by some pixels, into TARGET_ENLARGED. */
+void raster_enlarged(frame *f, figure_state *s, float pixels);
+/* Its own parts' faces that look away, moved outwards across the page, into TARGET_STROKES. Solids have none: their surfaces are made for one place. */
+void raster_shell(frame *f, figure_state *s, float pixels);
+/* The next layer by peeling: what lies behind the stack's last one. */
+void raster_layer(frame *f, layer_stack *stack, bool first);
+/* Every fragment into the pixels' lists. */
+void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit);
+/* The depth of what is drawn at all, in a picture of the frame's size. */
+void raster_depth(frame *f, gpu_texture *depth);
+/* The depth of some parts alone. */
+void raster_mask(frame *f, layer_stack *stack, const bool *parts);
+
+/* --- marks.c: marks on surfaces --- */
+bool figure_has_marks(const figure *fig);
+/* Those of the figure's surface technique, where its surface is what is seen, over a picture. */
+void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
+
+/* --- layered.c: figures that are seen through --- */
+/* Draws `count` figures whose layers interleave. */
+void layered_draw(frame *f, const figure *figures, int count);
+
+/* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room is needed: 1 when
+ * everything is there; otherwise the lists are not whole. */
+int  lists_build(frame *f, layer_stack *stack, size_t room);
+/* Draws layer `index` into the stack's pictures. Layers are asked for in order. */
+void lists_layer(frame *f, layer_stack *stack, int index);
+void lists_release(frame *f, layer_stack *stack);
+
+/* --- passes.c: declared passes --- */
+/* What a surface technique looks at when it shades from the G-buffer. */
+void passes_prepare(frame *f, figure_state *s);
+void passes_run_kind(frame *f, figure_state *s, kind_id id);
+/* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
+void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
+
+/* --- strokes.c: lines with geometry --- */
+void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group);
+
+/* --- paper.c: what the sheet's ink is rubbed onto; nothing where there is no paper --- */
+void paper_declare(text *prelude, const frame *f);
+void paper_set(frame *f);
+
+/* --- mirror.c --- */
+/* Makes a frame of what the mirror's plane shows, without pictures to draw into; false when the part has no plane. */
+bool mirror_prepare(const frame *f, const figure *mirror, frame *inner);
+
+/* --- collect.c: maps --- */
+void collect_edges(frame *f, figure_state *s);
+void collect_figure(frame *f, figure_state *s);
+void collect_layer(frame *f, figure_state *s); /* of layer s->layer */
+void collect_uncertainty(frame *f, figure_state *s);
+void collect_direction(frame *f, figure_state *s);
+
+#endif

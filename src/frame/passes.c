@@ -1,0 +1,334 @@
+/* Declared passes: programs from tables, pictures from the pool, in the order in which a technique lists them. */
+#include "frame/frame_private.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "layer/layer.h"
+#include "lines/lines.h"
+
+typedef struct pass_params {
+    param_set   sets[5];
+    const pass *merged; /* line detection that this pass does too, or NULL */
+    const perturbation *perturbed; /* moves what this pass looks up, or NULL */
+    size_t      count;
+} pass_params;
+
+static bool goes_onto_page(const pass *p)
+{
+    return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS;
+}
+
+/* Is the pass drawn in the tiles that have something, instead of everywhere? */
+static bool in_boxes(const figure_state *s, const pass *p)
+{
+    return s->boxes && !target_is_coarse(p->writes) && p->writes != TARGET_FIELD;
+}
+
+static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
+{
+    text prelude = {0};
+    for (size_t i = 0; i < params->count; i++)
+        uniforms_declare(&prelude, params->sets[i]);
+    reads_declare(&prelude, f, s, p, params->merged);
+    if (s->targets[TARGET_EDGE] || params->merged)
+        text_append(&prelude, "#define HAS_LINES\n");
+    char path[160];
+    snprintf(path, sizeof path, "%s", p->shader);
+    if (params->merged) {
+        text_append(&prelude, "#define MERGED\n");
+        snprintf(path, sizeof path, "%s+%s", rule_inked_lines(s->figure->rule)->technique->detect, p->shader);
+    }
+    if (s->figure->complement)
+        text_append(&prelude, "#define HAS_COMPLEMENT\n");
+    if (params->perturbed && goes_onto_page(p)) {
+        text_append(&prelude, "#define PERTURBED\n");
+        const technique_use *lines = rule_inked_lines(s->figure->rule);
+        if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
+            text_append(&prelude, "#define BROAD_LINES\n");
+        used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
+        snprintf(path, sizeof path, "%s+%s", params->perturbed->places, p->shader);
+    }
+    return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
+}
+
+/* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
+static void set_outside(const figure_state *s, const pass *p, float out[4])
+{
+    const float background[4] = {0, 0, 1, (float)s->far}, filtered[4] = {0, 0, 1, 1}, paper[4] = {1, 1, 1, 1};
+    if (!p->zero_outside && p->writes == TARGET_EDGE)
+        memcpy(out, paper, sizeof paper);
+    else if (!p->zero_outside && p->writes == TARGET_NORMAL_DEPTH)
+        memcpy(out, background, sizeof background);
+    else if (p->writes == TARGET_FILTERED)
+        memcpy(out, filtered, sizeof filtered);
+}
+
+/* The value of a parameter that is a length. */
+static float length_of(kind_id id, const technique_use *use, const char *key)
+{
+    const param *p = kind_find_param(kinds[id], use->technique, key);
+    return p ? *(const float *)param_field(p, use->values) : 0;
+}
+
+static void run_geometry(frame *f, figure_state *s, const pass *p, kind_id id, const technique_use *use)
+{
+    stopwatch w = watch_start(&f->profile);
+    if (p->shell)
+        raster_shell(f, s, length_of(id, use, p->enlarge));
+    else if (p->enlarge)
+        raster_enlarged(f, s, length_of(id, use, p->enlarge));
+    else
+        raster_inked(f, s, p);
+    watch_stop(&f->profile, w, kinds[id]->name, p->name);
+}
+
+/* Where a pass draws: the figure's pixels, or the coarse texels over them. */
+static void set_scissor(const frame *f, const figure_state *s, const pass *p, gpu_pass *out)
+{
+    memcpy(out->scissor, p->writes == TARGET_LAYERS ? s->band : s->pixels, sizeof out->scissor);
+    memcpy(out->clear_box, s->around, sizeof out->clear_box);
+    if (!target_is_coarse(p->writes))
+        return;
+    int size[2], beyond = p->writes == TARGET_DIRECTION ? 0 : 1; /* a perturbation's have one texel more */
+    coarse_size(f, s, p->writes, size);
+    const int limits[2] = {f->width, f->height};
+    memset(out->clear_box, 0, sizeof out->clear_box);
+    for (int k = 0; k < 2; k++) { /* lookups between texels need those beside */
+        int low = (int)((int64_t)s->pixels[k] * (size[k] - beyond) / limits[k]) - 1;
+        int high = (int)((int64_t)(s->pixels[k] + s->pixels[2 + k]) * (size[k] - beyond) / limits[k]) + 2;
+        out->scissor[k] = low > 0 ? low : 0;
+        out->scissor[2 + k] = (high < size[k] ? high : size[k]) - out->scissor[k];
+    }
+}
+
+static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group, int iteration)
+{
+    stopwatch w = watch_start(&f->profile);
+    gpu_program *program = pass_program(f, s, p, params);
+    bool layers = p->writes == TARGET_LAYERS, page = goes_onto_page(p); /* pictures that are added to */
+    gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
+    if (program && written && !gpu_failed(f->g)) {
+        gpu_pass target = {.colours = {written}, .colour_count = 1, .depth = p->depth ? f->page_depth : NULL,
+                           .clear = !page, .keep_depth = true};
+        set_outside(s, p, target.clear_values[0]);
+        set_scissor(f, s, p, &target);
+        gpu_pass_begin(f->g, &target);
+        gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth && !layers,
+                                           .blend = p->blend == BLEND_OVER ? GPU_BLEND_OVER
+                                                    : p->blend == BLEND_UNDER ? GPU_BLEND_UNDER
+                                                    : p->blend == BLEND_MIN ? GPU_BLEND_MIN : GPU_BLEND_NONE});
+        frame_set_common(f, s);
+        gpu_set_int(f->g, "u_iteration", iteration);
+        for (size_t i = 0; i < params->count; i++)
+            uniforms_set(f->g, params->sets[i]);
+        reads_set(f, s, p, params->merged);
+        if (params->perturbed && page) {
+            used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
+            frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
+        }
+        gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+        if (in_boxes(s, p))
+            gpu_draw_boxes(f->g, s->boxes, s->box_count);
+        else
+            gpu_draw_screen(f->g);
+    }
+    if (!page) {
+        if (s->targets[p->writes] != s->geometry)
+            gpu_target_release(f->g, s->targets[p->writes]);
+        s->targets[p->writes] = written;
+    }
+    watch_stop(&f->profile, w, group, p->name);
+}
+
+static void forget(frame *f, figure_state *s, target t)
+{
+    gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = NULL;
+}
+
+/* Where a pass has anything to do: the box around all that is drawn. */
+static void box_of_interest(const figure_state *s, int out[4])
+{
+    memcpy(out, s->boxes && s->box_count ? s->boxes[0] : s->pixels, 4 * sizeof *out);
+    for (size_t i = 1; s->boxes && i < s->box_count; i++)
+        camera_widen_pixels(out, s->boxes[i]);
+}
+
+/* A picture that a pass on the CPU reads. Depths are taken as they were drawn: filters invent some beside edges. */
+static const float *read_floats(frame *f, const figure_state *s, target t, const int box[4])
+{
+    float *out = mem_alloc((size_t)box[2] * (size_t)box[3] * 4 * sizeof *out);
+    if (out)
+        gpu_read_box(f->g, t == TARGET_NORMAL_DEPTH ? s->geometry : target_of(f, s, t), box, out);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    return out;
+}
+
+/* Where the figure's own surfaces are; NULL when all are, or memory is gone. */
+static const uint8_t *read_own(frame *f, const figure_state *s, const int box[4])
+{
+    if (!s->targets[TARGET_ID] || (!s->figure->complement && !s->shared))
+        return NULL;
+    size_t count = (size_t)box[2] * (size_t)box[3];
+    uint32_t *ids = mem_alloc(count * 2 * sizeof *ids);
+    uint8_t *own = mem_alloc(count);
+    if (ids && own)
+        gpu_read_box(f->g, s->targets[TARGET_ID], box, ids);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    bool good = !gpu_failed(f->g);
+    for (size_t i = 0; i < count && good; i++) {
+        uint32_t surface = ids[2 * i + 1], figure = (surface >> SURFACE_INDEX_BITS) & FIGURES_TOGETHER_MAX;
+        own[i] = ids[2 * i] && (s->shared ? (int)figure == s->index : !(surface & SURFACE_COMPLEMENT));
+    }
+    mem_free(ids);
+    if (!good)
+        mem_free(own);
+    return good ? own : NULL;
+}
+
+/* A pass on the CPU. Outside the box its picture is undefined: nothing is inked there. */
+static void run_process(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
+{
+    stopwatch w = watch_start(&f->profile);
+    int box[4];
+    box_of_interest(s, box);
+    pass_pixels in = {.own = read_own(f, s, box), .x = box[0], .y = box[1], .width = box[2], .height = box[3],
+                      .pixel = (float)(2 / (f->camera.projection.m[5] * f->height)), .scale = (float)f->samples,
+                      .perspective = !f->camera.orthographic};
+    for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
+        in.values[i] = read_floats(f, s, p->reads[i], box);
+    gpu_texture *written = frame_acquire(f, p->writes);
+    void *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
+    if (out && s->targets[p->writes])
+        gpu_read_box(f->g, s->targets[p->writes], box, out);
+    if (!out || (!gpu_failed(f->g) && !p->process(&in, out, use->values)))
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    gpu_target_write(f->g, written, box, out);
+    for (int i = 0; i < PASS_READS_MAX; i++)
+        mem_free((void *)in.values[i]);
+    mem_free((void *)in.own);
+    mem_free(out);
+    gpu_target_release(f->g, s->targets[p->writes]);
+    s->targets[p->writes] = written;
+    watch_stop(&f->profile, w, group, p->name);
+}
+
+/* Does the pass belong to this run: before the figure is shaded, or after? */
+static bool is_due(const frame *f, const pass *p, bool before)
+{
+    return p->prepares == before && !(p->stylised && f->maps);
+}
+
+static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
+{
+    const technique *t = use->technique;
+    if (id == KIND_LINES) { /* each line technique has dashes of its own, or none */
+        forget(f, s, TARGET_DASH);
+        forget(f, s, TARGET_STROKES);
+    }
+    pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
+    /* A composition inks the lines as well, with the parameters that all line techniques share. */
+    const technique_use *lines = rule_inked_lines(s->figure->rule);
+    if (id == KIND_COMPOSE && lines) {
+        params.sets[params.count++] = use_common_set(KIND_LINES, lines);
+        params.merged = rule_merged_detection(s->figure->rule);
+        if (params.merged || lines->technique->own_ink)
+            params.sets[params.count++] = use_own_set(KIND_LINES, lines);
+    }
+    const technique_use *perturb = rule_use(s->figure->rule, KIND_PERTURB);
+    if (id == KIND_COMPOSE && perturb) {
+        params.sets[params.count++] = use_own_set(KIND_PERTURB, perturb);
+        params.perturbed = perturb->technique->perturbs;
+    }
+    for (size_t i = 0; i < t->pass_count; i++) {
+        const pass *p = &t->passes[i];
+        if (!pass_applies(id, p, use) || !is_due(f, p, before))
+            continue;
+        if (p->strokes)
+            strokes_run(f, s, p, use, kinds[id]->name);
+        else if (p->geometry)
+            run_geometry(f, s, p, id, use);
+        else if (p->process)
+            run_process(f, s, p, use, kinds[id]->name);
+        else
+            for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
+                run_pass(f, s, p, &params, kinds[id]->name, k);
+    }
+}
+
+/* Takes what a line technique found into the picture before the next one looks. */
+static void fold_lines(frame *f, figure_state *s, kind_id id, const technique_use *use)
+{
+    pass_params params = {.sets = {use_common_set(id, use)}, .count = 1};
+    if (use->technique->own_ink)
+        params.sets[params.count++] = use_own_set(id, use);
+    run_pass(f, s, kinds[id]->fold, &params, kinds[id]->name, 0);
+}
+
+void passes_prepare(frame *f, figure_state *s)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    run_use(f, s, KIND_SURFACE, surface, true);
+    if (f->maps && s->targets[TARGET_DIRECTION])
+        collect_direction(f, s);
+}
+
+void passes_run_kind(frame *f, figure_state *s, kind_id id)
+{
+    const rule *r = s->figure->rule;
+    if (id == KIND_LINES)
+        forget(f, s, TARGET_OVERSHOOT);
+    if (id == KIND_LINES && !f->maps && rule_merged_detection(r)) {
+        forget(f, s, TARGET_DASH);
+        return;
+    }
+    for (size_t i = 0; i < r->use_counts[id]; i++) {
+        const technique_use *use = &r->uses[id][i];
+        run_use(f, s, id, use, false);
+        if (f->maps && id == KIND_LINES)
+            collect_edges(f, s);
+        else if (kinds[id]->fold && i + 1 < r->use_counts[id])
+            fold_lines(f, s, id, use);
+        if (s->targets[TARGET_NORMAL_DEPTH] != s->geometry) {
+            gpu_target_release(f->g, s->targets[TARGET_NORMAL_DEPTH]);
+            s->targets[TARGET_NORMAL_DEPTH] = s->geometry;
+        }
+    }
+    if (f->maps && id == KIND_PERTURB && rule_use(r, id) && rule_use(r, id)->technique->perturbs->map) {
+        const technique_use *use = rule_use(r, id);
+        run_pass(f, s, use->technique->perturbs->map, &(pass_params){.sets = {use_own_set(id, use)}, .count = 1}, kinds[id]->name, 0);
+        collect_uncertainty(f, s);
+    }
+}
+
+void passes_compose_lines(frame *f, figure_state *s, bool nearest_first)
+{
+    const figure *whole = s->figure;
+    const rule *r = whole->rule;
+    size_t lines = r->use_counts[KIND_LINES], count = lines > 1 ? lines : 1;
+    for (size_t k = 0; k < count; k++) {
+        size_t i = nearest_first ? count - 1 - k : k;
+        rule single = *r;
+        figure alone = *whole;
+        alone.rule = &single;
+        if (lines)
+            single.uses[KIND_LINES] = &r->uses[KIND_LINES][i];
+        single.use_counts[KIND_LINES] = lines > 0;
+        s->figure = &alone;
+        s->filled = i == 0;
+        passes_run_kind(f, s, KIND_LINES);
+        passes_run_kind(f, s, KIND_COMPOSE);
+        gpu_target_release(f->g, s->targets[TARGET_EDGE_BEFORE]);
+        s->targets[TARGET_EDGE_BEFORE] = NULL;
+        if (lines == 1)
+            s->targets[TARGET_EDGE_BEFORE] = s->targets[TARGET_EDGE];
+        else
+            gpu_target_release(f->g, s->targets[TARGET_EDGE]);
+        s->targets[TARGET_EDGE] = NULL;
+    }
+    s->figure = whole;
+}

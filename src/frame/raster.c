@@ -1,0 +1,690 @@
+/* The geometry pass: a figure's parts into its G-buffer or onto the page. */
+#include "frame/frame_private.h"
+#include "base/memory.h"
+#include "layer/layer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
+{
+    if (f->mirror && f->mirror->designated[item->part_index])
+        return false; /* a mirror does not see itself */
+    return fig->designated[item->part_index] || (fig->complement && f->plan->opaque[item->part_index]);
+}
+
+/* The item's material; `room` holds it when it is painted in the figure's highlight. */
+static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *room)
+{
+    /* Formats without materials: a light neutral grey. */
+    static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1}, .base_texture = TEXTURE_USE_NONE,
+                                      .normal_texture = TEXTURE_USE_NONE, .normal_scale = 1, .alpha_cutoff = 0.5f};
+    const material *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
+    if (!fig->highlight)
+        return own;
+    float linear[4];
+    uniforms_linear(*fig->highlight, linear);
+    *room = *own;
+    room->base_texture = standard.base_texture;
+    room->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
+    return room;
+}
+
+typedef struct item_textures {
+    gpu_texture *base, *normal;
+} item_textures;
+
+static item_textures textures_of(frame *f, const draw_item *item, const material *m)
+{
+    item_textures t = {NULL, NULL};
+    if (!item->has_uvs)
+        return t;
+    t.base = upload_texture(f->up, f->g, &m->base_texture, false);
+    t.normal = upload_texture(f->up, f->g, &m->normal_texture, true);
+    return t;
+}
+
+static void declare_material(text *prelude, const figure_state *s, const draw_item *item, const material *m, item_textures t)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    if (t.base || t.normal || (item->has_uvs && surface && shades_with_geometry(surface)))
+        text_append(prelude, "#define HAS_UV\n");
+    if (item->has_colours)
+        text_append(prelude, "#define HAS_COLOURS\n");
+    if (item->has_uv1)
+        text_append(prelude, "#define HAS_UV1\n");
+    if (t.base)
+        text_append(prelude, "#define HAS_BASE_TEXTURE\n");
+    if (t.normal)
+        text_append(prelude, "#define HAS_NORMAL_TEXTURE\n");
+    if (item->is_cut)
+        text_append(prelude, "#define CUT_FACE\n");
+    else if (m->alpha != ALPHA_OPAQUE)
+        text_append(prelude, "#define CUT_OUT\n");
+}
+
+static void set_texture_matrix(gpu *g, const char *matrix, const char *offset, const texture_use *use, float strength)
+{
+    float c = cosf(use->rotation), s = sinf(use->rotation);
+    gpu_set_vec4(g, matrix, (float[]){c * use->scale[0], -s * use->scale[0], s * use->scale[1], c * use->scale[1]});
+    gpu_set_vec4(g, offset, (float[]){use->offset[0], use->offset[1], (float)use->uv_set, strength});
+}
+
+static void set_material(gpu *g, const material *m, item_textures t, bool layered)
+{
+    const vec4 *c = &m->base_colour;
+    gpu_set_vec4(g, "u_base_colour", (float[]){c->x, c->y, c->z, c->w});
+    /* Where nothing is seen through, blended surfaces are cut-outs: what is mostly there is there. */
+    gpu_set_float(g, "u_alpha_cutoff", m->alpha != ALPHA_BLEND ? m->alpha_cutoff : layered ? 0.004f : 0.1f);
+    gpu_set_int(g, "u_unlit", m->unlit);
+    if (t.base) {
+        gpu_set_texture(g, "t_base", t.base, true);
+        set_texture_matrix(g, "u_base_matrix", "u_base_offset", &m->base_texture, 0);
+    }
+    if (t.normal) {
+        gpu_set_texture(g, "t_normal", t.normal, true);
+        set_texture_matrix(g, "u_normal_uv_matrix", "u_normal_uv_offset", &m->normal_texture, m->normal_scale);
+    }
+}
+
+/* What the geometry pass writes and where. */
+typedef struct outputs {
+    int normal_depth, id, albedo, shade; /* attachment, −1 = not */
+} outputs;
+
+static const outputs no_outputs = {-1, -1, -1, -1};
+
+/* One run over the parts. */
+typedef struct raster_job {
+    const gpu_pass     *pass;   /* that is drawn into */
+    const figure_state *state;  /* of the only figure; NULL: whose part it is in the stack */
+    solid_layers       *solids; /* the surfaces of solids, found when first needed */
+    const solid_view   *view;   /* that they are found for */
+    const layer_stack  *stack;
+    outputs             at;
+    const pass         *inking; /* lines on top and no complement */
+    const bool         *only;   /* per part: all others are left out */
+    float               enlarge; /* not 0: surfaces are moved outwards by this many pixels */
+    bool                shell;  /* enlarged: no complement, no solids, and only faces that look away */
+    bool                peeled; /* nothing that the layer before had */
+    int                 node_vectors; /* not 0: into lists, nodes of this size */
+    unsigned            node_limit;
+} raster_job;
+
+static void declare_outputs(text *prelude, const raster_job *job)
+{
+    const struct {
+        const char *name;
+        int         at;
+    } rows[] = {{"NORMAL_DEPTH", job->at.normal_depth}, {"ID", job->at.id}, {"ALBEDO", job->at.albedo}, {"SHADE", job->at.shade}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].at >= 0)
+            text_append(prelude, "#define AT_%s %d\n", rows[i].name, rows[i].at);
+    if (job->at.shade < 0 && !job->stack)
+        text_append(prelude, "#define DEFERRED\n");
+    if (job->stack)
+        text_append(prelude, "#define LAYERED\n");
+    if (job->peeled)
+        text_append(prelude, "#define PEELED\n");
+    if (job->enlarge > 0)
+        text_append(prelude, "#define ENLARGED\n%s", job->shell ? "#define SHELL\n" : "");
+    if (job->node_vectors)
+        text_append(prelude, "#define INTO_LISTS\n#define NODE_VECTORS %d\n", job->node_vectors);
+}
+
+/* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */
+static void declare_ink(text *prelude, char *path, size_t size, const frame *f, const figure_state *s, const pass *inking)
+{
+    const technique_use *lines = rule_inked_lines(s->figure->rule);
+    const pass *merged = rule_merged_detection(s->figure->rule);
+    uniforms_declare(prelude, use_common_set(KIND_LINES, lines));
+    text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
+    if (merged || lines->technique->own_ink)
+        uniforms_declare(prelude, use_own_set(KIND_LINES, lines));
+    reads_declare(prelude, f, s, inking, merged);
+    char joined[320];
+    snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->detect : "", merged ? "+" : "", inking->shader, path);
+    snprintf(path, size, "%s", joined);
+}
+
+/* What the surface technique made, for a material (NONE: without one). */
+static const used_textures *made_for(const figure *fig, int32_t material)
+{
+    return fig->textures->by_material && material >= 0 ? &fig->textures->by_material[material] : &fig->textures->surface;
+}
+
+/* `prelude` says what the material needs; it is used up. */
+static gpu_program *raster_program(frame *f, const figure_state *s, const char *vertex, text prelude, const raster_job *job)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    declare_outputs(&prelude, job);
+    if (f->mirror)
+        text_append(&prelude, "#define CLIPPED\n");
+    if (s->targets[TARGET_REFLECTION])
+        text_append(&prelude, "#define HAS_REFLECTION\n");
+    char path[320] = "layer/raster.frag";
+    if (job->at.shade >= 0) {
+        lights_declare(&prelude, f);
+        uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+        used_textures_declare(&prelude, surface, &s->figure->textures->surface);
+        snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface);
+    }
+    if (job->inking)
+        declare_ink(&prelude, path, sizeof path, f, s, job->inking);
+    return program_of(f, job->node_vectors ? GPU_FAST : GPU_FLOOR, vertex, path, &prelude);
+}
+
+static void set_ink(frame *f, const figure_state *s, const pass *inking)
+{
+    const technique_use *lines = rule_inked_lines(s->figure->rule);
+    uniforms_set(f->g, use_common_set(KIND_LINES, lines));
+    uniforms_set(f->g, use_own_set(KIND_LINES, lines));
+    reads_set(f, s, inking, rule_merged_detection(s->figure->rule));
+}
+
+static void set_layers(frame *f, const raster_job *job)
+{
+    if (job->peeled) {
+        gpu_set_texture(f->g, "t_before_depth", job->stack->before_depth, false);
+        gpu_set_texture(f->g, "t_before_id", job->stack->before_id, false);
+    }
+    if (job->node_vectors) {
+        const int *box = job->stack->around;
+        gpu_set_vec4(f->g, "u_list_box", (float[]){(float)box[0], (float)box[1], (float)box[2], (float)box[3]});
+        gpu_set_uint(f->g, "u_node_limit", job->node_limit);
+    }
+}
+
+/* What the last drawn item needed; most items in a row need the same. */
+typedef struct raster_setup {
+    const figure_state *owner;
+    int32_t             material;
+    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, ready;
+    uint32_t            triangles; /* drawn so far: orders what coincides */
+} raster_setup;
+
+/* What programs of the geometry pass get, wherever their surfaces come from. */
+static void set_pass(frame *f, const raster_job *job, const figure_state *s, int32_t material)
+{
+    if (gpu_has_uniform(f->g, "u_rest"))
+        upload_part_frames(f->up, f->g); /* before the pass's textures: making it takes the place of one of them */
+    frame_set_common(f, s);
+    if (job->at.shade >= 0) {
+        const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+        uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+        used_textures_set(f->g, surface, made_for(s->figure, material));
+        frame_set_numbers(f, surface);
+    }
+    if (job->inking)
+        set_ink(f, s, job->inking);
+    set_layers(f, job);
+    if (f->mirror)
+        gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
+    if (s->targets[TARGET_REFLECTION])
+        gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
+}
+
+static gpu_state state_of(const raster_job *job)
+{
+    return (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_compare = job->stack ? GPU_LESS : GPU_LESS_EQUAL};
+}
+
+/* Does the surface lay strokes along the way that the item bends? */
+static bool uses_field(const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return surface && surface->technique->wishes && surface->technique->wishes(surface->values).field && gpu_mesh_has_tensors(item->mesh);
+}
+
+/* Or on patches? Layers and enlarged figures draw each triangle once. */
+static bool uses_patches(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->wishes && surface->technique->wishes(surface->values).patch > 0;
+}
+
+/* Does the surface look light up in a map of the item's? */
+static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->light_map_when &&
+           params_condition(surface->technique->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
+}
+
+static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
+{
+    bool field = uses_field(s, item), patches = uses_patches(job, s, item);
+    if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
+        item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut && field == last->has_field && patches == last->has_patches)
+        return;
+    material tinted;
+    const material *m = material_of(f, s->figure, item, &tinted);
+    item_textures t = textures_of(f, item, m);
+    text prelude = {0};
+    declare_material(&prelude, s, item, m, t);
+    text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "", field && !patches ? "#define HAS_FIELD\n" : "");
+    if (wants_light_map(job, s, item))
+        text_append(&prelude, "#define HAS_LIGHT_MAP\n");
+    gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
+    if (gpu_failed(f->g))
+        return;
+    set_pass(f, job, s, item->material);
+    view_set_projection(f->g, &f->camera);
+    set_material(f->g, m, t, job->stack != NULL);
+    *last = (raster_setup){.owner = s, .material = item->material, .has_uvs = item->has_uvs, .has_uv1 = item->has_uv1, .has_colours = item->has_colours,
+                           .is_cut = item->is_cut, .has_field = field, .has_patches = patches, .ready = true, .triangles = last->triangles};
+}
+
+/* The figure among those of the stack that draws a part; NULL: none. */
+static const figure_state *layer_owner(const layer_stack *stack, size_t part_index)
+{
+    for (int i = 0; i < stack->count; i++)
+        if (stack->states[i].figure->designated[part_index])
+            return &stack->states[i];
+    return NULL;
+}
+
+/* Whose item it is in this run; NULL: nobody's, it is not drawn. */
+static const figure_state *owner_of(const frame *f, const raster_job *job, const draw_item *item)
+{
+    if (job->only && !job->only[item->part_index])
+        return NULL;
+    if (!job->state)
+        return f->mirror && f->mirror->designated[item->part_index] ? NULL : layer_owner(job->stack, item->part_index);
+    if (job->only)
+        return job->state;
+    if (!is_drawn(f, job->state->figure, item) || ((job->inking || job->shell) && !job->state->figure->designated[item->part_index]))
+        return NULL;
+    return job->state;
+}
+
+static void set_ids(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, uint32_t order)
+{
+    gpu_set_uint(f->g, "u_part_id", item->part_id);
+    bool other = job->state && !job->only && !s->figure->designated[item->part_index];
+    gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
+    gpu_set_uint(f->g, "u_order", order);
+}
+
+/* About two texels to a pixel that the item's part can cover. */
+static int light_map_side(const frame *f, const draw_item *item)
+{
+    enum { LEAST = 64, MOST = 1024 };
+    int box[4], side = LEAST;
+    camera_pixels(&f->camera, f->up->pose->part_boxes[item->part_index], f->width, f->height, 0, box);
+    while (side < MOST && side < 2 * box[2] && side < 2 * box[3])
+        side *= 2;
+    while (side < MOST && (side < box[2] || side < box[3]))
+        side *= 2;
+    return side;
+}
+
+/* The light on one item, laid out by its texture coordinates. The caller gives it back. */
+static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_item *item)
+{
+    enum { BORDER = 4 };
+    const int side = light_map_side(f, item);
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    gpu_texture *map = gpu_target_acquire(f->g, side, side, GPU_RGBA16F), *other = gpu_target_acquire(f->g, side, side, GPU_RGBA16F);
+    material tinted;
+    const material *m = material_of(f, s->figure, item, &tinted);
+    item_textures t = textures_of(f, item, m);
+    text prelude = {0};
+    declare_material(&prelude, s, item, m, t);
+    text_append(&prelude, "#define UNWRAPPED\n");
+    lights_declare(&prelude, f);
+    uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+    used_textures_declare(&prelude, surface, made_for(s->figure, item->material));
+    char path[320];
+    snprintf(path, sizeof path, "%s+layer/light_map.frag", surface->technique->surface);
+    gpu_program *lit = program_of(f, GPU_FLOOR, "layer/raster.vert", path, &prelude);
+    gpu_pass_begin(f->g, &(gpu_pass){.colours = {map}, .colour_count = 1, .clear = true});
+    gpu_use(f->g, lit, (gpu_state){0});
+    frame_set_common(f, s);
+    uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+    set_material(f->g, m, t, false);
+    view_set_transform(f->g, &f->camera, &item->world);
+    gpu_draw_mesh(f->g, item->mesh);
+    for (int i = 0; i < BORDER && !gpu_failed(f->g); i++) {
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {other}, .colour_count = 1});
+        gpu_use(f->g, gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "layer/light_map_pad.frag", ""), (gpu_state){0});
+        gpu_set_texture(f->g, "t_light_map", map, false);
+        gpu_draw_screen(f->g);
+        gpu_texture *before = map;
+        map = other;
+        other = before;
+    }
+    gpu_target_release(f->g, other);
+    return map;
+}
+
+static void draw_item_of(frame *f, const raster_job *job, const draw_item *item, raster_setup *last)
+{
+    const figure_state *s = item->is_solid ? NULL : owner_of(f, job, item);
+    if (!s)
+        return;
+    gpu_texture *light_map = wants_light_map(job, s, item) ? draw_light_map(f, s, item) : NULL;
+    if (light_map) {
+        gpu_pass again = *job->pass;
+        again.clear = false;
+        gpu_pass_begin(f->g, &again);
+        last->ready = false;
+    }
+    set_up(f, job, s, item, last);
+    gpu_target_release(f->g, light_map);
+    if (gpu_failed(f->g))
+        return;
+    gpu_set_texture(f->g, "t_light_map", light_map, true);
+    view_set_transform(f->g, &f->camera, &item->world);
+    frame_set_rest(f, item->part_index);
+    set_ids(f, job, s, item, last->triangles);
+    if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
+        gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
+    if (item->is_cut)
+        gpu_set_float(f->g, "u_nearer", 2 * item->nearer);
+    if (last->has_patches)
+        gpu_set_float(f->g, "u_patch_radius", item->patch_radius);
+    gpu_draw_mesh(f->g, last->has_patches ? item->lapped : item->mesh);
+    last->triangles += gpu_mesh_triangles(item->mesh);
+}
+
+/* The current surfaces of a solid part, as a sprite. */
+static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
+{
+    const figure_state *s = owner_of(f, job, item);
+    text prelude = {0};
+    text_append(&prelude, "#define SOLID\n%s", f->plan->has_cut ? "#define HAS_CUT\n" : "");
+    gpu_use(f->g, raster_program(f, s, "gpu/boxes.vert", prelude, job), state_of(job));
+    if (gpu_failed(f->g))
+        return;
+    set_pass(f, job, s, NONE);
+    gpu_set_texture(f->g, "t_surfaces", job->solids->surfaces, false);
+    gpu_set_texture(f->g, "t_operands", f->up->operand_table, false);
+    solids_set_depth(job->view, job->solids);
+    gpu_set_vec2(f->g, "u_solid_size", (float)f->width, (float)f->height);
+    float highlight[4] = {0, 0, 0, 0};
+    if (s->figure->highlight)
+        uniforms_linear(*s->figure->highlight, highlight);
+    gpu_set_vec4(f->g, "u_solid_highlight", highlight);
+    gpu_set_float(f->g, "u_alpha_cutoff", 0);
+    gpu_set_int(f->g, "u_unlit", 0);
+    frame_set_rest(f, item->part_index);
+    set_ids(f, job, s, item, 0);
+    int box[1][4];
+    camera_pixels(&f->camera, f->up->pose->part_boxes[item->part_index], f->width, f->height, 2, box[0]);
+    gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+    gpu_draw_boxes(f->g, box, 1);
+}
+
+/* The solids that this run draws, one flag an item; NULL when there are none. The caller frees it. */
+static bool *solids_wanted(frame *f, const raster_job *job)
+{
+    const upload *up = f->up;
+    bool *wanted = NULL;
+    for (size_t i = 0; i < up->item_count && !job->shell && !gpu_failed(f->g); i++) {
+        if (!up->items[i].is_solid || !owner_of(f, job, &up->items[i]))
+            continue;
+        if (!wanted && !(wanted = mem_calloc(up->item_count, sizeof *wanted)))
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        if (wanted)
+            wanted[i] = true;
+    }
+    return wanted;
+}
+
+/* How the figure wants its solids evaluated; of several figures the first that says so decides. */
+static int32_t evaluation_of(const raster_job *job)
+{
+    int count = job->state ? 1 : job->stack->count;
+    int32_t evaluation = EVALUATION_AUTO;
+    for (int i = 0; i < count && evaluation == EVALUATION_AUTO; i++) {
+        const figure_state *s = job->state ? job->state : &job->stack->states[i];
+        const technique_use *layers = rule_use(s->figure->rule, KIND_LAYERS);
+        if (layers && layers->technique == &layers_front)
+            evaluation = ((const front_values *)layers->values)->evaluation;
+        else if (layers && layers->technique == &layers_peel)
+            evaluation = ((const peel_values *)layers->values)->evaluation;
+    }
+    return evaluation;
+}
+
+/* Layer after layer; in front of what follows them only the nearest is needed. */
+static void draw_solids(frame *f, const gpu_pass *pass, const raster_job *job, const bool *wanted)
+{
+    const upload *up = f->up;
+    gpu_pass again = *pass;
+    again.clear = false;
+    int count = job->solids->count;
+    int needed = job->node_vectors ? job->stack->limit : job->peeled ? count : 1;
+    count = count < needed ? count : needed;
+    for (int layer = 0; layer < count && !gpu_failed(f->g); layer++) {
+        if (layer != job->solids->index) {
+            solids_select(job->view, job->solids, layer);
+            gpu_pass_begin(f->g, &again);
+        }
+        for (size_t i = 0; i < up->item_count && !gpu_failed(f->g); i++)
+            if (wanted[i] && !(i > 0 && wanted[i - 1] && up->items[i - 1].part_index == up->items[i].part_index))
+                draw_solid(f, job, &up->items[i]);
+    }
+}
+
+/* Draws parts into a pass. Layers order what coincides by part and then by facing; when peeling, whatever is drawn first
+ * stays, so parts come in that order, front faces before back faces. Lists are sorted later. */
+static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
+{
+    raster_setup last = {0};
+    const upload *up = f->up;
+    raster_job here = *job;
+    solid_view view = frame_solid_view(f);
+    here.pass = pass;
+    here.view = &view;
+    job = &here;
+    bool *wanted = solids_wanted(f, job);
+    if (wanted)
+        solids_open(&view, job->solids, wanted, &(solid_wishes){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});
+    if (gpu_failed(f->g)) {
+        mem_free(wanted);
+        return;
+    }
+    gpu_pass_begin(f->g, pass);
+    bool by_facing = job->stack && !job->node_vectors;
+    for (size_t first = 0, end; first < up->item_count && !gpu_failed(f->g); first = end) {
+        end = first + 1;
+        while (end < up->item_count && up->items[end].part_index == up->items[first].part_index)
+            end++;
+        for (int round = 0; round < (by_facing ? 2 : 1); round++) {
+            gpu_cull_faces(f->g, !by_facing ? GPU_CULL_NONE : round ? GPU_CULL_FRONT : GPU_CULL_BACK);
+            for (size_t i = first; i < end && !gpu_failed(f->g); i++)
+                draw_item_of(f, job, &up->items[i], &last);
+        }
+    }
+    gpu_cull_faces(f->g, GPU_CULL_NONE);
+    if (wanted)
+        draw_solids(f, pass, job, wanted);
+    mem_free(wanted);
+}
+
+/* Adds a channel to the geometry pass; background is depth "far", normal to the viewer, id 0, and no colour. */
+static int add_output(frame *f, gpu_texture *targets[TARGET_COUNT], gpu_pass *pass, target t, const float clear[4])
+{
+    targets[t] = frame_acquire(f, t);
+    memcpy(pass->clear_values[pass->colour_count], clear, 4 * sizeof(float));
+    pass->colours[pass->colour_count] = targets[t];
+    return pass->colour_count++;
+}
+
+/* The pictures for these channels, cleared to emptiness, with a depth buffer. */
+static outputs open_outputs(frame *f, unsigned channels, gpu_texture *targets[TARGET_COUNT], gpu_pass *pass, double far)
+{
+    outputs o = no_outputs;
+    pass->clear = true;
+    if (channels & CHANNEL_NORMAL_DEPTH)
+        o.normal_depth = add_output(f, targets, pass, TARGET_NORMAL_DEPTH, (float[]){0, 0, 1, (float)far});
+    if (channels & CHANNEL_ID)
+        o.id = add_output(f, targets, pass, TARGET_ID, (float[]){0, 0, 0, 0});
+    if (channels & CHANNEL_ALBEDO)
+        o.albedo = add_output(f, targets, pass, TARGET_ALBEDO, (float[]){1, 1, 1, 0});
+    if (channels & CHANNEL_SHADE)
+        o.shade = add_output(f, targets, pass, TARGET_SHADE, (float[]){0, 0, 0, 0});
+    pass->depth = targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
+    return o;
+}
+
+void raster_figure(frame *f, figure_state *s)
+{
+    const figure *fig = s->figure;
+    stopwatch w = watch_start(&f->profile);
+    gpu_pass pass = {0};
+    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+    outputs o = open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
+    if (!gpu_failed(f->g)) {
+        draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = o});
+    }
+    watch_stop(&f->profile, w, "", "geometry");
+}
+
+void raster_enlarged(frame *f, figure_state *s, float pixels)
+{
+    gpu_pass pass = {.clear = true, .colour_count = 1};
+    gpu_texture *depth = frame_acquire(f, TARGET_DEPTH);
+    gpu_target_release(f->g, s->targets[TARGET_ENLARGED]);
+    pass.colours[0] = s->targets[TARGET_ENLARGED] = frame_acquire(f, TARGET_ENLARGED);
+    pass.depth = depth;
+    if (!gpu_failed(f->g)) {
+        /* The clip planes hug the model; the enlarged one comes nearer and goes farther. */
+        frame wide = *f;
+        double more = 2.02 * (double)pixels / (f->height * f->camera.projection.m[5]);
+        double near = f->camera.near, far = f->camera.far;
+        camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
+                         f->camera.orthographic ? far + more : far * (1 + more));
+        draw_parts(&wide, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1}, .enlarge = pixels});
+    }
+    gpu_target_release(f->g, depth);
+}
+
+void raster_shell(frame *f, figure_state *s, float pixels)
+{
+    gpu_target_release(f->g, s->targets[TARGET_STROKES]);
+    gpu_pass pass = {.clear = true, .depth = s->targets[TARGET_STROKES] = frame_acquire(f, TARGET_STROKES)};
+    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+    if (!gpu_failed(f->g)) {
+        draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = no_outputs, .enlarge = pixels, .shell = true});
+    }
+}
+
+void raster_shade_deferred(frame *f, figure_state *s)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    stopwatch w = watch_start(&f->profile);
+    text prelude = {0};
+    lights_declare(&prelude, f);
+    uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+    used_textures_declare(&prelude, surface, &s->figure->textures->surface);
+    text_append(&prelude, "#define SHADED_LATER\n");
+    if (s->targets[TARGET_DIRECTION]) {
+        text_append(&prelude, "#define HAS_DIRECTION\n");
+        target_declare(&prelude, TARGET_DIRECTION);
+    }
+    char path[160];
+    snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
+    if (f->plan->has_cut)
+        text_append(&prelude, "#define HAS_CUT\n");
+    s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
+    if (p && !gpu_failed(f->g)) {
+        gpu_pass pass = {.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true};
+        memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+        memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+        gpu_pass_begin(f->g, &pass);
+        gpu_use(f->g, p, (gpu_state){0});
+        frame_set_common(f, s);
+        uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+        used_textures_set(f->g, surface, &s->figure->textures->surface);
+        frame_set_numbers(f, surface);
+        gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
+        gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
+        gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);
+        if (s->targets[TARGET_DIRECTION])
+            gpu_set_texture(f->g, "t_direction", s->targets[TARGET_DIRECTION], true);
+        gpu_draw_screen(f->g);
+    }
+    watch_stop(&f->profile, w, "", "deferred shading");
+}
+
+void raster_direct(frame *f, figure_state *s)
+{
+    stopwatch w = watch_start(&f->profile);
+    gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
+    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}});
+    watch_stop(&f->profile, w, "", "geometry");
+}
+
+/* The seed's third pass: the parts once more, with the edge map projected on them. */
+void raster_inked(frame *f, figure_state *s, const pass *inking)
+{
+    gpu_pass onto = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
+    memcpy(onto.scissor, s->pixels, sizeof onto.scissor);
+    draw_parts(f, &onto, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}, .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
+}
+
+void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude)
+{
+    memcpy(pass->scissor, stack->around, sizeof pass->scissor);
+    memcpy(pass->clear_box, stack->around, sizeof pass->clear_box);
+    outputs at = open_outputs(f, stack->channels, stack->targets, pass, f->camera.far);
+    declare_outputs(prelude, &(raster_job){.stack = stack, .at = at});
+}
+
+void raster_layer(frame *f, layer_stack *stack, bool first)
+{
+    stopwatch w = watch_start(&f->profile);
+    gpu_pass pass = {0};
+    memcpy(pass.scissor, stack->around, sizeof pass.scissor);
+    memcpy(pass.clear_box, stack->around, sizeof pass.clear_box);
+    /* Part and facing order what coincides. */
+    outputs o = open_outputs(f, stack->channels | CHANNEL_ID, stack->targets, &pass, f->camera.far);
+    if (!gpu_failed(f->g)) {
+        draw_parts(f, &pass, &(raster_job){.stack = stack, .solids = &stack->solids, .at = o, .peeled = !first});
+    }
+    watch_stop(&f->profile, w, "layers", "peel");
+}
+
+void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit)
+{
+    /* Nothing is written but the lists; a framebuffer needs a picture all the same. */
+    gpu_pass pass = {.depth = f->page_depth};
+    memcpy(pass.scissor, stack->around, sizeof pass.scissor);
+    outputs o = no_outputs;
+    if (stack->channels & CHANNEL_SHADE)
+        o.shade = 0;
+    if (stack->channels & CHANNEL_ALBEDO)
+        o.albedo = 0;
+    draw_parts(f, &pass, &(raster_job){.stack = stack, .solids = &stack->solids, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
+}
+
+void raster_depth(frame *f, gpu_texture *depth)
+{
+    gpu_pass pass = {.depth = depth, .clear = true};
+    figure all = {.rule = f->plan->figures[0].rule, .designated = f->plan->selected};
+    figure_state s = {.figure = &all, .near = f->camera.near, .far = f->camera.far};
+    solid_layers solids = {.ready = false};
+    draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = f->plan->selected});
+    solids_release(f->g, &solids);
+}
+
+void raster_mask(frame *f, layer_stack *stack, const bool *parts)
+{
+    stopwatch w = watch_start(&f->profile);
+    stack->mask = frame_acquire(f, TARGET_DEPTH);
+    gpu_pass pass = {.depth = stack->mask, .clear = true};
+    if (!gpu_failed(f->g)) {
+        solid_layers solids = {.ready = false};
+        draw_parts(f, &pass, &(raster_job){.state = &stack->states[0], .solids = &solids, .at = no_outputs, .only = parts});
+        solids_release(f->g, &solids);
+    }
+    watch_stop(&f->profile, w, "layers", "mask");
+}

@@ -1,0 +1,296 @@
+/* The pass "strokes": lines with geometry into a figure's edge map. Two ways lead there.
+ *
+ *   exact:   scene ──► view ──► chains ──► ribbons ──► quads, each frame, visibility worked out by the CPU
+ *   sampled: edges of meshes ──► quads, all on the GPU, visibility by the figure's depth around the axis
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "frame/frame_private.h"
+#include "lines/stroke/strokes.h"
+
+/* Of parts that may hide the figure's lines: of what is not seen through, for layers of all. NULL after an error. */
+static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
+{
+    bool *hides = mem_calloc(f->up->part_count, sizeof *hides);
+    for (size_t i = 0; hides && i < f->up->part_count; i++)
+        hides[i] = !(f->mirror && f->mirror->designated[i]) && (fig->layered ? f->plan->selected[i] : f->plan->opaque[i]);
+    if (!hides)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    stroke_store_wishes wishes = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine};
+    stroke_store *s = hides ? stroke_store_find(&f->up->strokes[fig->layered], f->g, &wishes) : NULL;
+    mem_free(hides);
+    return s;
+}
+
+/* --- programs ------------------------------------------------------------------------------------------------------ */
+
+/* Gives the figure an empty edge map, and a depth for lines beyond its surfaces, and draws into them from now on. */
+static void open_maps(frame *f, figure_state *s)
+{
+    static const target written[] = {TARGET_EDGE, TARGET_STROKES};
+    for (int i = 0; i < 2; i++) {
+        gpu_target_release(f->g, s->targets[written[i]]);
+        s->targets[written[i]] = frame_acquire(f, written[i]);
+    }
+    gpu_pass target = {.colours = {s->targets[TARGET_EDGE]}, .colour_count = 1, .depth = s->targets[TARGET_STROKES], .clear = true, .clear_values = {{1, 1, 1, 1}}};
+    memcpy(target.clear_box, s->around, sizeof target.clear_box);
+    memcpy(target.scissor, s->pixels, sizeof target.scissor);
+    if (!gpu_failed(f->g))
+        gpu_pass_begin(f->g, &target);
+}
+
+/* The darkest ink stays, and the depth of what was drawn last: any line there will do. */
+static const gpu_state drawn = {.depth_write = true, .blend = GPU_BLEND_MIN};
+
+/* --- sampled ------------------------------------------------------------------------------------------------------- */
+
+/* The eye in an item's axes: its place, 1; or without perspective the way towards it, 0. */
+static void find_viewer(const frame *f, const mat4 *world, float out[4])
+{
+    mat4 both = mat4_multiply(&f->camera.view, world);
+    double cofactors[9], determinant = mat4_cofactors(&both, cofactors), eye[3], largest = 0;
+    /* Columns of cofactors are the inverse's rows: of the point 0, or of the axis z. */
+    for (int row = 0; row < 3; row++) {
+        const double *c = &cofactors[3 * row];
+        eye[row] = f->camera.orthographic ? c[2] : -(c[0] * both.m[12] + c[1] * both.m[13] + c[2] * both.m[14]);
+        largest = fmax(largest, fabs(eye[row]));
+    }
+    double scale = f->camera.orthographic ? (determinant < 0 ? -1 : 1) / fmax(largest, 1e-300) : determinant != 0 ? 1 / determinant : 0;
+    for (int row = 0; row < 3; row++)
+        out[row] = (float)(eye[row] * scale);
+    out[3] = f->camera.orthographic ? 0 : 1;
+}
+
+/* Takes over the records; the GPU fails when there are none. */
+static gpu_marks *upload_records(frame *f, float *records, size_t count)
+{
+    gpu_marks *marks = NULL;
+    if (records)
+        marks = gpu_marks_create(f->g, EDGE_RECORD_VECTORS, records, count);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(records);
+    return marks;
+}
+
+/* Makes what the item's lines are drawn from, unless it is there. */
+static void bring_item(frame *f, stroke_store *store, uint32_t index, bool crossings)
+{
+    uint32_t mesh = store->scene.items[index].mesh;
+    if (!store->edges[mesh] && !gpu_failed(f->g))
+        store->edges[mesh] = upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]), store->scene.meshes[mesh].edge_count);
+    if (!crossings || store->crossings[index] || gpu_failed(f->g))
+        return;
+    size_t count;
+    float *records = strokes_crossing_records(&store->scene, index, &count);
+    store->crossings[index] = upload_records(f, records, count);
+}
+
+static void draw_records(frame *f, gpu_marks *marks, const mat4 *world)
+{
+    if (gpu_marks_count(marks) == 0)
+        return;
+    mat4 both = mat4_multiply(&f->camera.view, world), whole = mat4_multiply(&f->camera.projection, &both);
+    float clip[16], viewer[4];
+    for (int i = 0; i < 16; i++)
+        clip[i] = (float)whole.m[i];
+    find_viewer(f, world, viewer);
+    gpu_set_mat4(f->g, "u_clip", clip);
+    gpu_set_vec4(f->g, "u_viewer", viewer);
+    gpu_draw_marks(f->g, marks);
+}
+
+static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool crossings)
+{
+    const stroke_item *item = &store->scene.items[index];
+    const mat4 still = mat4_identity();
+    draw_records(f, store->edges[item->mesh], &item->world);
+    if (crossings)
+        draw_records(f, store->crossings[index], &still);
+}
+
+/* Is the near plane before all parts, so that closed ones are seen from outside? */
+static bool eye_is_outside(const frame *f)
+{
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (size_t i = 0; i < f->up->part_count; i++) /* one by one, as the planes are laid: the box around all has corners where nothing is */
+        if (f->plan->selected[i] && !box3_is_empty(f->up->pose->part_boxes[i]))
+            camera_depth_range(&f->camera, f->up->pose->part_boxes[i], &nearest, &farthest);
+    return nearest > f->camera.near && !f->mirror;
+}
+
+static int wanted_bits(const stroke_wishes *w)
+{
+    enum { WANT_CONTOUR = 32 };
+    return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) | (w->creases ? RECORD_CREASE : 0) |
+           (w->materials ? RECORD_MATERIAL : 0) | (w->intersections ? RECORD_CROSSING : 0);
+}
+
+static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const pass *p, const strokes_values *v)
+{
+    text prelude = {0};
+    reads_declare(&prelude, f, s, p, NULL);
+    text_append(&prelude, "#define SAMPLED\n");
+    gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/edges.vert", "lines/stroke/stroke.frag", &prelude);
+    /* Before the pass begins: making records takes the place of what is bound. */
+    for (uint32_t i = 0; i < store->scene.item_count; i++)
+        if (s->figure->designated[store->scene.items[i].part_index])
+            bring_item(f, store, i, v->wishes.intersections);
+    open_maps(f, s);
+    if (!program || gpu_failed(f->g))
+        return;
+    gpu_use(f->g, program, drawn);
+    frame_set_common(f, s);
+    reads_set(f, s, p, NULL);
+    gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
+    gpu_set_vec2(f->g, "u_half_widths", v->common.width / 2, v->common.width * v->style.crease_width / 2);
+    gpu_set_int(f->g, "u_wanted", wanted_bits(&v->wishes));
+    gpu_set_int(f->g, "u_inside", !eye_is_outside(f));
+    for (uint32_t i = 0; i < store->scene.item_count; i++)
+        if (s->figure->designated[store->scene.items[i].part_index])
+            draw_lines_of(f, store, i, v->wishes.intersections);
+}
+
+/* --- exact --------------------------------------------------------------------------------------------------------- */
+
+static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
+{
+    stroke_camera camera;
+    memset(&camera, 0, sizeof camera); /* compared byte by byte */
+    camera.view = f->camera.view;
+    camera.projection = f->camera.projection;
+    camera.near = f->camera.near;
+    camera.orthographic = f->camera.orthographic;
+    camera.width = f->width / f->samples; /* of the page as it is seen: which lines there are does not depend on how finely it is sampled */
+    camera.height = f->height / f->samples;
+    return stroke_store_look(store, &camera, error);
+}
+
+/* Of several layers each has the lines with as many surfaces in front of them. Bodies count once there, and twice among layers: lines of bodies behind others come a layer early,
+ * which shows in how much they fade. */
+static void keep_layer(stroke_set *set, uint32_t layer)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < set->stroke_count; i++)
+        if (set->strokes[i].hidden_by == layer) {
+            set->strokes[kept] = set->strokes[i];
+            set->strokes[kept++].hidden_by = 0;
+        }
+    set->stroke_count = kept;
+}
+
+static void divide_lengths(const param *params, size_t count, void *values, int samples)
+{
+    for (size_t i = 0; i < count; i++)
+        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
+            *(float *)((char *)values + params[i].offset) /= (float)samples;
+}
+
+/* A drawing's lengths are in samples; here in pixels. */
+static strokes_values values_in_pixels(const strokes_values *v, int samples)
+{
+    strokes_values out = *v;
+    divide_lengths(lines_strokes.params, lines_strokes.param_count, &out, samples);
+    divide_lengths(kind_lines.common, kind_lines.common_count, &out, samples);
+    return out;
+}
+
+static void scale_ribbons(ribbon_set *r, float samples)
+{
+    for (size_t i = 0; i < r->point_count; i++) {
+        r->points[i].x *= samples;
+        r->points[i].y *= samples;
+        r->points[i].half *= samples;
+        r->points[i].arc *= samples;
+    }
+}
+
+static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
+{
+    const strokes_values seen = values_in_pixels(v, f->samples);
+    stroke_wishes wishes = strokes_wishes_of(&seen);
+    stroke_style style = strokes_style_of(&seen);
+    stroke_set set = {0};
+    if (s->figure->layered)
+        wishes.hidden = true;
+    memset(out, 0, sizeof *out);
+    lmn_status status = look_at(store, f, error);
+    if (status == LMN_OK)
+        status = stroke_find(&set, store->view, &wishes, s->figure->designated, NULL, NULL, error);
+    set.perspective = !f->camera.orthographic;
+    if (status == LMN_OK && s->figure->layered)
+        keep_layer(&set, (uint32_t)s->layer);
+    for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)
+        f->strokes[set.strokes[i].kind]++;
+    if (status == LMN_OK)
+        status = ribbons_make(out, &set, &style, f->seed, error);
+    if (status == LMN_OK)
+        scale_ribbons(out, (float)f->samples);
+    stroke_set_release(&set);
+    return status;
+}
+
+/* From eye depth to window depth. */
+static void project_depths(ribbon_set *r, const view_camera *c)
+{
+    const double *m = c->projection.m;
+    for (size_t i = 0; i < r->point_count; i++) {
+        double depth = r->points[i].depth, clip = m[14] - m[10] * depth, w = m[15] - m[11] * depth;
+        r->points[i].depth = (float)fmin(fmax(0.5 * clip / w + 0.5, 0), 1 - 1e-7);
+    }
+}
+
+static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_state *s, const strokes_values *v)
+{
+    ribbon_set ribbons = {0};
+    lmn_error error = {0};
+    lmn_status status = make_ribbons(&ribbons, store, f, s, v, &error);
+    gpu_marks *marks = NULL;
+    if (status == LMN_OK) {
+        size_t count;
+        project_depths(&ribbons, &f->camera);
+        float *records = strokes_ribbon_records(&ribbons, f->height, &count);
+        if (records)
+            marks = gpu_marks_create(f->g, RIBBON_RECORD_VECTORS, records, count);
+        else
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        mem_free(records);
+    } else {
+        gpu_fail(f->g, status, "%s", error.message);
+    }
+    ribbon_set_release(&ribbons);
+    return marks;
+}
+
+static void draw_exact(frame *f, figure_state *s, stroke_store *store, const strokes_values *v)
+{
+    text prelude = {0};
+    gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/stroke.frag", &prelude);
+    gpu_marks *marks = upload_ribbons(f, store, s, v);
+    open_maps(f, s);
+    if (program && !gpu_failed(f->g)) {
+        gpu_use(f->g, program, drawn);
+        frame_set_common(f, s);
+        gpu_set_float(f->g, "u_pixel", (float)f->samples);
+        gpu_draw_marks(f->g, marks);
+    }
+    if (marks)
+        gpu_marks_destroy(f->g, &marks);
+}
+
+void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
+{
+    const strokes_values *v = use->values;
+    bool exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
+    stopwatch w = watch_start(&f->profile);
+    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->wishes.refine);
+    if (store)
+        stroke_store_fix(store, f->g, v->wishes.intersections, stroke_wishes_bend(&v->wishes));
+    if (store && exact)
+        draw_exact(f, s, store, v);
+    else if (store)
+        draw_sampled(f, s, store, p, v);
+    watch_stop(&f->profile, w, group, p->name);
+}

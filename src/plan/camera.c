@@ -1,0 +1,326 @@
+#include "plan/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "plan/refuse.h"
+
+static double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross3(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static bool normalise3(double v[3])
+{
+    double length = sqrt(dot3(v, v));
+    if (!(length > 0) || !isfinite(length))
+        return false;
+    for (int i = 0; i < 3; i++)
+        v[i] /= length;
+    return true;
+}
+
+/* Direction to the eye and up vector of the named views. Front looks along −Z (Y-up) or +Y (Z-up); top and bottom have the front
+ * at the picture's bottom and top. */
+static void named_view(lmn_view view, char up, double to_eye[3], double up_axis[3])
+{
+    /* In Y-up axes; Z-up turns (x, y, z) into (x, −z, y). */
+    static const double directions[][2][3] = {
+        [LMN_VIEW_ISO] = {{1, 1, 1}, {0, 1, 0}},    [LMN_VIEW_FRONT] = {{0, 0, 1}, {0, 1, 0}},
+        [LMN_VIEW_BACK] = {{0, 0, -1}, {0, 1, 0}},  [LMN_VIEW_LEFT] = {{-1, 0, 0}, {0, 1, 0}},
+        [LMN_VIEW_RIGHT] = {{1, 0, 0}, {0, 1, 0}},  [LMN_VIEW_TOP] = {{0, 1, 0}, {0, 0, -1}},
+        [LMN_VIEW_BOTTOM] = {{0, -1, 0}, {0, 0, 1}},
+    };
+    for (int which = 0; which < 2; which++) {
+        const double *v = directions[view][which];
+        double *out = which ? up_axis : to_eye;
+        out[0] = v[0];
+        out[1] = up == 'z' ? -v[2] : v[1];
+        out[2] = up == 'z' ? v[1] : v[2];
+    }
+}
+
+static void corners_of(box3 box, double out[8][3])
+{
+    for (int i = 0; i < 8; i++) {
+        out[i][0] = i & 1 ? box.max.x : box.min.x;
+        out[i][1] = i & 2 ? box.max.y : box.min.y;
+        out[i][2] = i & 4 ? box.max.z : box.min.z;
+    }
+}
+
+/* How far the points reach beyond rays of slope t through depth `eye_z`, to the plus and to the minus side. */
+static double overreach(const double x[8], const double z[8], double eye_z, double t, double *centre)
+{
+    double plus = -INFINITY, minus = -INFINITY;
+    for (int i = 0; i < 8; i++) {
+        plus = fmax(plus, x[i] - t * (z[i] - eye_z));
+        minus = fmax(minus, -x[i] - t * (z[i] - eye_z));
+    }
+    *centre = (plus - minus) / 2;
+    return plus + minus;
+}
+
+/* The farthest eye depth at which the points fit between rays of slope ±t. */
+static double fitting_depth(const double x[8], const double z[8], double t)
+{
+    double centre;
+    return -overreach(x, z, 0.0, t, &centre) / (2 * t);
+}
+
+/* The eye's place across, so that the points reach equally far to both sides on the picture. */
+static double fitting_centre(const double x[8], const double z[8], double eye_z, double t)
+{
+    double low = 0, high = t, centre = 0;
+    for (int i = 0; i < 100; i++) {
+        double middle = (low + high) / 2;
+        if (overreach(x, z, eye_z, middle, &centre) > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    overreach(x, z, eye_z, high, &centre);
+    return centre;
+}
+
+/* Moves the eye so that the projected corners of the box fill the share `fit` of the frame. */
+static void fit_box(view_camera *c, box3 bounds, double fit, const double right[3], const double up[3], const double forward[3])
+{
+    double corner[8][3], x[8], y[8], z[8], middle[3];
+    corners_of(bounds, corner);
+    for (int k = 0; k < 3; k++)
+        middle[k] = (corner[0][k] + corner[7][k]) / 2;
+    double extent = 0;
+    for (int i = 0; i < 8; i++) {
+        double v[3] = {corner[i][0] - middle[0], corner[i][1] - middle[1], corner[i][2] - middle[2]};
+        x[i] = dot3(v, right);
+        y[i] = dot3(v, up);
+        z[i] = dot3(v, forward);
+        extent = fmax(extent, sqrt(dot3(v, v)));
+    }
+    if (extent <= 0)
+        extent = 1;
+    double ex = 0, ey = 0, ez;
+    if (c->orthographic) {
+        double half_x = 0, half_y = 0;
+        for (int i = 0; i < 8; i++) {
+            half_x = fmax(half_x, fabs(x[i]));
+            half_y = fmax(half_y, fabs(y[i]));
+        }
+        c->half_height = fmax(half_y, half_x / c->aspect) / fit;
+        if (c->half_height <= 0)
+            c->half_height = extent;
+        ez = -3 * extent;
+    } else {
+        double ty = tan(c->fov_y / 2) * fit, tx = ty * c->aspect;
+        ez = fmin(fitting_depth(x, z, tx), fitting_depth(y, z, ty));
+        if (!(ez < 0))
+            ez = -3 * extent;
+        ex = fitting_centre(x, z, ez, tx);
+        ey = fitting_centre(y, z, ez, ty);
+    }
+    for (int k = 0; k < 3; k++) {
+        c->eye[k] = middle[k] + ex * right[k] + ey * up[k] + ez * forward[k];
+        c->target[k] = c->eye[k] - ez * forward[k];
+        c->up[k] = up[k];
+    }
+}
+
+static void set_view(view_camera *c, const double right[3], const double up[3], const double forward[3])
+{
+    double *m = c->view.m;
+    for (int k = 0; k < 3; k++) {
+        m[4 * k] = right[k];
+        m[4 * k + 1] = up[k];
+        m[4 * k + 2] = -forward[k];
+        m[4 * k + 3] = 0;
+    }
+    m[12] = -dot3(right, c->eye);
+    m[13] = -dot3(up, c->eye);
+    m[14] = dot3(forward, c->eye);
+    m[15] = 1;
+}
+
+/* Makes a right-handed frame; an up vector along the view is replaced by another axis. */
+static void frame_of(const double forward[3], const double wanted_up[3], double right[3], double up[3])
+{
+    double candidates[3][3] = {{wanted_up[0], wanted_up[1], wanted_up[2]}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; i++) {
+        cross3(forward, candidates[i], right);
+        double scale = sqrt(dot3(candidates[i], candidates[i]));
+        if (sqrt(dot3(right, right)) > 1e-9 * scale && normalise3(right))
+            break;
+    }
+    cross3(right, forward, up);
+}
+
+static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, const pose *pose,
+                                    lmn_error *error)
+{
+    const lmn_scene *scene = pose->scene;
+    const char *names[64];
+    char numbered[64][CAMERA_NAME_ROOM], room[CAMERA_NAME_ROOM];
+    size_t name_count = 0;
+    for (size_t i = 0; i < scene->node_count; i++) {
+        const node *n = &scene->nodes[i];
+        if (n->camera < 0)
+            continue;
+        const camera *file = &scene->cameras[n->camera];
+        const char *name = scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : room);
+        if (name_count < 64)
+            names[name_count++] = name;
+        if (strcmp(name, desc->camera) != 0 && !(n->name && strcmp(n->name, desc->camera) == 0))
+            continue;
+        const double *m = pose->worlds[i].m;
+        double right[3] = {m[0], m[1], m[2]}, up[3] = {m[4], m[5], m[6]}, forward[3] = {-m[8], -m[9], -m[10]};
+        normalise3(forward);
+        frame_of(forward, up, right, up);
+        c->orthographic = file->orthographic;
+        c->fov_y = file->fov_y > 0 ? file->fov_y : c->fov_y;
+        c->half_height = file->half_height > 0 ? file->half_height : 1;
+        for (int k = 0; k < 3; k++) {
+            c->eye[k] = m[12 + k];
+            c->target[k] = c->eye[k] + forward[k];
+            c->up[k] = up[k];
+        }
+        set_view(c, right, up, forward);
+        return LMN_OK;
+    }
+    lmn_status status = error_in_file(error, LMN_USAGE, refuse_file(scene), 0, "the scene has no camera '%s'", desc->camera);
+    const char *nearest = text_nearest(desc->camera, names, name_count);
+    if (nearest)
+        error_hint(error, "did you mean '%s'?", nearest);
+    else
+        error_hint(error, name_count ? "`limner info` lists the cameras" : "the scene has no cameras at all");
+    return status;
+}
+
+lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *pose, box3 bounds,
+                        lmn_error *error)
+{
+    memset(c, 0, sizeof *c);
+    c->aspect = (double)desc->width / desc->height;
+    c->fov_y = desc->fov_deg * (3.14159265358979323846 / 180);
+    c->orthographic = desc->orthographic;
+    if (desc->camera)
+        return place_file_camera(c, desc, pose, error);
+    double forward[3], right[3], up[3];
+    if (desc->eye_given) {
+        for (int k = 0; k < 3; k++) {
+            c->eye[k] = desc->eye[k];
+            c->target[k] = desc->target[k];
+            forward[k] = desc->target[k] - desc->eye[k];
+        }
+        double distance = sqrt(dot3(forward, forward));
+        if (!normalise3(forward))
+            return error_set(error, LMN_USAGE, "the eye and the target are at the same place");
+        double wanted[3] = {desc->up[0], desc->up[1], desc->up[2]};
+        if (dot3(wanted, wanted) == 0)
+            wanted[pose->scene->up == 'z' ? 2 : 1] = 1;
+        frame_of(forward, wanted, right, up);
+        memcpy(c->up, up, sizeof up);
+        /* Parallel rays show at the target what a perspective of the same angle would. */
+        c->half_height = distance * tan(c->fov_y / 2);
+    } else {
+        double to_eye[3], wanted[3];
+        named_view(desc->view, pose->scene->up, to_eye, wanted);
+        normalise3(to_eye);
+        for (int k = 0; k < 3; k++)
+            forward[k] = -to_eye[k];
+        frame_of(forward, wanted, right, up);
+        fit_box(c, bounds, desc->fit, right, up, forward);
+    }
+    set_view(c, right, up, forward);
+    return LMN_OK;
+}
+
+void camera_depth_range(const view_camera *c, box3 box, double *nearest, double *farthest)
+{
+    double corner[8][3];
+    corners_of(box, corner);
+    for (int i = 0; i < 8; i++) {
+        const double *m = c->view.m;
+        double depth = -(m[2] * corner[i][0] + m[6] * corner[i][1] + m[10] * corner[i][2] + m[14]);
+        *nearest = fmin(*nearest, depth);
+        *farthest = fmax(*farthest, depth);
+    }
+}
+
+void camera_set_range(view_camera *c, double nearest, double farthest)
+{
+    double range = farthest - nearest, size = fmax(fabs(nearest), fabs(farthest));
+    double margin = fmax(range * 1e-3, size * 1e-6);
+    c->near = nearest - margin;
+    c->far = farthest + margin;
+    if (!c->orthographic) {
+        if (!(c->far > 0) || !isfinite(c->far))
+            c->far = 1; /* everything is behind the viewer */
+        c->near = fmax(c->near, c->far * 1e-4);
+    }
+    if (!(c->far > c->near))
+        c->far = c->near + 1;
+    double *m = c->projection.m;
+    memset(m, 0, sizeof c->projection.m);
+    if (c->orthographic) {
+        m[0] = 1 / (c->half_height * c->aspect);
+        m[5] = 1 / c->half_height;
+        m[10] = -2 / (c->far - c->near);
+        m[14] = -(c->far + c->near) / (c->far - c->near);
+        m[15] = 1;
+    } else {
+        double t = tan(c->fov_y / 2);
+        m[0] = 1 / (t * c->aspect);
+        m[5] = 1 / t;
+        m[10] = -(c->far + c->near) / (c->far - c->near);
+        m[11] = -1;
+        m[14] = -2 * c->far * c->near / (c->far - c->near);
+    }
+}
+
+void camera_pixels(const view_camera *c, box3 box, int width, int height, int margin, int out[4])
+{
+    double corner[8][3], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    corners_of(box, corner);
+    mat4 both = mat4_multiply(&c->projection, &c->view);
+    for (int i = 0; i < 8; i++) {
+        const double *m = both.m, *p = corner[i];
+        double clip[4];
+        for (int k = 0; k < 4; k++)
+            clip[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+        if (!(clip[3] > 0)) {
+            out[0] = out[1] = 0;
+            out[2] = width;
+            out[3] = height;
+            return;
+        }
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], clip[k] / clip[3]);
+            high[k] = fmax(high[k], clip[k] / clip[3]);
+        }
+    }
+    int size[2] = {width, height};
+    for (int k = 0; k < 2; k++) {
+        double first = floor((low[k] * 0.5 + 0.5) * size[k]) - margin, last = ceil((high[k] * 0.5 + 0.5) * size[k]) + margin;
+        first = fmin(fmax(first, 0), size[k]);
+        last = fmin(fmax(last, first), size[k]);
+        out[k] = (int)first;
+        out[2 + k] = (int)last - (int)first;
+    }
+}
+
+void camera_widen_pixels(int box[4], const int other[4])
+{
+    for (int k = 0; k < 2; k++) {
+        int low = other[k] < box[k] ? other[k] : box[k], high = other[k] + other[2 + k], own = box[k] + box[2 + k];
+        box[2 + k] = (high > own ? high : own) - low;
+        box[k] = low;
+    }
+}

@@ -1,0 +1,624 @@
+#include "plan/plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "compose/compose.h"
+#include "finish/finish.h"
+#include "layer/layer.h"
+#include "light/light.h"
+#include "lines/lines.h"
+#include "plan/refuse.h"
+
+const technique_use *rule_use(const rule *r, kind_id id)
+{
+    return r->use_counts[id] ? &r->uses[id][0] : NULL;
+}
+
+const technique_use *rule_shades_again(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    for (size_t i = 0; compose && i < compose->technique->pass_count; i++)
+        if (compose->technique->passes[i].geometry && compose->technique->passes[i].writes == TARGET_PAGE)
+            return compose;
+    return NULL;
+}
+
+static void scale_lengths(const param *params, size_t count, void *values, int pixel_scale)
+{
+    for (size_t i = 0; i < count; i++)
+        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
+            *(float *)((char *)values + params[i].offset) *= (float)pixel_scale;
+}
+
+/* Copies the uses of a rule; selectors and names stay the look's. */
+static bool copy_rule(rule *out, const rule *from, int pixel_scale)
+{
+    *out = *from;
+    memset(out->uses, 0, sizeof out->uses);
+    for (int k = 0; k < KIND_COUNT; k++) {
+        size_t count = from->use_counts[k];
+        out->uses[k] = mem_calloc(count, sizeof(technique_use));
+        if (!out->uses[k])
+            return false;
+        for (size_t i = 0; i < count; i++) {
+            const technique *t = from->uses[k][i].technique;
+            out->uses[k][i] = (technique_use){t, mem_copy(from->uses[k][i].values, t->params_size)};
+            if (!out->uses[k][i].values)
+                return false;
+            scale_lengths(t->params, t->param_count, out->uses[k][i].values, pixel_scale);
+            scale_lengths(kinds[k]->common, kinds[k]->common_count, out->uses[k][i].values, pixel_scale);
+        }
+    }
+    return true;
+}
+
+/* Leaves a perturbation out that moves nothing, so that such a picture is exactly the one without it; and where a composition cannot
+ * look anything up elsewhere. */
+static void settle_perturbation(rule *r, warnings *notes)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    technique_use *perturb = r->use_counts[KIND_PERTURB] ? &r->uses[KIND_PERTURB][0] : NULL;
+    if (!perturb)
+        return;
+    bool active = perturb->technique->perturbs->active(perturb->values), able = !compose || compose->technique->perturbable;
+    if (active && able)
+        return;
+    if (!able)
+        warnings_add(notes, WARNING_UNUSED, "compose '%s' cannot be perturbed; 'opaque' and those of layers can", compose->technique->name);
+    use_release(perturb);
+    r->use_counts[KIND_PERTURB] = 0;
+}
+
+/* Colours that are the page's ground unless they are set. */
+static void settle_grounds(rule *r, colour ground)
+{
+    for (int k = 0; k < KIND_COUNT; k++)
+        for (size_t i = 0; i < r->use_counts[k]; i++) {
+            const technique *t = r->uses[k][i].technique;
+            for (size_t n = 0; n < t->param_count; n++)
+                if (t->params[n].auto_ground && param_is_auto(&t->params[n], r->uses[k][i].values))
+                    memcpy((char *)r->uses[k][i].values + t->params[n].offset, &ground, sizeof ground);
+        }
+}
+
+static void drop_lines(rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
+        use_release(&r->uses[KIND_LINES][i]);
+    r->use_counts[KIND_LINES] = 0;
+}
+
+static void release_rule(rule *r)
+{
+    for (int k = 0; k < KIND_COUNT; k++) {
+        for (size_t i = 0; r->uses[k] && i < r->use_counts[k]; i++)
+            mem_free(r->uses[k][i].values);
+        mem_free(r->uses[k]);
+    }
+}
+
+/* Lines that run on do so in space, and those with halos by the planes of surfaces. */
+static bool lines_are_spatial(const rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const lines_common *lines = r->uses[KIND_LINES][i].values;
+        if (lines->overshoot > 0 || lines->halo > 0)
+            return true;
+    }
+    return false;
+}
+
+static unsigned channels_of(const rule *r, bool several_parts)
+{
+    unsigned channels = lines_are_spatial(r) ? CHANNEL_NORMAL_DEPTH : 0;
+    for (int k = 0; k < KIND_COUNT; k++)
+        for (size_t i = 0; i < r->use_counts[k]; i++)
+            channels |= r->uses[k][i].technique->channels |
+                        (several_parts ? r->uses[k][i].technique->part_channels : 0);
+    return channels;
+}
+
+/* Operands of a solid have borders as parts have. */
+static bool has_solid(const plan *p, const figure *f)
+{
+    for (size_t i = 0; i < p->part_count; i++)
+        if (f->designated[i] && p->scene->nodes[p->scene->parts[i].node].solid != NONE)
+            return true;
+    return false;
+}
+
+/* Contrast-aware lines look at the picture they are drawn on. */
+static bool lines_read_shade(const rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
+        if (((const lines_common *)r->uses[KIND_LINES][i].values)->contrast > 0)
+            return true;
+    return false;
+}
+
+static bool has_active_pass(const technique_use *use)
+{
+    const technique *t = use->technique;
+    for (size_t i = 0; i < t->pass_count; i++)
+        if (params_condition(t->passes[i].when, t->params, t->param_count, use->values))
+            return true;
+    return false;
+}
+
+static bool is_seen_through(const rule *r)
+{
+    const technique_use *compose = rule_use(r, KIND_COMPOSE);
+    return compose && compose->technique->layered;
+}
+
+static void find_opaque_parts(plan *p)
+{
+    for (size_t i = 0; i < p->figure_count; i++)
+        for (size_t part = 0; part < p->part_count && !is_seen_through(p->figures[i].rule); part++)
+            if (p->figures[i].designated[part]) {
+                p->opaque[part] = true;
+                p->opaque_count++;
+            }
+}
+
+static bool has_ghosts_alone(const plan *p, const figure *f)
+{
+    for (size_t i = 0; i < p->part_count; i++)
+        if (f->designated[i] && !p->scene->parts[i].ghost)
+            return false;
+    return true;
+}
+
+static void settle_layers(figure *f, const plan *p, bool as_sprites)
+{
+    const rule *r = f->rule;
+    const technique_use *layers = rule_use(r, KIND_LAYERS);
+    const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
+    f->ghostly = has_ghosts_alone(p, f);
+    f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
+    f->channels = channels_of(r, f->part_count > 1 || p->has_cut || has_solid(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
+    if (as_sprites || lines_read_shade(r))
+        f->channels |= CHANNEL_SHADE;
+    if (as_sprites)
+        f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID;
+}
+
+bool shades_with_geometry(const technique_use *surface)
+{
+    const technique *t = surface->technique;
+    return t->forward || (t->forward_when && params_condition(t->forward_when, t->params, t->param_count, surface->values));
+}
+
+static void settle_figure(figure *f, const plan *p, bool as_sprites)
+{
+    const rule *r = f->rule;
+    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
+    f->layered = is_seen_through(r);
+    if (f->layered) {
+        settle_layers(f, p, as_sprites);
+        return;
+    }
+    bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
+    const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
+    const technique *shader = surface ? surface->technique : NULL;
+    bool later = shader && shader->deferred_when && params_condition(shader->deferred_when, shader->params, shader->param_count, surface->values);
+    f->deferred = surface && ((front && front->shading == SHADING_DEFERRED) || later) && !shades_with_geometry(surface);
+    /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
+    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
+    f->reflects = surface && surface->technique->reflects;
+    bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
+    f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
+    f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut || has_solid(p, f)) | CHANNEL_SHADE;
+    if (f->complement || as_sprites)
+        f->channels |= CHANNEL_ID;
+    if (f->deferred)
+        f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID | CHANNEL_ALBEDO;
+    if (as_sprites)
+        f->channels |= CHANNEL_NORMAL_DEPTH;
+}
+
+static int figure_rank(const figure *f)
+{
+    return f->direct ? 0 : f->layered ? 3 : f->reflects ? 2 : 1;
+}
+
+/* A stable insertion sort: opaque plain figures first, then mirrors, and last what is seen through. */
+static void order_figures(plan *p)
+{
+    for (size_t i = 1; i < p->figure_count; i++) {
+        figure moving = p->figures[i];
+        size_t k = i;
+        for (; k > 0 && figure_rank(&p->figures[k - 1]) > figure_rank(&moving); k--)
+            p->figures[k] = p->figures[k - 1];
+        p->figures[k] = moving;
+    }
+}
+
+/* A ghost belongs to the part that it was taken away from, and can be selected by itself. */
+static bool is_selected(const plan *p, const selector *wanted, size_t part_index)
+{
+    if (!wanted || selector_matches(wanted, p->scene, part_index))
+        return true;
+    size_t owner = scene_part_of_ghost(p->scene, part_index);
+    return owner != SIZE_MAX && p->selected[owner];
+}
+
+static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
+{
+    selector *wanted = NULL;
+    lmn_status status = select ? selector_parse(&wanted, select, error) : LMN_OK;
+    for (size_t i = 0; status == LMN_OK && i < p->part_count; i++) {
+        p->selected[i] = is_selected(p, wanted, i);
+        p->selected_count += p->selected[i];
+    }
+    selector_destroy(&wanted);
+    if (status == LMN_OK && p->selected_count == 0) {
+        if (!select) {
+            error_in_file(error, LMN_FORMAT, refuse_file(p->scene), 0, "the scene has no parts to draw");
+            /* What was left out while loading is why. */
+            if (p->scene->warnings.count > 0)
+                error_hint(error, "%s", p->scene->warnings.items[0].text);
+            return LMN_FORMAT;
+        }
+        status = error_in_file(error, LMN_USAGE, refuse_file(p->scene), 0, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
+        error_hint(error, "`limner info` lists the parts with their names and paths");
+    }
+    return status;
+}
+
+/* What the picture is fitted to of a part. Cutters may stick out far: of a ghost, what lies within a quarter of its solid's diagonal. */
+static box3 fitted_box(const plan *p, size_t part_index)
+{
+    box3 box = p->pose->part_boxes[part_index];
+    size_t owner = scene_part_of_ghost(p->scene, part_index);
+    if (owner == SIZE_MAX || box3_is_empty(p->pose->part_boxes[owner]))
+        return box;
+    box3 near = p->pose->part_boxes[owner];
+    float x = near.max.x - near.min.x, y = near.max.y - near.min.y, z = near.max.z - near.min.z;
+    float margin = sqrtf(x * x + y * y + z * z) / 4;
+    box.min = (vec3){fmaxf(box.min.x, near.min.x - margin), fmaxf(box.min.y, near.min.y - margin), fmaxf(box.min.z, near.min.z - margin)};
+    box.max = (vec3){fminf(box.max.x, near.max.x + margin), fminf(box.max.y, near.max.y + margin), fminf(box.max.z, near.max.z + margin)};
+    return box3_is_empty(box) ? box3_empty() : box;
+}
+
+/* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides nothing and
+ * has no lines; the picture is fitted to it all the same, so that looks of one scene can be compared, but not to a ghost. */
+static void share_parts(plan *p)
+{
+    const lmn_look *look = p->look;
+    for (size_t i = 0; i < p->part_count; i++) {
+        p->rule_of[i] = NONE;
+        if (!p->selected[i])
+            continue;
+        bool ghost = p->scene->parts[i].ghost;
+        if (!ghost)
+            p->box = box3_union(p->box, p->pose->part_boxes[i]);
+        for (size_t r = look->rule_count; r-- > 0 && p->rule_of[i] == NONE;) {
+            const selector *s = look->rules[r].selector;
+            if (s ? selector_matches(s, p->scene, i) : !ghost)
+                p->rule_of[i] = (int32_t)r;
+        }
+        bool taken = p->rule_of[i] != NONE;
+        if (ghost && taken)
+            p->box = box3_union(p->box, fitted_box(p, i));
+        p->selected[i] = taken;
+        p->selected_count -= !taken;
+    }
+}
+
+static void note_idle_rules(const plan *p, warnings *notes)
+{
+    const lmn_look *look = p->look;
+    for (size_t r = 0; r < look->rule_count; r++) {
+        bool idle = look->rules[r].select && strcmp(look->rules[r].select, "*") != 0 && strcmp(look->rules[r].select, "@solid") != 0;
+        for (size_t i = 0; idle && i < p->part_count; i++)
+            idle = p->rule_of[i] != (int32_t)r;
+        if (idle)
+            warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name, look->rules[r].select);
+    }
+}
+
+/* One figure a rule that has parts. */
+static lmn_status make_figures(plan *p, const plan_wishes *wishes, warnings *notes, lmn_error *error)
+{
+    for (size_t r = 0; r < p->look->rule_count; r++) {
+        p->rule_count++;
+        if (!copy_rule(&p->rules[r], &p->look->rules[r], wishes->pixel_scale))
+            return error_memory(error);
+        if (wishes->surfaces_only)
+            drop_lines(&p->rules[r]);
+        settle_perturbation(&p->rules[r], notes);
+        settle_grounds(&p->rules[r], p->ground);
+        figure f = {.rule = &p->rules[r], .box = box3_empty(), .unmarked = wishes->surfaces_only};
+        f.designated = mem_calloc(p->part_count, sizeof *f.designated);
+        if (!f.designated)
+            return error_memory(error);
+        for (size_t i = 0; i < p->part_count; i++)
+            if (p->rule_of[i] == (int32_t)r) {
+                f.designated[i] = true;
+                f.part_count++;
+                f.box = box3_union(f.box, p->pose->part_boxes[i]);
+            }
+        if (f.part_count)
+            p->figures[p->figure_count++] = f;
+        else
+            mem_free(f.designated);
+    }
+    return LMN_OK;
+}
+
+/* Each mirror has a plane of its own, so each part of a mirror rule becomes a figure. */
+static lmn_status split_mirrors(plan *p, lmn_error *error)
+{
+    size_t before = p->figure_count, capacity = before + p->part_count;
+    figure *grown = mem_realloc(p->figures, capacity * sizeof *grown);
+    if (!grown)
+        return error_memory(error);
+    p->figures = grown;
+    for (size_t i = 0; i < before; i++) {
+        const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
+        if (!surface || !surface->technique->reflects || is_seen_through(p->figures[i].rule))
+            continue;
+        for (size_t part = 0; part < p->part_count && p->figures[i].part_count > 1; part++) {
+            if (!p->figures[i].designated[part])
+                continue;
+            figure single = {.rule = p->figures[i].rule, .part_count = 1, .box = p->pose->part_boxes[part]};
+            single.designated = mem_calloc(p->part_count, sizeof *single.designated);
+            if (!single.designated)
+                return error_memory(error);
+            single.designated[part] = true;
+            p->figures[p->figure_count++] = single;
+            p->figures[i].designated[part] = false;
+            p->figures[i].part_count--;
+        }
+        p->figures[i].box = box3_empty();
+        for (size_t part = 0; part < p->part_count; part++)
+            if (p->figures[i].designated[part])
+                p->figures[i].box = p->pose->part_boxes[part];
+    }
+    return LMN_OK;
+}
+
+/* A variant of a rule, owned by the plan; NULL when memory is gone. */
+static rule *add_rule(plan *p, const rule *from)
+{
+    rule *r = &p->rules[p->rule_count++]; /* there is room for two variants of each */
+    return copy_rule(r, from, 1) ? r : NULL;
+}
+
+/* The same lines as hidden layers have them. */
+static bool add_hidden_rule(plan *p, figure *f)
+{
+    const layer_style *style = rule_use(f->rule, KIND_COMPOSE)->values;
+    rule *r = add_rule(p, f->rule);
+    for (size_t i = 0; r && i < r->use_counts[KIND_LINES]; i++) {
+        lines_common *lines = r->uses[KIND_LINES][i].values;
+        if (!isnan(style->hidden_colour.r))
+            lines->colour = lines->inner_colour = lines->id_colour = style->hidden_colour;
+        if (!isnan(style->hidden_width))
+            lines->width = style->hidden_width;
+        if (style->hidden_dash > 0) {
+            lines->dash = style->hidden_dash;
+            lines->gap = style->hidden_gap;
+        }
+    }
+    f->hidden = r;
+    return r != NULL;
+}
+
+/* The figure's parts that are its own focus become an opaque figure in front of which the layers lie. */
+static lmn_status split_focus(plan *p, size_t index, const peel_values *peel, lmn_error *error)
+{
+    figure *f = &p->figures[index];
+    figure opaque = {.box = box3_empty(), .highlight = peel->focus_colour.a > 0 ? &peel->focus_colour : NULL};
+    opaque.designated = mem_calloc(p->part_count, sizeof *opaque.designated);
+    rule *r = opaque.designated ? add_rule(p, f->rule) : NULL;
+    if (!r) {
+        mem_free(opaque.designated);
+        return error_memory(error);
+    }
+    opaque.rule = r;
+    static const struct {
+        kind_id          id;
+        const technique *technique;
+    } replaced[] = {{KIND_LAYERS, &layers_front}, {KIND_COMPOSE, &compose_opaque}};
+    for (size_t i = 0; i < 2; i++) {
+        technique_use *use = &r->uses[replaced[i].id][0], fresh;
+        if (!use_create(&fresh, kinds[replaced[i].id], replaced[i].technique)) {
+            mem_free(opaque.designated);
+            return error_memory(error);
+        }
+        use_release(use);
+        *use = fresh;
+    }
+    box3 left = box3_empty();
+    for (size_t i = 0; i < p->part_count; i++) {
+        if (f->designated[i] && f->focus[i]) {
+            f->designated[i] = false;
+            opaque.designated[i] = true;
+            opaque.part_count++;
+            opaque.box = box3_union(opaque.box, p->pose->part_boxes[i]);
+        } else if (f->designated[i]) {
+            left = box3_union(left, p->pose->part_boxes[i]);
+        }
+    }
+    f->part_count -= opaque.part_count;
+    f->box = left;
+    figure *grown = mem_realloc(p->figures, (p->figure_count + 1) * sizeof *grown);
+    if (!grown) {
+        mem_free(opaque.designated);
+        return error_memory(error);
+    }
+    p->figures = grown;
+    p->figures[p->figure_count++] = opaque;
+    return LMN_OK;
+}
+
+static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *error)
+{
+    figure *f = &p->figures[index];
+    const technique_use *layers = rule_use(f->rule, KIND_LAYERS);
+    const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
+    if (!peel || !peel->focus.text[0])
+        return LMN_OK;
+    selector *wanted = NULL;
+    lmn_status status = selector_parse(&wanted, peel->focus.text, error);
+    if (status != LMN_OK)
+        return status;
+    f->focus = mem_calloc(p->part_count, sizeof *f->focus);
+    size_t found = 0, own = 0;
+    for (size_t i = 0; f->focus && i < p->part_count; i++) {
+        f->focus[i] = p->selected[i] && selector_matches(wanted, p->scene, i);
+        found += f->focus[i];
+        own += f->focus[i] && f->designated[i];
+    }
+    selector_destroy(&wanted);
+    if (!f->focus)
+        return error_memory(error);
+    if (found == 0) {
+        warnings_add(notes, WARNING_NO_MATCH, "layers.focus '%s' selects no part that is drawn", peel->focus.text);
+        mem_free(f->focus);
+        f->focus = NULL;
+    }
+    return own ? split_focus(p, index, peel, error) : LMN_OK;
+}
+
+/* Layered figures: what is to be uncovered, and the lines of hidden layers. */
+static lmn_status prepare_layers(plan *p, warnings *notes, lmn_error *error)
+{
+    for (size_t i = 0, count = p->figure_count; i < count; i++) {
+        if (!is_seen_through(p->figures[i].rule))
+            continue;
+        lmn_status status = find_focus(p, i, notes, error);
+        if (status != LMN_OK)
+            return status;
+        if (!add_hidden_rule(p, &p->figures[i]))
+            return error_memory(error);
+    }
+    return LMN_OK;
+}
+
+/* What the look's surfaces want meshes to have. */
+static mesh_wishes wishes_of(const lmn_look *look)
+{
+    mesh_wishes all = {false, 0};
+    for (size_t i = 0; i < look->rule_count; i++) {
+        const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
+        if (!surface || !surface->technique->wishes)
+            continue;
+        mesh_wishes own = surface->technique->wishes(surface->values);
+        all.field = all.field || own.field;
+        all.patch = own.patch > 0 ? own.patch : all.patch;
+    }
+    return all;
+}
+
+static bool asks_for_removed(const lmn_look *look)
+{
+    for (size_t i = 0; i < look->rule_count; i++)
+        if (look->rules[i].selector && selector_names_removed(look->rules[i].selector))
+            return true;
+    return false;
+}
+
+static lmn_status find_ground(colour *out, const lmn_look *look, const char *background, lmn_error *error)
+{
+    *out = ((const sheet_values *)look->wide[KIND_FINISH].values)->ground;
+    if (!background || colour_parse(background, out))
+        return LMN_OK;
+    lmn_status status = error_set(error, LMN_USAGE, "'%s' is not a colour", background);
+    error_hint(error, "give #rgb, #rrggbb, #rrggbbaa, a basic colour name, or none");
+    return status;
+}
+
+static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, const plan_wishes *wishes, lmn_error *error)
+{
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    memset(out, 0, sizeof *out);
+    out->pose = pose;
+    out->scene = pose->scene;
+    out->look = look;
+    out->box = box3_empty();
+    out->crease_angle = (double)v->crease_angle * (3.14159265358979323846 / 180);
+    out->meshes = wishes_of(look);
+    out->has_removed = pose->ghost_count > 0 && asks_for_removed(look) && !wishes->parts_only;
+    out->part_count = pose->part_count + (out->has_removed ? pose->ghost_count : 0);
+    out->rule_of = mem_calloc(out->part_count, sizeof *out->rule_of);
+    out->selected = mem_calloc(out->part_count, sizeof *out->selected);
+    out->opaque = mem_calloc(out->part_count, sizeof *out->opaque);
+    out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
+    out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
+    if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules)
+        return error_memory(error);
+    lmn_status status = find_ground(&out->ground, look, wishes->background, error);
+    if (status == LMN_OK && !wishes->surfaces_only && !wishes->parts_only)
+        status = section_find(&out->section, pose, look, wishes->select, error);
+    out->has_cut = out->section.cut.cell_count > 0;
+    return status;
+}
+
+static lmn_status plan_figures(plan *p, const plan_wishes *wishes, warnings *notes, lmn_error *error)
+{
+    lmn_status status = make_figures(p, wishes, notes, error);
+    if (status == LMN_OK)
+        status = split_mirrors(p, error);
+    if (status == LMN_OK)
+        status = prepare_layers(p, notes, error);
+    if (status != LMN_OK)
+        return status;
+    find_opaque_parts(p);
+    for (size_t i = 0; i < p->figure_count; i++)
+        settle_figure(&p->figures[i], p, wishes->as_sprites);
+    order_figures(p);
+    return LMN_OK;
+}
+
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_wishes *wishes, warnings *notes, lmn_error *error)
+{
+    lmn_status status = open_plan(out, pose, look, wishes, error);
+    if (status == LMN_OK)
+        status = select_parts(out, wishes->select, error);
+    if (status != LMN_OK)
+        return status;
+    share_parts(out);
+    note_idle_rules(out, notes);
+    return wishes->parts_only ? LMN_OK : plan_figures(out, wishes, notes, error);
+}
+
+const rule *plan_rule(const plan *p, size_t part_index)
+{
+    int32_t index = p->rule_of[part_index];
+    return index != NONE ? &p->look->rules[index] : NULL;
+}
+
+void plan_camera_range(const plan *p, view_camera *camera, warnings *notes)
+{
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (size_t i = 0; i < p->part_count; i++)
+        if (p->selected[i] && !box3_is_empty(p->pose->part_boxes[i]))
+            camera_depth_range(camera, p->pose->part_boxes[i], &nearest, &farthest);
+    if (!camera->orthographic && p->selected_count && farthest <= 0)
+        warnings_add(notes, WARNING_UNUSED, "the model is behind the viewer: the page stays empty");
+    if (!(farthest >= nearest))
+        nearest = farthest = 1;
+    camera_set_range(camera, nearest, farthest);
+}
+
+void plan_release(plan *p)
+{
+    for (size_t i = 0; i < p->figure_count; i++) {
+        mem_free(p->figures[i].designated);
+        mem_free(p->figures[i].focus);
+    }
+    for (size_t i = 0; i < p->rule_count; i++)
+        release_rule(&p->rules[i]);
+    mem_free(p->rules);
+    mem_free(p->figures);
+    mem_free(p->rule_of);
+    section_release(&p->section);
+    mem_free(p->selected);
+    mem_free(p->opaque);
+    memset(p, 0, sizeof *p);
+}

@@ -1,0 +1,31 @@
+/* A mesh as it is drawn: split where the crease angle asks for it, and deformed. */
+#ifndef LIMNER_POSE_POSED_MESH_H
+#define LIMNER_POSE_POSED_MESH_H
+
+#include "pose/pose.h"
+#include "scene/mesh.h"
+
+/* What is read of a mesh, vertex by vertex. NULL: it has none. */
+typedef struct vertex_arrays {
+    uint32_t        vertex_count, index_count;
+    const float    *positions, *normals, *uvs[UV_SETS], *colours;
+    const uint32_t *indices;
+} vertex_arrays;
+
+/* `data` points into the rest and into the primitive. */
+typedef struct posed_mesh {
+    vertex_arrays   data;
+    render_vertices split;
+    vec3           *positions, *normals;
+    vec2           *uvs[UV_SETS];
+    vec4           *colours;
+} posed_mesh;
+
+/* `crease_angle` in radians. Errors: LMN_MEMORY, those of mesh_make_normals. */
+lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose, lmn_error *error);
+void       posed_release(posed_mesh *m);
+
+/* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The caller frees it. */
+void *posed_gather(const void *source, const uint32_t *map, uint32_t count, size_t size);
+
+#endif

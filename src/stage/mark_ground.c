@@ -1,0 +1,184 @@
+/* What marks lie on: triangles of parts, all in one surface, so that marks are as dense on each of them. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "stage/mark_ground.h"
+#include "pose/posed_mesh.h"
+
+typedef struct ground_job {
+    mark_ground     *out;
+    const pose      *pose;
+    const lmn_scene *scene;
+    double           crease_angle;
+    size_t           vertex_capacity, normal_capacity, uv_capacity, index_capacity, part_capacity, brightness_capacity;
+    bool             laid_out; /* some part has texture coordinates */
+} ground_job;
+
+void mark_ground_release(mark_ground *g)
+{
+    mem_free(g->places);
+    mem_free(g->normals);
+    mem_free(g->uvs);
+    mem_free(g->indices);
+    mem_free(g->parts);
+    mem_free(g->brightness);
+    memset(g, 0, sizeof *g);
+}
+
+static bool make_room(ground_job *j, size_t vertices, size_t triangles)
+{
+    mark_ground *g = j->out;
+    size_t v = g->surface.vertex_count + vertices, t = g->surface.triangle_count + triangles;
+    return v < UINT32_MAX && t < UINT32_MAX / 3 && mem_grow((void **)&g->places, &j->vertex_capacity, v, sizeof *g->places) &&
+           mem_grow((void **)&g->normals, &j->normal_capacity, v, sizeof *g->normals) && mem_grow((void **)&g->uvs, &j->uv_capacity, v, sizeof *g->uvs) &&
+           mem_grow((void **)&g->indices, &j->index_capacity, 3 * t, sizeof *g->indices) && mem_grow((void **)&g->parts, &j->part_capacity, t, sizeof *g->parts) &&
+           mem_grow((void **)&g->brightness, &j->brightness_capacity, 3 * t, sizeof *g->brightness);
+}
+
+static double luminance(double r, double g, double b)
+{
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+/* Of a texture where the picture's own rows count downwards; as shaders look it up, without a filter. */
+static double picture_at(const lmn_scene *scene, const texture_use *use, vec2 uv)
+{
+    const image *i = use->image >= 0 ? &scene->images[use->image] : NULL;
+    if (!i || !i->pixels)
+        return 1;
+    double c = cos((double)use->rotation), s = sin((double)use->rotation);
+    double x = (double)use->scale[0] * (double)uv.x, y = (double)use->scale[1] * (double)uv.y;
+    double u = c * x + s * y + (double)use->offset[0], v = c * y - s * x + (double)use->offset[1];
+    if (!isfinite(u) || !isfinite(v))
+        return 1;
+    uint32_t column = (uint32_t)((u - floor(u)) * i->width) % i->width, row = (uint32_t)((v - floor(v)) * i->height) % i->height;
+    const uint8_t *p = &i->pixels[4 * ((size_t)row * i->width + column)];
+    return luminance((double)colour_to_linear(p[0] / 255.0f), (double)colour_to_linear(p[1] / 255.0f), (double)colour_to_linear(p[2] / 255.0f));
+}
+
+/* Of a corner; formats without materials are a light neutral grey. */
+static float brightness_at(const ground_job *j, const primitive *p, const vertex_arrays *data, uint32_t vertex)
+{
+    const material *m = p->material >= 0 ? &j->scene->materials[p->material] : NULL;
+    double own = m ? luminance((double)m->base_colour.x, (double)m->base_colour.y, (double)m->base_colour.z) : 0.6;
+    const texture_use *use = m ? &m->base_texture : NULL;
+    if (use && use->image >= 0 && data->uvs[use->uv_set ? 1 : 0]) {
+        const float *uv = &data->uvs[use->uv_set ? 1 : 0][2 * (size_t)vertex];
+        own *= picture_at(j->scene, use, (vec2){uv[0], uv[1]});
+    }
+    if (data->colours) {
+        const float *c = &data->colours[4 * (size_t)vertex];
+        own *= luminance((double)c[0], (double)c[1], (double)c[2]);
+    }
+    return (float)fmin(fmax(own, 0), 1);
+}
+
+static void add_vertices(ground_job *j, const vertex_arrays *data, const mat4 *world)
+{
+    mark_ground *g = j->out;
+    uint32_t first = g->surface.vertex_count;
+    double cofactors[9], side = mat4_cofactors(world, cofactors) < 0 ? -1 : 1;
+    for (uint32_t i = 0; i < data->vertex_count; i++) {
+        const float *p = &data->positions[3 * (size_t)i], *n = &data->normals[3 * (size_t)i];
+        double place[3], normal[3], length = 0;
+        for (int k = 0; k < 3; k++) {
+            place[k] = world->m[k] * (double)p[0] + world->m[4 + k] * (double)p[1] + world->m[8 + k] * (double)p[2] + world->m[12 + k] - g->origin[k];
+            normal[k] = side * (cofactors[k] * (double)n[0] + cofactors[3 + k] * (double)n[1] + cofactors[6 + k] * (double)n[2]);
+            length += normal[k] * normal[k];
+        }
+        length = length > 0 ? sqrt(length) : 1;
+        g->places[first + i] = (vec3){(float)place[0], (float)place[1], (float)place[2]};
+        g->normals[first + i] = (vec3){(float)(normal[0] / length), (float)(normal[1] / length), (float)(normal[2] / length)};
+        g->uvs[first + i] = data->uvs[0] ? (vec2){data->uvs[0][2 * (size_t)i], -data->uvs[0][2 * (size_t)i + 1]} : (vec2){0, 0};
+    }
+    g->surface.vertex_count += data->vertex_count;
+}
+
+/* A primitive at one place. What is mirrored has its triangles turned around. */
+static bool add_primitive(ground_job *j, const primitive *p, const vertex_arrays *data, const mat4 *world, uint32_t part)
+{
+    uint32_t first = j->out->surface.vertex_count, triangle = j->out->surface.triangle_count, count = data->index_count / 3;
+    if (!make_room(j, data->vertex_count, count))
+        return false;
+    mark_ground *g = j->out;
+    double cofactors[9];
+    bool mirrored = mat4_cofactors(world, cofactors) < 0;
+    add_vertices(j, data, world);
+    for (uint32_t t = 0; t < count; t++, triangle++) {
+        g->parts[triangle] = part;
+        for (uint32_t c = 0; c < 3; c++) {
+            uint32_t vertex = data->indices[3 * (size_t)t + (mirrored && c > 0 ? 3 - c : c)];
+            g->indices[3 * (size_t)triangle + c] = first + vertex;
+            g->brightness[3 * (size_t)triangle + c] = brightness_at(j, p, data, vertex);
+        }
+    }
+    g->surface.triangle_count = triangle;
+    j->laid_out = j->laid_out || data->uvs[0];
+    return true;
+}
+
+static lmn_status add_part(ground_job *j, size_t part, lmn_error *error)
+{
+    const node *n = &j->scene->nodes[j->scene->parts[part].node];
+    if (n->mesh < 0)
+        return LMN_OK;
+    const mesh *m = &j->scene->meshes[n->mesh];
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < m->primitive_count && status == LMN_OK; i++) {
+        posed_mesh posed;
+        if (m->primitives[i].index_count == 0)
+            continue;
+        status = posed_make(&posed, &m->primitives[i], j->crease_angle, &j->pose->parts[part], error);
+        for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
+            mat4 world = pose_instance(j->pose, part, k);
+            if (!add_primitive(j, &m->primitives[i], &posed.data, &world, (uint32_t)part))
+                status = error_memory(error);
+        }
+        posed_release(&posed);
+    }
+    return status;
+}
+
+lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count, double crease_angle, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    ground_job j = {.out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle};
+    box3 box = box3_empty();
+    for (size_t i = 0; i < part_count; i++)
+        if (!parts || parts[i])
+            box = box3_union(box, pose->part_boxes[i]);
+    if (!box3_is_empty(box)) {
+        box3_middle(box, out->origin);
+        out->extent = box3_diagonal(box);
+    }
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < part_count && status == LMN_OK; i++)
+        if (!parts || parts[i])
+            status = add_part(&j, i, error);
+    out->surface.places = out->places;
+    out->surface.normals = out->normals;
+    out->surface.uvs = j.laid_out ? out->uvs : NULL;
+    out->surface.indices = out->indices;
+    if (status != LMN_OK)
+        mark_ground_release(out);
+    return status;
+}
+
+lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error)
+{
+    lmn_status status = surface->technique->marks->make(out, &g->surface, g->extent, surface->values, error);
+    for (size_t i = 0; status == LMN_OK && i < out->dot_count; i++) {
+        mark_dot *d = &out->dots[i];
+        const float *b = &g->brightness[3 * (size_t)d->triangle];
+        d->bright = (1 - d->share[0] - d->share[1]) * b[0] + d->share[0] * b[1] + d->share[1] * b[2];
+    }
+    for (size_t i = 0; status == LMN_OK && i < out->line_count; i++) {
+        /* A stroke has one brightness: of its first piece. */
+        mark_line *l = &out->lines[i];
+        const float *b = &g->brightness[3 * (size_t)l->triangle];
+        bool goes_on = i > 0 && l[-1].stroke == l->stroke;
+        l->bright = goes_on ? l[-1].bright : (b[0] + b[1] + b[2]) / 3;
+    }
+    return status;
+}

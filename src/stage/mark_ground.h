@@ -1,0 +1,46 @@
+/* Marks of figures: dots and strokes on the surfaces of their parts, made once a scene and look, drawn each frame. Needs no GPU but for marks_draw. */
+#ifndef LIMNER_STAGE_MARK_GROUND_H
+#define LIMNER_STAGE_MARK_GROUND_H
+
+#include "plan/camera.h"
+#include "halftone/marks.h"
+#include "look/look.h"
+#include "pose/pose.h"
+#include "technique/technique.h"
+
+/* The triangles of some parts as one surface, in the world's axes, measured from `origin`. */
+typedef struct mark_ground {
+    mark_surface surface;
+    double       origin[3];
+    double       extent;      /* diagonal of it all */
+    vec3        *places, *normals;
+    vec2        *uvs;         /* v upwards; 0 in parts that have none */
+    uint32_t    *indices;
+    uint32_t    *parts;       /* per triangle: index of its part */
+    float       *brightness;  /* per corner of each triangle: of its material, linear, 0 … 1 */
+} mark_ground;
+
+/* Of the parts with `parts[index]` (NULL: all) in their pose; solids have no triangles. Errors: LMN_MEMORY. */
+lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count, double crease_angle, lmn_error *error);
+void       mark_ground_release(mark_ground *g);
+
+/* The marks that a surface technique puts there, with the brightness of what they lie on. Errors: those of the technique. */
+lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error);
+
+/* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the look's lights (no shadows) and the technique's ink. `surface` must have marks
+ * (technique->marks), its lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs no GPU. Errors: LMN_MEMORY, those of the technique. */
+typedef struct mark_page_wishes {
+    const pose          *pose;
+    const lmn_look      *look;
+    const bool          *parts;      /* NULL: all */
+    size_t               part_count;
+    double               crease_angle;
+    const technique_use *surface;
+    const view_camera   *camera;
+    int                  width, height;
+    mark_hidden_fn       hidden;
+    void                *user;
+} mark_page_wishes;
+lmn_status marks_on_page(marks_page *out, const mark_page_wishes *wishes, lmn_error *error);
+
+#endif

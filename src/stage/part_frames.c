@@ -1,0 +1,200 @@
+/* Frames of parts: where a part is at rest, whatever its node does with it. What is tied to an object is computed in its frame. Parts that
+ * always move together share one, so that what is drawn runs on from part to part. */
+#include "stage/upload.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "scene/solid.h"
+
+enum { PARTS_A_ROW = 1024, TEXELS_A_PART = 5, POLAR_STEPS = 12 };
+
+/* The inverse transpose of a 3×3 matrix (columns); false when it has none. */
+static bool inverse_transpose(const double m[9], double out[9])
+{
+    const double *a = m, *b = m + 3, *c = m + 6;
+    const double *columns[3][2] = {{b, c}, {c, a}, {a, b}};
+    double determinant = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *p = columns[i][0], *q = columns[i][1];
+        for (int k = 0; k < 3; k++)
+            out[3 * i + k] = p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+    }
+    for (int k = 0; k < 3; k++)
+        determinant += a[k] * out[k];
+    if (!(fabs(determinant) > 1e-300))
+        return false;
+    for (int i = 0; i < 9; i++)
+        out[i] /= determinant;
+    return true;
+}
+
+/* The rotation (or reflection) of a matrix: what is left without scale and shear. Newton's iteration for the polar decomposition,
+ * on a matrix of unit size. */
+static void rotation_of(const mat4 *world, double out[9])
+{
+    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double size = 0;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) {
+            out[3 * column + row] = world->m[4 * column + row];
+            size = fmax(size, fabs(out[3 * column + row]));
+        }
+    bool good = size > 0 && isfinite(size);
+    for (int i = 0; good && i < 9; i++)
+        out[i] /= size;
+    for (int step = 0; good && step < POLAR_STEPS; step++) {
+        double other[9];
+        good = inverse_transpose(out, other);
+        for (int i = 0; good && i < 9; i++)
+            out[i] = (out[i] + other[i]) / 2;
+    }
+    for (int i = 0; !good && i < 9; i++)
+        out[i] = identity[i];
+}
+
+/* The middle of a part's mesh in its own axes. */
+static vec3 middle_of(const lmn_scene *scene, const node *n)
+{
+    box3 box = n->solid != NONE ? solid_bounds(&scene->solids[n->solid]) : box3_empty();
+    for (size_t i = 0; n->mesh != NONE && i < scene->meshes[n->mesh].primitive_count; i++)
+        box = box3_union(box, scene->meshes[n->mesh].primitives[i].bounds);
+    if (box3_is_empty(box))
+        return (vec3){0, 0, 0};
+    return (vec3){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
+}
+
+/* Whom a node moves with: the lowest node above all that has no animated node between. So a model that is turned as a whole is followed, and
+ * so is whatever is animated. */
+typedef struct mover {
+    double turn[9]; /* columns; its rotation */
+    box3   box;     /* of its parts' middles, in its axes and the scene's unit */
+    bool   ready;
+} mover;
+
+static int32_t mover_of(const lmn_scene *scene, const bool *animated, int32_t index)
+{
+    while (!animated[index] && scene->nodes[index].parent != NONE)
+        index = scene->nodes[index].parent;
+    for (const node *n = &scene->nodes[index]; n->mesh == NONE && n->solid == NONE && n->first_child != NONE && n->first_child == n->last_child &&
+                                               !animated[n->first_child]; n = &scene->nodes[index])
+        index = n->first_child;
+    return index;
+}
+
+static void mark_animated(const lmn_scene *scene, bool *animated)
+{
+    for (size_t i = 0; i < scene->animation_count; i++)
+        for (size_t k = 0; k < scene->animations[i].channel_count; k++)
+            if (scene->animations[i].channels[k].node >= 0 && (size_t)scene->animations[i].channels[k].node < scene->node_count)
+                animated[scene->animations[i].channels[k].node] = true;
+}
+
+/* A part's middle in its mover's axes, which stays where it is when the mover moves and turns. */
+static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, int32_t mover_index, size_t part_index)
+{
+    const mat4 *own = &u->pose->worlds[mover_index], *world = &u->pose->worlds[scene->parts[part_index].node];
+    vec3 local = middle_of(scene, &scene->nodes[scene->parts[part_index].node]);
+    const double middle[3] = {(double)local.x, (double)local.y, (double)local.z};
+    double way[3], out[3];
+    for (int k = 0; k < 3; k++) {
+        way[k] = world->m[12 + k] - own->m[12 + k];
+        for (int c = 0; c < 3; c++)
+            way[k] += world->m[4 * c + k] * middle[c];
+    }
+    for (int row = 0; row < 3; row++)
+        out[row] = m->turn[3 * row] * way[0] + m->turn[3 * row + 1] * way[1] + m->turn[3 * row + 2] * way[2];
+    return (vec3){(float)out[0], (float)out[1], (float)out[2]};
+}
+
+/* The part's own first axis that is not upright, level, in the world's axes: how a house is turned. */
+static void level_axis(const mat4 *world, int up, double out[3])
+{
+    double most = -1;
+    for (int axis = 0; axis < 3; axis++) {
+        double level[3], length = 0, whole = 0;
+        for (int k = 0; k < 3; k++) {
+            level[k] = k == up ? 0 : world->m[4 * axis + k];
+            length += level[k] * level[k];
+            whole += world->m[4 * axis + k] * world->m[4 * axis + k];
+        }
+        double share = whole > 0 ? sqrt(length / whole) : 0;
+        if (share <= most + 0.01) /* of axes that are alike the first one */
+            continue;
+        most = share;
+        for (int k = 0; k < 3; k++)
+            out[k] = length > 0 ? level[k] / sqrt(length) : k == (up == 0 ? 1 : 0);
+    }
+}
+
+/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, the mover's number, and which way is up in it. */
+static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3], float *rows)
+{
+    const float middle[3] = {(m->box.min.x + m->box.max.x) / 2, (m->box.min.y + m->box.max.y) / 2, (m->box.min.z + m->box.max.z) / 2};
+    for (int row = 0; row < 3; row++) {
+        double moved = -(double)middle[row];
+        for (int k = 0; k < 3; k++) {
+            rows[4 * row + k] = (float)m->turn[3 * row + k];
+            moved += m->turn[3 * row + k] * (origin[k] - u->pose->worlds[mover_index].m[12 + k]);
+        }
+        rows[4 * row + 3] = (float)moved;
+    }
+    rows[12] = (float)mover_index;
+    for (int row = 0; row < 3; row++)
+        rows[13 + row] = (float)m->turn[3 * row + (up_is_y ? 1 : 2)];
+}
+
+static void write_frames(const upload *u, const lmn_scene *scene, mover *movers, const bool *animated, float *values)
+{
+    for (size_t i = 0; i < u->part_count; i++) {
+        int32_t index = mover_of(scene, animated, scene->parts[i].node);
+        mover  *m = &movers[index];
+        if (!m->ready) {
+            rotation_of(&u->pose->worlds[index], m->turn);
+            m->box = box3_empty();
+            m->ready = true;
+        }
+        vec3 middle = middle_in(u, scene, m, index, i);
+        m->box = box3_union(m->box, (box3){middle, middle});
+    }
+    for (size_t i = 0; i < u->part_count; i++) {
+        int32_t index = mover_of(scene, animated, scene->parts[i].node);
+        float *rows = &values[4 * TEXELS_A_PART * i];
+        write_frame(u, &movers[index], index, scene->up == 'y', u->frame_origin, rows);
+        double level[3] = {0, 0, 0};
+        level_axis(&u->pose->worlds[scene->parts[i].node], scene->up == 'y' ? 1 : 2, level);
+        for (int row = 0; row < 3; row++) {
+            const double *turn = &movers[index].turn[3 * row];
+            rows[16 + row] = (float)(turn[0] * level[0] + turn[1] * level[1] + turn[2] * level[2]);
+        }
+    }
+}
+
+gpu_texture *upload_part_frames(upload *u, gpu *g)
+{
+    const lmn_scene *scene = u->pose->scene;
+    if (u->part_frames || gpu_failed(g))
+        return u->part_frames;
+    int rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
+    float *values = mem_calloc((size_t)rows * (size_t)width, 4 * sizeof *values);
+    mover *movers = mem_calloc(scene->node_count, sizeof *movers);
+    bool  *animated = mem_calloc(scene->node_count, sizeof *animated);
+    box3 box = box3_empty();
+    for (size_t i = 0; i < u->part_count; i++)
+        box = box3_union(box, u->pose->part_boxes[i]);
+    if (!box3_is_empty(box))
+        box3_middle(box, u->frame_origin);
+    if (values && movers && animated) {
+        mark_animated(scene, animated);
+        write_frames(u, scene, movers, animated, values);
+        u->part_frames = gpu_target_acquire(g, width, rows, GPU_RGBA32F);
+        gpu_target_write(g, u->part_frames, (int[]){0, 0, width, rows}, values);
+    } else {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+    }
+    mem_free(u->part_frame_values);
+    u->part_frame_values = values;
+    mem_free(movers);
+    mem_free(animated);
+    return u->part_frames;
+}

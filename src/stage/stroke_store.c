@@ -1,0 +1,85 @@
+#include "stage/stroke_store.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+static void release_view(stroke_store *s)
+{
+    if (s->view)
+        stroke_view_destroy(&s->view);
+    s->view = NULL;
+}
+
+void stroke_store_destroy(stroke_store **store, gpu *g)
+{
+    stroke_store *s = *store;
+    if (!s)
+        return;
+    release_view(s);
+    for (size_t i = 0; i < s->scene.mesh_count && s->edges; i++)
+        gpu_marks_destroy(g, &s->edges[i]);
+    for (size_t i = 0; i < s->scene.item_count && s->crossings; i++)
+        gpu_marks_destroy(g, &s->crossings[i]);
+    stroke_scene_release(&s->scene);
+    mem_free(s->edges);
+    mem_free(s->crossings);
+    mem_free(s->parts);
+    mem_free(s);
+    *store = NULL;
+}
+
+static bool is_as_wished(const stroke_store *s, const stroke_store_wishes *w)
+{
+    return s->part_count == w->part_count && s->refine == w->refine && memcmp(s->parts, w->hides, w->part_count * sizeof *s->parts) == 0;
+}
+
+static lmn_status fill_store(stroke_store *s, const stroke_store_wishes *w, lmn_error *error)
+{
+    s->refine = w->refine;
+    s->part_count = w->part_count;
+    s->parts = mem_copy(w->hides, w->part_count * sizeof *s->parts);
+    lmn_status status = s->parts ? LMN_OK : error_memory(error);
+    if (status == LMN_OK)
+        status = stroke_scene_create_refined(&s->scene, w->pose, s->parts, w->crease_angle, w->refine, NULL, NULL, error);
+    if (status != LMN_OK)
+        return status;
+    s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
+    s->crossings = mem_calloc(s->scene.item_count, sizeof(gpu_marks *));
+    return s->edges && s->crossings ? LMN_OK : error_memory(error);
+}
+
+stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_wishes *wishes)
+{
+    if (*slot && is_as_wished(*slot, wishes))
+        return *slot;
+    stroke_store_destroy(slot, g);
+    lmn_error error = {0};
+    stroke_store *s = mem_calloc(1, sizeof *s);
+    lmn_status status = s ? fill_store(s, wishes, &error) : error_memory(&error);
+    if (status != LMN_OK) {
+        stroke_store_destroy(&s, g);
+        gpu_fail(g, status, "%s", error.message);
+    }
+    *slot = s;
+    return s;
+}
+
+void stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends)
+{
+    lmn_error error = {0};
+    lmn_status status = crossings ? stroke_scene_cross(&s->scene, NULL, NULL, &error) : LMN_OK;
+    if (status == LMN_OK && bends)
+        status = stroke_scene_bend(&s->scene, NULL, NULL, &error);
+    if (status != LMN_OK)
+        gpu_fail(g, status, "%s", error.message);
+}
+
+lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_error *error)
+{
+    if (s->view && memcmp(&s->camera, camera, sizeof *camera) == 0)
+        return LMN_OK;
+    release_view(s);
+    s->camera = *camera;
+    return stroke_view_create(&s->view, &s->scene, camera, NULL, NULL, error);
+}

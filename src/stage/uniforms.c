@@ -1,0 +1,150 @@
+#include "stage/uniforms.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const target_names[TARGET_COUNT] = {
+    [TARGET_NONE] = "",
+    [TARGET_NORMAL_DEPTH] = "t_normal_depth", [TARGET_ID] = "t_id",                   [TARGET_ALBEDO] = "t_albedo",
+    [TARGET_SHADE] = "t_shade",               [TARGET_DEPTH] = "t_depth",             [TARGET_FILTERED] = "t_filtered",
+    [TARGET_EDGE] = "t_edge",                 [TARGET_EDGE_BEFORE] = "t_edge_before", [TARGET_NEARER_ROW] = "t_nearer_row",
+    [TARGET_NEARER] = "t_nearer",             [TARGET_DASH] = "t_dash",               [TARGET_GROUND] = "t_ground",
+    [TARGET_ENLARGED] = "t_enlarged",         [TARGET_TRACES] = "t_traces",           [TARGET_TRACES_ROW] = "t_traces_row",
+    [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
+    [TARGET_SHADOW] = "t_shadow",             [TARGET_DIRECTION] = "t_direction",
+    [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",              [TARGET_OVERSHOOT] = "t_overshoot",
+    [TARGET_OUTLINES] = "t_outlines",         [TARGET_STROKES] = "t_strokes",
+};
+
+const char *target_name(target t)
+{
+    return target_names[t];
+}
+
+void target_declare(text *prelude, target t)
+{
+    text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
+    if (t == TARGET_SHADOW)
+        text_append(prelude, "#define SHADOW_DECLARED\n");
+}
+
+void uniforms_capitals(const char *key, char out[CAPITALS_SIZE])
+{
+    size_t i = 0;
+    for (; key[i] && i + 1 < CAPITALS_SIZE; i++)
+        out[i] = (char)toupper((unsigned char)key[i]);
+    out[i] = '\0';
+}
+
+static void declare_variant(text *prelude, const param *p, const void *values)
+{
+    char name[CAPITALS_SIZE];
+    uniforms_capitals(p->key, name);
+    const void *field = param_field(p, values);
+    int value = p->type == PARAM_BOOL ? *(const bool *)field : *(const int32_t *)field;
+    text_append(prelude, "#define %s %d\n", name, value);
+}
+
+static void declare_toggle(text *prelude, const param *p, const void *values)
+{
+    char name[CAPITALS_SIZE];
+    uniforms_capitals(p->key, name);
+    if (*(const float *)param_field(p, values) != 0)
+        text_append(prelude, "#define WITH_%s\n", name);
+}
+
+void uniforms_declare(text *prelude, param_set set)
+{
+    static const char *const types[] = {
+        [PARAM_INT] = "int",   [PARAM_FLOAT] = "float", [PARAM_BOOL] = "bool",    [PARAM_ENUM] = "int",
+        [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4", [PARAM_TEXT] = "int",
+    };
+    for (size_t i = 0; i < set.count; i++) {
+        const param *p = &set.params[i];
+        if (p->cpu_only)
+            continue;
+        if (p->toggles)
+            declare_toggle(prelude, p, set.values);
+        if (p->variant)
+            declare_variant(prelude, p, set.values);
+        else if (p->type == PARAM_PALETTE)
+            text_append(prelude, "uniform vec4 %s%s[%d];\nuniform int %s%s_count;\n", set.prefix, p->key, PALETTE_MAX, set.prefix, p->key);
+        else
+            text_append(prelude, "uniform %s %s%s;\n", p->as_turn ? "vec2" : types[p->type], set.prefix, p->key);
+    }
+}
+
+void uniforms_linear(colour c, float out[4])
+{
+    out[0] = colour_to_linear(c.r);
+    out[1] = colour_to_linear(c.g);
+    out[2] = colour_to_linear(c.b);
+    out[3] = c.a;
+}
+
+static colour colour_of(param_set set, const param *p)
+{
+    colour c = *(const colour *)param_field(p, set.values);
+    if (!isnan(c.r) || !p->auto_from)
+        return c;
+    for (size_t i = 0; i < set.count; i++)
+        if (strcmp(set.params[i].key, p->auto_from) == 0)
+            return *(const colour *)param_field(&set.params[i], set.values);
+    return c;
+}
+
+static void set_palette(gpu *g, const char *name, const palette *p)
+{
+    float values[PALETTE_MAX][4];
+    memset(values, 0, sizeof values);
+    for (int i = 0; i < p->count; i++)
+        uniforms_linear(p->colours[i], values[i]);
+    char count_name[80];
+    snprintf(count_name, sizeof count_name, "%s_count", name);
+    gpu_set_int(g, count_name, p->count);
+    gpu_set_vec4_array(g, name, values[0], PALETTE_MAX);
+}
+
+static float float_of(const param *p, float value)
+{
+    return p->as_cosine ? cosf(value * (3.14159265f / 180)) : value;
+}
+
+static void set_turn(gpu *g, const char *name, float degrees)
+{
+    double radians = (double)degrees * (3.14159265358979323846 / 180);
+    gpu_set_vec2(g, name, (float)cos(radians), (float)sin(radians));
+}
+
+void uniforms_set(gpu *g, param_set set)
+{
+    for (size_t i = 0; i < set.count; i++) {
+        const param *p = &set.params[i];
+        if (p->cpu_only || p->variant)
+            continue;
+        char name[72];
+        snprintf(name, sizeof name, "%s%s", set.prefix, p->key);
+        const void *field = param_field(p, set.values);
+        float linear[4];
+        switch (p->type) {
+        case PARAM_INT:
+        case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;
+        case PARAM_BOOL: gpu_set_int(g, name, *(const bool *)field); break;
+        case PARAM_FLOAT:
+            if (p->as_turn)
+                set_turn(g, name, *(const float *)field);
+            else
+                gpu_set_float(g, name, float_of(p, *(const float *)field));
+            break;
+        case PARAM_COLOUR:
+            uniforms_linear(colour_of(set, p), linear);
+            gpu_set_vec4(g, name, linear);
+            break;
+        case PARAM_DIRECTION: gpu_set_vec3(g, name, (const float *)field); break;
+        case PARAM_PALETTE: set_palette(g, name, field); break;
+        case PARAM_TEXT: break;
+        }
+    }
+}

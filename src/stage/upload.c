@@ -1,0 +1,232 @@
+#include "stage/upload_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const primitive *p, const part_pose *pose, lmn_error *error)
+{
+    posed_mesh m;
+    lmn_status status = posed_make(&m, p, u->crease_angle, pose, error);
+    if (status == LMN_OK && u->wishes.field) {
+        status = upload_with_field(u, g, out, lapped, &m.data, error);
+    } else if (status == LMN_OK) {
+        gpu_mesh_data data = upload_data_of(&m.data);
+        *out = gpu_mesh_create(g, &data);
+    }
+    if (status == LMN_OK)
+        status = gpu_check(g, error);
+    posed_release(&m);
+    return status;
+}
+
+static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, const mat4 *world, lmn_error *error)
+{
+    const primitive *p = &job->mesh->primitives[i];
+    lmn_status status = LMN_OK;
+    if (p->index_count == 0)
+        return LMN_OK;
+    if (!job->meshes[i])
+        status = upload_primitive(u, g, &job->meshes[i], &job->lapped[i], p, job->pose, error);
+    draw_item item = upload_item(job, i);
+    item.mesh = job->meshes[i];
+    item.lapped = job->lapped[i];
+    item.patch_radius = upload_patch_radius(u, p->bounds);
+    item.world = *world;
+    u->triangles += p->index_count / 3;
+    if (status == LMN_OK && !upload_add_item(u, &item))
+        status = error_memory(error);
+    return status;
+}
+
+static lmn_status add_instances(upload *u, gpu *g, upload_part_job *job, lmn_error *error)
+{
+    const lmn_scene *scene = u->pose->scene;
+    const node *n = &scene->nodes[scene->parts[job->part_index].node];
+    lmn_status status = LMN_OK;
+    for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
+        mat4 world = pose_instance(u->pose, job->part_index, k);
+        cut_verdict verdict = CUT_WHOLE;
+        status = upload_cut(u, g, job, &world, &verdict, error);
+        for (size_t i = 0; i < job->mesh->primitive_count && status == LMN_OK && verdict == CUT_WHOLE; i++)
+            status = add_whole(u, g, job, i, &world, error);
+    }
+    return status;
+}
+
+/* Where parts overlap, their cut faces lie in the same place: the smaller part's is seen, as within a part. Steps are a few
+ * times what interpolated depth is off. */
+static float nearer_of(const upload *u, size_t part_index)
+{
+    double share = u->extent > 0 ? box3_diagonal(u->pose->part_boxes[part_index]) / u->extent : 1;
+    int level = (int)(6 * (1 - sqrt(fmin(fmax(share, 0), 1))));
+    return (float)(8 * level + (int)(part_index % 8)) * 3e-7f;
+}
+
+static bool make_room(upload_mesh *m, const mesh *source)
+{
+    if (!m->primitives) {
+        m->primitives = mem_calloc(source->primitive_count, sizeof *m->primitives);
+        m->lapped = mem_calloc(source->primitive_count, sizeof *m->lapped);
+        m->count = source->primitive_count;
+        m->revision = source->revision;
+    }
+    return m->primitives && m->lapped;
+}
+
+static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *error)
+{
+    const lmn_scene *scene = u->pose->scene;
+    const node *n = &scene->nodes[scene->parts[part_index].node];
+    const part_pose *pose = &u->pose->parts[part_index];
+    upload_part_job job = {.part_index = part_index, .mesh = &scene->meshes[n->mesh], .pose = pose, .nearer = nearer_of(u, part_index)};
+    upload_mesh *made = pose->joints || pose->weight_count > 0 ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
+    lmn_status status = LMN_OK;
+    if (make_room(made, job.mesh)) {
+        job.meshes = made->primitives;
+        job.lapped = made->lapped;
+        status = add_instances(u, g, &job, error);
+    } else {
+        status = error_memory(error);
+    }
+    upload_part_close(&job);
+    return status;
+}
+
+/* --- all parts ----------------------------------------------------------------------------------------------------------- */
+
+static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *desc, lmn_error *error)
+{
+    const lmn_scene *scene = pose->scene;
+    memset(out, 0, sizeof *out);
+    out->revision = scene->revision;
+    out->identity = scene->identity;
+    out->crease_angle = desc->crease_angle;
+    out->wishes = desc->wishes;
+    out->pose = pose;
+    out->has_removed = desc->removed;
+    out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);
+    out->texture_count = scene->image_count * 2;
+    out->textures = mem_calloc(out->texture_count, sizeof(gpu_texture *));
+    out->meshes = mem_calloc(scene->mesh_count, sizeof *out->meshes);
+    out->posed = mem_calloc(scene->node_count, sizeof *out->posed);
+    out->shapes = mem_calloc(scene->mesh_count + 1, sizeof *out->shapes);
+    if (!out->textures || !out->meshes || !out->posed || !out->shapes)
+        return error_memory(error);
+    out->mesh_count = scene->mesh_count;
+    out->node_count = scene->node_count;
+    if (!section_copy(&out->section, desc->section, pose->part_count + pose->ghost_count))
+        return error_memory(error);
+    out->extent = box3_is_empty(pose->box) ? 0 : box3_diagonal(pose->box);
+    return LMN_OK;
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Moves what still holds. A scene never takes anything out of its arrays, and what is at a place there and has the same revision is the
+ * same; nodes and images do not change at all. */
+static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
+{
+    for (size_t i = 0; i < smaller(u->texture_count, earlier->texture_count); i++) {
+        u->textures[i] = earlier->textures[i];
+        earlier->textures[i] = NULL;
+    }
+    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count); i++) {
+        u->posed[i] = earlier->posed[i];
+        earlier->posed[i] = (upload_mesh){.primitives = NULL};
+    }
+    for (size_t i = 0; i < smaller(u->mesh_count, earlier->mesh_count); i++) {
+        if (earlier->meshes[i].revision == scene->meshes[i].revision) {
+            u->meshes[i] = earlier->meshes[i];
+            earlier->meshes[i] = (upload_mesh){.primitives = NULL};
+        }
+        if (earlier->shapes[i].revision == scene->meshes[i].revision) {
+            u->shapes[i] = earlier->shapes[i];
+            earlier->shapes[i] = (upload_shape){.vertices = NULL};
+        }
+    }
+}
+
+lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_desc *desc, upload *earlier, lmn_progress_fn progress, void *user,
+                         lmn_error *error)
+{
+    const lmn_scene *scene = pose->scene;
+    lmn_status status = open_upload(out, pose, desc, error);
+    if (status == LMN_OK && earlier)
+        take_over(out, earlier, scene);
+    for (size_t i = 0; i < out->part_count && status == LMN_OK; i++) {
+        if (progress && !progress((double)i / (double)out->part_count, "preparing", user))
+            status = error_set(error, LMN_CANCELLED, "cancelled");
+        if (status == LMN_OK && scene->nodes[scene->parts[i].node].solid != NONE)
+            status = upload_solid_part(out, g, i, earlier, error);
+        else if (status == LMN_OK)
+            status = upload_part(out, g, i, error);
+    }
+    if (status == LMN_OK)
+        status = upload_solids_close(out, g, error);
+    return status;
+}
+
+static void release_meshes(upload_mesh *meshes, size_t count, gpu *g)
+{
+    for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; meshes[i].primitives && k < meshes[i].count; k++)
+            gpu_mesh_destroy(g, &meshes[i].primitives[k]);
+        for (size_t k = 0; meshes[i].lapped && k < meshes[i].count; k++)
+            gpu_mesh_destroy(g, &meshes[i].lapped[k]);
+        mem_free(meshes[i].primitives);
+        mem_free(meshes[i].lapped);
+    }
+    mem_free(meshes);
+}
+
+void upload_release(upload *u, gpu *g)
+{
+    for (size_t i = 0; i < u->piece_count; i++)
+        gpu_mesh_destroy(g, &u->pieces[i]);
+    for (size_t i = 0; i < u->texture_count && u->textures; i++)
+        gpu_texture_destroy(g, &u->textures[i]);
+    release_meshes(u->meshes, u->mesh_count, g);
+    release_meshes(u->posed, u->node_count, g);
+    for (size_t i = 0; i <= u->mesh_count && u->shapes; i++)
+        upload_shape_release(&u->shapes[i]);
+    mark_sets_release(&u->marks, g);
+    gpu_target_release(g, u->part_frames);
+    for (int i = 0; i < 2; i++)
+        stroke_store_destroy(&u->strokes[i], g);
+    mem_free(u->part_frame_values);
+    gpu_target_release(g, u->operand_table);
+    gpu_buffer_release(g, u->program_buffer);
+    upload_solids_release(u, g);
+    csg_program_release(&u->program);
+    mem_free(u->shapes);
+    mem_free(u->planes);
+    mem_free(u->operands);
+    mem_free(u->pieces);
+    mem_free(u->textures);
+    mem_free(u->items);
+    section_release(&u->section);
+    memset(u, 0, sizeof *u);
+}
+
+static gpu_wrap wrap_of(wrap_mode wrap)
+{
+    return wrap == WRAP_REPEAT ? GPU_REPEAT : wrap == WRAP_MIRROR ? GPU_MIRROR : GPU_CLAMP;
+}
+
+gpu_texture *upload_texture(upload *u, gpu *g, const texture_use *use, bool linear)
+{
+    const lmn_scene *scene = u->pose->scene;
+    if (use->image < 0 || !scene->images[use->image].pixels)
+        return NULL;
+    gpu_texture **slot = &u->textures[2 * (size_t)use->image + linear];
+    const image *i = &scene->images[use->image];
+    if (!*slot)
+        *slot = gpu_texture_create(g, (int)i->width, (int)i->height, linear ? GPU_RGBA8 : GPU_SRGB8, i->pixels, use->nearest,
+                                   wrap_of(use->wrap_u), wrap_of(use->wrap_v));
+    return *slot;
+}

@@ -1,0 +1,103 @@
+/* Sections of solids: what is cut away is one more thing to take away, so that cut faces come out of the set operations like any other
+ * surface. Each half-space is a box with one face in its plane and the others far outside. */
+#include "stage/upload_private.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+/* The inverse of an affine matrix; false when it has none. */
+static bool inverse_of(const mat4 *matrix, mat4 *out)
+{
+    const double *m = matrix->m;
+    double c[9], determinant = mat4_cofactors(matrix, c);
+    *out = mat4_identity();
+    if (!(fabs(determinant) > 0))
+        return false;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            out->m[4 * column + row] = c[3 * row + column] / determinant;
+    for (int row = 0; row < 3; row++)
+        for (int k = 0; k < 3; k++)
+            out->m[12 + row] -= out->m[4 * k + row] * m[12 + k];
+    return true;
+}
+
+/* From the box 0 … 1 to the half-space of a face within `reach` of a point, world axes. */
+static mat4 half_space(const cut *c, const cut_face *face, const double middle[3], double reach)
+{
+    const cut_plane *p = &c->planes[face->plane];
+    double sign = face->positive ? 1 : -1, n[3], u[3], v[3], least = 2, away = -p->offset;
+    int axis = 0;
+    for (int k = 0; k < 3; k++) {
+        n[k] = p->normal[k] * sign;
+        away += p->normal[k] * middle[k];
+        if (fabs(n[k]) < least) {
+            least = fabs(n[k]);
+            axis = k;
+        }
+    }
+    double length = sqrt(1 - n[axis] * n[axis]);
+    for (int k = 0; k < 3; k++)
+        u[k] = ((k == axis) - n[axis] * n[k]) / length;
+    for (int k = 0; k < 3; k++)
+        v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+    mat4 m = mat4_identity();
+    for (int k = 0; k < 3; k++) {
+        m.m[k] = 2 * reach * u[k];
+        m.m[4 + k] = 2 * reach * v[k];
+        m.m[8 + k] = 2 * reach * n[k];
+        m.m[12 + k] = middle[k] - away * p->normal[k] - reach * (u[k] + v[k]);
+    }
+    return m;
+}
+
+static lmn_status take_cell(solid_form *form, const cut *c, const cut_cell *cell, const mat4 *world, const mat4 *inverse, int32_t mesh,
+                            lmn_error *error)
+{
+    static const box3 unit = {{0, 0, 0}, {1, 1, 1}};
+    solid_operand operands[CUT_CELL_FACES_MAX];
+    box3 box = box3_transform(form->terms[form->root].box, world);
+    const double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z}, high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
+    double middle[3], reach = 0;
+    for (int k = 0; k < 3; k++) {
+        middle[k] = (low[k] + high[k]) / 2;
+        reach += (high[k] - low[k]) * (high[k] - low[k]);
+    }
+    reach = sqrt(reach);
+    for (int32_t i = 0; i < cell->count; i++) {
+        mat4 place = half_space(c, &cell->faces[i], middle, reach);
+        operands[i] = (solid_operand){.node = NONE, .mesh = mesh, .matrix = mat4_multiply(inverse, &place)};
+        operands[i].box = box3_transform(unit, &operands[i].matrix);
+    }
+    return solid_form_take_away(form, operands, (size_t)cell->count, error);
+}
+
+lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh, uint32_t **bits,
+                            lmn_error *error)
+{
+    const cut *c = &u->section.cut;
+    mat4 inverse;
+    size_t own = form->operand_count, room = own + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
+    *bits = mem_calloc(room, sizeof **bits);
+    if (!*bits)
+        return error_memory(error);
+    if (c->cell_count == 0 || form->root == NONE || !inverse_of(world, &inverse))
+        return LMN_OK;
+    cut_verdict verdict = cut_judge_box(c, box3_transform(form->terms[form->root].box, world));
+    if (verdict == CUT_CROSSED && u->section.spared && u->section.spared[part_index])
+        verdict = CUT_WHOLE;
+    if (verdict == CUT_GONE)
+        form->root = NONE;
+    lmn_status status = LMN_OK;
+    for (int32_t i = 0; i < c->cell_count && verdict == CUT_CROSSED && status == LMN_OK; i++) {
+        size_t first = form->operand_count;
+        status = take_cell(form, c, &c->cells[i], world, &inverse, half_space_mesh, error);
+        for (size_t k = first; k < form->operand_count; k++)
+            (*bits)[k] = cut_face_bits(c, c->cells[i].faces[k - first].plane, 0, c->cells[i].faces[k - first].positive);
+        u->has_cut = true;
+    }
+    if (status == LMN_OK)
+        solid_form_prune(form);
+    return status;
+}

@@ -1,0 +1,19 @@
+/* What programs that draw the stage get of a view. */
+#ifndef LIMNER_STAGE_VIEW_H
+#define LIMNER_STAGE_VIEW_H
+
+#include "base/text.h"
+#include "gpu/gpu.h"
+#include "plan/camera.h"
+
+/* u_model_view, in double precision first, and u_normal_matrix: its inverse transpose, up to a positive scale. */
+void view_set_transform(gpu *g, const view_camera *camera, const mat4 *world);
+/* u_projection. */
+void view_set_projection(gpu *g, const view_camera *camera);
+/* From eye space to the world, measured from `origin`: columns. */
+void view_world_from_eye(const view_camera *camera, const double origin[3], double out[16]);
+
+/* The program of these files with this prelude, which is used up; it knows the bits of surface ids. NULL after an error. */
+gpu_program *view_program(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
+
+#endif

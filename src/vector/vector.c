@@ -1,0 +1,666 @@
+#include "vector/vector.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/limits.h"
+#include "base/memory.h"
+#include "plan/plan.h"
+#include "plan/refuse.h"
+#include "vector/vector_private.h"
+#include "export/export.h"
+#include "finish/finish.h"
+#include "light/light.h"
+
+static const double gap_between_views = 12; /* mm */
+static const double verify_apart = 2;       /* pixels between samples */
+static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
+
+/* What one drawing needs while it is made. */
+typedef struct vector_job {
+    lmn_sheet            *out;
+    surfaces_fn           draw_surfaces; /* NULL: nobody can */
+    void                 *user;
+    pose                  pose;
+    plan                  plan;
+    const lmn_scene      *scene;
+    const lmn_look       *look;
+    const lmn_draw_desc  *desc;
+    const lmn_sheet_desc *wanted;
+    bool                  lines_only, pixels, usual_scale;
+    double                scale;    /* 0: as large as fits */
+    double                unit_mm;
+    bool                 *stroked;  /* per part: drawn by some rule, and no solid */
+    stroke_scene          strokes;
+    stroke_scene          as_is;   /* the same where `strokes` is refined and marks lie on what is not; else empty */
+    double                begun, share, reported; /* progress: of the stage at hand, and the most that was told */
+} vector_job;
+
+static lmn_status check_cancelled(const vector_job *j, double fraction, const char *stage, lmn_error *error)
+{
+    if (!j->desc->progress || j->desc->progress(fraction, stage, j->desc->progress_user))
+        return LMN_OK;
+    return error_set(error, LMN_CANCELLED, "cancelled");
+}
+
+/* Progress of a part of the work, as a part of the whole. */
+static bool report_part(double fraction, const char *stage, void *user)
+{
+    vector_job *j = user;
+    j->reported = fmax(j->reported, fmin(j->begun + fraction * j->share, 1)); /* each rule begins anew */
+    return !j->desc->progress || j->desc->progress(j->reported, stage, j->desc->progress_user);
+}
+
+static refusal refusal_of(const vector_job *j, lmn_error *error)
+{
+    return (refusal){j->scene, j->desc->lenient, &j->out->warnings, error};
+}
+
+/* --- what is drawn --------------------------------------------------------------------------------------------------- */
+
+/* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they lack. */
+static bool lacks_solids(const vector_job *j, const rule *r)
+{
+    stroke_wishes wishes;
+    stroke_style  style;
+    return !j->pixels || vector_rule_strokes(r, &wishes, &style) || vector_rule_marks(r);
+}
+
+/* Which parts are drawn, by which rules. Solids have no strokes. */
+static lmn_status plan_parts(vector_job *j, lmn_error *error)
+{
+    const lmn_scene  *scene = j->scene;
+    const plan_wishes wishes = {.select = j->desc->select, .background = j->desc->background, .parts_only = true};
+    size_t            solids = 0;
+    lmn_status        status = pose_create(&j->pose, scene, error);
+    if (status == LMN_OK)
+        status = plan_create(&j->plan, &j->pose, j->look, &wishes, &j->out->warnings, error);
+    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
+        bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
+        solids += solid && plan_rule(&j->plan, i) && lacks_solids(j, plan_rule(&j->plan, i));
+        j->stroked[i] = plan_rule(&j->plan, i) && !solid;
+    }
+    refusal r = refusal_of(j, error);
+    return status == LMN_OK && solids ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)", "%zu solids of set operations have no lines in vector drawings%s", solids,
+                                               j->pixels ? "" : " and are left out")
+                                      : status;
+}
+
+static lmn_status refuse_section(const vector_job *j, lmn_error *error)
+{
+    const scene_values *values = j->look->wide[KIND_SCENE].values;
+    refusal             r = refusal_of(j, error);
+    return values->cut.text[0] ? refuse(&r, LMN_USAGE, WARNING_NO_STROKES, "draw a picture (.png)", "sections have no lines in vector drawings, which show the model whole") : LMN_OK;
+}
+
+static void lay_ground(vector_job *j)
+{
+    const sheet_values *finish = j->look->wide[KIND_FINISH].values;
+    colour              c = j->plan.ground;
+    j->out->page.ground = (colour){colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), c.a};
+    if (finish->paper && !j->pixels)
+        warnings_add(&j->out->warnings, WARNING_UNUSED, "finish.paper: the grain of paper is left out of drawings of lines alone");
+}
+
+/* --- views ------------------------------------------------------------------------------------------------------------- */
+
+/* The description that a view's camera is placed by. */
+static lmn_draw_desc view_desc(const vector_job *j, const vector_view *v)
+{
+    lmn_draw_desc d = *j->desc;
+    d.width = v->width;
+    d.height = v->height;
+    if (j->wanted->views) {
+        d.view = v->direction;
+        d.eye_given = false;
+        d.camera = NULL;
+        d.orthographic = true;
+    }
+    d.orthographic = d.orthographic || j->scale > 0;
+    return d;
+}
+
+/* Width and height of the model as a view shows it, its unit. */
+static lmn_status measure_view(const vector_job *j, const vector_view *v, double out[2], lmn_error *error)
+{
+    vector_view   square = *v;
+    view_camera   c;
+    square.width = square.height = 64;
+    lmn_draw_desc d = view_desc(j, &square);
+    lmn_status    status = camera_place(&c, &d, &j->pose, j->plan.box, error);
+    out[0] = out[1] = 0;
+    for (int i = 0; i < 8 && status == LMN_OK && !box3_is_empty(j->plan.box); i++) {
+        const double *m = c.view.m, corner[3] = {(double)(i & 1 ? j->plan.box.max.x : j->plan.box.min.x), (double)(i & 2 ? j->plan.box.max.y : j->plan.box.min.y),
+                                                 (double)(i & 4 ? j->plan.box.max.z : j->plan.box.min.z)}, middle[3] = {c.target[0], c.target[1], c.target[2]};
+        for (int k = 0; k < 2; k++) {
+            double from_middle = 0;
+            for (int n = 0; n < 3; n++)
+                from_middle += m[4 * n + k] * (corner[n] - middle[n]);
+            out[k] = fmax(out[k], 2 * fabs(from_middle));
+        }
+    }
+    return status;
+}
+
+/* Whole pixels around the same middle; far more than the page has is of no use. */
+static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error)
+{
+    int *sides[2] = {&v->width, &v->height};
+    for (int k = 0; k < 2; k++) {
+        double most = 2 * (k ? page->height : page->width), over = fmax(v->box[2 + k] - most, 0);
+        v->box[k] += over / 2;
+        v->box[2 + k] -= over;
+        double pixels = fmax(round(v->box[2 + k] * VECTOR_PIXELS_PER_MM), 1);
+        if (!(pixels <= LIMIT_PICTURE_SIDE))
+            return error_set(error, LMN_LIMIT, "a view is %.0f mm wide or high on the sheet, the limit is %.0f mm", v->box[2 + k], LIMIT_PICTURE_SIDE / VECTOR_PIXELS_PER_MM);
+        *sides[k] = (int)pixels;
+        double size = pixels / VECTOR_PIXELS_PER_MM;
+        v->box[k] += (v->box[2 + k] - size) / 2;
+        v->box[2 + k] = size;
+    }
+    return LMN_OK;
+}
+
+static lmn_status place_camera(vector_job *j, vector_view *v, lmn_error *error)
+{
+    lmn_draw_desc d = view_desc(j, v);
+    lmn_status    status = camera_place(&v->camera, &d, &j->pose, j->plan.box, error);
+    if (status != LMN_OK)
+        return status;
+    double scale = j->out->scale; /* paper over model */
+    if (scale > 0 && !v->camera.orthographic) {
+        error_set(error, LMN_USAGE, "a scale needs parallel projection, and the camera '%s' has perspective", d.camera ? d.camera : "");
+        return LMN_USAGE;
+    }
+    if (scale > 0)
+        v->camera.half_height = v->height / (2 * scale * j->unit_mm * VECTOR_PIXELS_PER_MM);
+    else if (v->camera.orthographic && j->unit_mm > 0)
+        j->out->scale = v->height / (2 * v->camera.half_height * j->unit_mm * VECTOR_PIXELS_PER_MM);
+    plan_camera_range(&j->plan, &v->camera, &j->out->warnings);
+    return LMN_OK;
+}
+
+/* Several views on one sheet, or one at a scale of its own. */
+static lmn_status arrange_views(vector_job *j, const double area[4], lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    double     sizes[VIEWS_MOST][2];
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
+        status = measure_view(j, &s->views[i], sizes[i], error);
+        sizes[i][0] *= j->unit_mm;
+        sizes[i][1] *= j->unit_mm;
+    }
+    if (status != LMN_OK)
+        return status;
+    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12), .angle = j->wanted->angle, .scale = j->scale, .usual = j->usual_scale, .fit = 1};
+    memcpy(how.area, area, sizeof how.area);
+    s->scale = vector_place_views(&how, s->views, s->view_count, (const double (*)[2])sizes);
+    for (size_t i = 0; i < s->view_count; i++) {
+        const double *box = s->views[i].box;
+        if (box[0] < area[0] - how.gap || box[1] < area[1] - how.gap || box[0] + box[2] > area[0] + area[2] + how.gap || box[1] + box[3] > area[1] + area[3] + how.gap) {
+            char scale[32];
+            vector_print_scale(scale, s->scale);
+            warnings_add(&s->warnings, WARNING_PAGE, "at %s the views do not fit on the page", scale);
+            break;
+        }
+    }
+    return LMN_OK;
+}
+
+static lmn_status place_views(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    double     area[4];
+    lmn_status status = LMN_OK;
+    vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
+    if (j->wanted->views) {
+        status = vector_parse_views(j->wanted->views, s->views, &s->view_count, error);
+        if (status == LMN_OK)
+            status = arrange_views(j, area, error);
+    } else {
+        bool eye = j->desc->eye_given || j->desc->camera;
+        s->views[0] = (vector_view){.name = eye ? "view" : vector_view_name(j->desc->view), .direction = j->desc->view};
+        memcpy(s->views[0].box, area, sizeof area);
+        s->view_count = 1;
+        s->scale = j->scale;
+    }
+    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
+        status = settle_box(&s->views[i], &s->page, error);
+        if (status == LMN_OK)
+            status = place_camera(j, &s->views[i], error);
+    }
+    if (status == LMN_OK && s->scale > 0)
+        vector_print_scale(s->scale_text, s->scale);
+    return status;
+}
+
+static lmn_status begin_page(vector_job *j, lmn_error *error)
+{
+    double     size[2] = {j->desc->width / VECTOR_PIXELS_PER_MM, j->desc->height / VECTOR_PIXELS_PER_MM};
+    bool       stated = true;
+    lmn_status status = j->wanted->page ? vector_parse_page(j->wanted->page, size, error) : LMN_OK;
+    if (status == LMN_OK && j->wanted->scale)
+        status = vector_parse_scale(j->wanted->scale, &j->scale, error);
+    if (status == LMN_OK)
+        status = vector_parse_unit(j->wanted->unit, j->scene, &j->unit_mm, &j->out->unit, &stated, error);
+    if (status != LMN_OK)
+        return status;
+    if (!stated && (j->scale > 0 || j->wanted->frame))
+        warnings_add(&j->out->warnings, WARNING_PAGE, "the file does not say its unit; it is taken for millimetres");
+    j->usual_scale = j->wanted->frame;
+    sheet_begin(&j->out->page, size[0], size[1], VECTOR_PIXELS_PER_MM);
+    return LMN_OK;
+}
+
+/* --- drawing --------------------------------------------------------------------------------------------------------------- */
+
+/* The surfaces of a view as pixels. The eye is given, so that the camera is the same. */
+static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
+{
+    uint8_t      *pixels = NULL;
+    lmn_draw_desc d = view_desc(j, v);
+    char          ground[10];
+    colour_print(j->plan.ground, ground);
+    d.background = ground;
+    d.maps = d.profile = false;
+    d.progress = NULL;
+    if (!d.camera) {
+        double distance = v->camera.orthographic ? v->camera.half_height / tan(d.fov_deg * (3.14159265358979323846 / 360)) : 0;
+        for (int k = 0; k < 3; k++) {
+            double forward = -v->camera.view.m[4 * k + 2];
+            d.eye[k] = v->camera.orthographic ? v->camera.target[k] - forward * distance : v->camera.eye[k];
+            d.target[k] = v->camera.target[k];
+            d.up[k] = v->camera.up[k];
+        }
+        d.eye_given = true;
+        d.orthographic = v->camera.orthographic;
+    }
+    lmn_status   status = j->draw_surfaces(&pixels, &d, j->user, error);
+    export_bytes png = {0};
+    if (status == LMN_OK)
+        status = export_png(&png, pixels, d.width, d.height, error);
+    if (status == LMN_OK)
+        sheet_add_image(&j->out->page, group, png.data, png.size, v->box[0], v->box[1], v->box[2], v->box[3]);
+    mem_free(png.data);
+    mem_free(pixels);
+    return status;
+}
+
+static void count_strokes(vector_job *j, const stroke_set *set, const stroke_style *style)
+{
+    for (size_t i = 0; i < set->stroke_count; i++) {
+        const stroke *s = &set->strokes[i];
+        bool drawn = s->hidden_by == 0 || (style->hidden != HIDDEN_NONE && (style->hidden_depth <= 0 || s->hidden_by <= (uint32_t)style->hidden_depth));
+        j->out->counts[s->kind] += drawn;
+        j->out->hidden += drawn && s->hidden_by > 0;
+        if (s->hidden_by == 0 && s->part > 0 && s->part <= j->out->facts.part_count)
+            j->out->part_strokes[s->part - 1]++;
+    }
+}
+
+/* The parts that a rule draws, and how many they are; NULL: memory is gone. */
+static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
+{
+    bool *parts = mem_calloc(j->scene->part_count, sizeof *parts);
+    *count = 0;
+    for (size_t i = 0; parts && i < j->scene->part_count; i++) {
+        parts[i] = j->stroked[i] && plan_rule(&j->plan, i) == r;
+        *count += parts[i];
+    }
+    return parts;
+}
+
+/* The marks of one rule's parts. */
+static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vector_view *v, const rule *r, const vector_ink *ink, lmn_error *error)
+{
+    const technique_use *surface = vector_rule_marks(r);
+    size_t               count = 0;
+    if (!surface)
+        return LMN_OK;
+    bool *parts = parts_of(j, r, &count);
+    if (!parts)
+        return error_memory(error);
+    vector_marks m = {.view = view, .ground = j->plan.ground, .one_pen = j->wanted->plotter, .part_marks = j->out->part_marks,
+                      .wishes = {.pose = &j->pose, .look = j->look, .parts = parts, .part_count = j->scene->part_count, .crease_angle = j->plan.crease_angle,
+                                 .surface = surface, .camera = &v->camera, .width = v->width, .height = v->height}};
+    lmn_status status = LMN_OK;
+    if (!report_part(0, "marks", j))
+        status = error_set(error, LMN_CANCELLED, "cancelled");
+    else if (count)
+        status = vector_put_marks(ink, &m, error);
+    mem_free(parts);
+    j->out->dots += m.dots;
+    j->out->marks += m.lines;
+    return status;
+}
+
+/* Where parts of two rules run through each other, the line is its own part's; the other rule has it only where that one draws no such lines. */
+static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule *r)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < set->stroke_count; i++) {
+        const stroke *s = &set->strokes[i];
+        const rule   *owner = s->kind == STROKE_INTERSECTION && s->part > 0 && s->part <= j->scene->part_count ? plan_rule(&j->plan, s->part - 1) : r;
+        stroke_wishes wishes = {.intersections = false};
+        stroke_style  style;
+        if (owner != r && owner && vector_rule_strokes(owner, &wishes, &style) && wishes.intersections)
+            continue;
+        set->strokes[kept++] = *s;
+    }
+    set->stroke_count = kept;
+}
+
+/* The strokes of one rule's parts, as ribbons. */
+static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
+{
+    stroke_wishes wishes;
+    stroke_style  style;
+    stroke_set    set = {0};
+    size_t        count = 0;
+    *out = (ribbon_set){0};
+    if (!vector_rule_strokes(r, &wishes, &style))
+        return LMN_OK;
+    bool *parts = parts_of(j, r, &count);
+    if (!parts)
+        return error_memory(error);
+    lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
+    mem_free(parts);
+    keep_own_crossings(j, &set, r);
+    if (status == LMN_OK)
+        status = ribbons_make(out, &set, &style, j->desc->seed, error);
+    if (status == LMN_OK)
+        count_strokes(j, &set, &style);
+    if (status == LMN_OK && j->wanted->verify && set.stroke_count) {
+        stroke_check check = {0};
+        status = stroke_verify(&check, &set, view, (float)verify_apart, report_part, j, error);
+        j->out->check.samples += check.samples;
+        j->out->check.wrong += check.wrong;
+        j->out->verified = true;
+    }
+    stroke_set_release(&set);
+    return status;
+}
+
+static lmn_status draw_lines(vector_job *j, stroke_view *view, const vector_ink *ink, lmn_error *error)
+{
+    size_t      rules = j->look->rule_count;
+    ribbon_set *sets = mem_calloc(rules, sizeof *sets);
+    lmn_status  status = sets ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < rules && status == LMN_OK; i++)
+        status = draw_rule(j, view, &j->look->rules[i], &sets[i], error);
+    if (status == LMN_OK)
+        status = vector_put_ribbons(ink, sets, rules, error);
+    for (size_t i = 0; sets && i < rules; i++)
+        ribbon_set_release(&sets[i]);
+    mem_free(sets);
+    return status;
+}
+
+/* What lies on surfaces, and lines over it. */
+static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
+{
+    stroke_view  *view = NULL;
+    stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width, v->height};
+    lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
+    stroke_view  *as_is = NULL;
+    if (status == LMN_OK && j->as_is.item_count)
+        status = stroke_view_create(&as_is, &j->as_is, &camera, report_part, j, error);
+    for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
+        status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
+    stroke_view_destroy(&as_is);
+    if (status == LMN_OK)
+        status = draw_lines(j, view, ink, error);
+    stroke_view_destroy(&view);
+    return status;
+}
+
+static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *error)
+{
+    sheet     *page = &j->out->page;
+    char       name[32];
+    lmn_status status = LMN_OK;
+    snprintf(name, sizeof name, "view-%s", v->name);
+    uint32_t   group = sheet_add_group(page, -1, strcmp(v->name, "view") == 0 ? "view" : name, "view", 0);
+    vector_ink ink = {page, j->scene, group, {v->box[0], v->box[1]}, j->lines_only};
+    if (j->pixels)
+        status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
+    if (status == LMN_OK && j->wanted->fill && !j->lines_only)
+        status = vector_put_fills(page, &ink, v, &j->strokes, &j->plan, report_part, j, error);
+    return status == LMN_OK ? draw_ink(j, v, &ink, error) : status;
+}
+
+/* Lines of frames: as dark as the page is light. */
+static colour frame_ink(colour ground)
+{
+    float light = 0.2126f * ground.r + 0.7152f * ground.g + 0.0722f * ground.b;
+    return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
+}
+
+/* What all views draw on: surfaces as fine as the rule that wants them finest. */
+static lmn_status make_scene(vector_job *j, lmn_error *error)
+{
+    double  crease = j->plan.crease_angle;
+    int32_t refine = 0;
+    bool    bends = false;
+    for (size_t i = 0; i < j->scene->part_count; i++) {
+        stroke_wishes wishes;
+        stroke_style  style;
+        if (!j->stroked[i] || !vector_rule_strokes(plan_rule(&j->plan, i), &wishes, &style))
+            continue;
+        refine = wishes.refine > refine ? wishes.refine : refine;
+        bends = bends || stroke_wishes_bend(&wishes);
+    }
+    lmn_status status = stroke_scene_create_refined(&j->strokes, &j->pose, j->stroked, crease, refine, report_part, j, error);
+    if (status == LMN_OK && bends)
+        status = stroke_scene_bend(&j->strokes, report_part, j, error);
+    bool marked = false;
+    for (size_t i = 0; i < j->look->rule_count; i++)
+        marked = marked || vector_rule_marks(&j->look->rules[i]);
+    return status == LMN_OK && marked && refine > 0 ? stroke_scene_create(&j->as_is, &j->pose, j->stroked, crease, report_part, j, error) : status;
+}
+
+/* The largest usual scale at which all views lie on the page; 0: there is none. */
+static double scale_that_fits(const vector_job *j, lmn_error *error)
+{
+    const lmn_sheet *s = j->out;
+    double           area[4], sizes[VIEWS_MOST][2];
+    vector_view      views[VIEWS_MOST];
+    vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
+    memcpy(views, s->views, sizeof views);
+    for (size_t i = 0; i < s->view_count; i++) {
+        if (measure_view(j, &views[i], sizes[i], error) != LMN_OK)
+            return 0;
+        sizes[i][0] *= j->unit_mm;
+        sizes[i][1] *= j->unit_mm;
+        if (!(sizes[i][0] > 0 || sizes[i][1] > 0))
+            return 0;
+    }
+    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12), .angle = j->wanted->angle, .usual = true, .fit = 1};
+    memcpy(how.area, area, sizeof how.area);
+    return vector_place_views(&how, views, s->view_count, (const double (*)[2])sizes);
+}
+
+/* How large the largest view of the model is on the page, mm; infinite where that is not told by a scale. */
+static double size_on_page(const vector_job *j)
+{
+    double most = 0;
+    for (size_t i = 0; i < j->out->view_count && j->out->scale > 0; i++) {
+        double    size[2];
+        lmn_error ignored = {0};
+        if (measure_view(j, &j->out->views[i], size, &ignored) == LMN_OK)
+            most = fmax(most, fmax(size[0], size[1]) * j->unit_mm * j->out->scale);
+    }
+    return j->out->scale > 0 ? most : INFINITY;
+}
+
+/* A page on which nothing of the model is to be seen is no drawing of it. */
+static lmn_status check_page(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    refusal    r = refusal_of(j, error);
+    char       scale[32], instead[80] = "";
+    double     size = j->wanted->scale ? size_on_page(j) : INFINITY;
+    bool       speck = size < speck_on_page;
+    if (s->page.item_count > 0 && !speck)
+        return LMN_OK;
+    if (!j->wanted->scale && s->view_count == 1 && !j->desc->eye_given && !j->desc->camera)
+        return refuse(&r, LMN_USAGE, WARNING_PAGE, "take another look, or draw a picture (.png)", "nothing of the model lies on the page: the look '%s' has no strokes for it",
+                      j->look->name ? j->look->name : "");
+    double fitting = scale_that_fits(j, error);
+    if (fitting > 0 && s->scale > 0) {
+        vector_print_scale(scale, fitting);
+        snprintf(instead, sizeof instead, "it fits at --scale %s", scale);
+    }
+    if (speck)
+        return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "at %s the model is %.2g mm large on the page, with %s as its unit", s->scale_text, size, s->unit);
+    return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "nothing of the model lies on the page%s%s", s->scale > 0 ? " at " : "", s->scale > 0 ? s->scale_text : "");
+}
+
+/* What reaches beyond the paper, or the inside of its frame, is cut off: plotters and CAD programs have no clips. */
+static lmn_status finish_page(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    double     area[4] = {0, 0, s->page.width, s->page.height};
+    if (j->wanted->frame)
+        vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
+    bool cut = sheet_clip(&s->page, area[0], area[1], area[2], area[3]);
+    if (cut && j->wanted->scale && !j->wanted->views)
+        warnings_add(&s->warnings, WARNING_PAGE, "at %s the model reaches beyond the page", j->wanted->scale);
+    lmn_status status = check_page(j, error);
+    if (status == LMN_OK)
+        vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+    return status;
+}
+
+static lmn_status draw_sheet(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    lmn_status status = check_cancelled(j, 0.3, "drawing", error);
+    j->begun = 0.3;
+    j->share = 0.2;
+    if (status == LMN_OK)
+        status = make_scene(j, error);
+    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
+        j->share = 0.45 / (double)s->view_count;
+        j->begun = 0.5 + j->share * (double)i;
+        status = draw_view(j, &s->views[i], error);
+    }
+    if (status == LMN_OK)
+        status = finish_page(j, error);
+    if (status == LMN_OK && j->wanted->plotter)
+        status = vector_order_for_plotter(&s->page, error);
+    if (status == LMN_OK && s->page.failed)
+        status = error_memory(error);
+    return status == LMN_OK ? check_cancelled(j, 0.95, "drawing", error) : status;
+}
+
+/* Marks of vector drawings know the look's lights, and no more than these. */
+static void note_marks(vector_job *j)
+{
+    const scene_values *scene = j->look->wide[KIND_SCENE].values;
+    bool any = false, again = false;
+    for (size_t i = 0; i < j->look->rule_count; i++) {
+        const technique_use *surface = rule_use(&j->look->rules[i], KIND_SURFACE);
+        any = any || vector_rule_marks(&j->look->rules[i]);
+        again = again || (surface && surface->technique->marks && rule_shades_again(&j->look->rules[i]));
+    }
+    if (again)
+        warnings_add(&j->out->warnings, WARNING_UNUSED, "a composition that shades again leaves out the marks of surfaces; 'opaque' draws them");
+    if (any && (scene->shadows || scene->occlusion > 0 || scene->focus > 0))
+        warnings_add(&j->out->warnings, WARNING_UNUSED, "shadows, occlusion and depth focus do not change the dots and strokes of surfaces in vector drawings");
+}
+
+static lmn_status keep_facts(vector_job *j, lmn_error *error)
+{
+    lmn_sheet *s = j->out;
+    size_t     count = j->scene->part_count;
+    lmn_status status = facts_take(&s->facts, j->scene, j->look, count, j->desc->seed, error);
+    if (status != LMN_OK)
+        return status;
+    s->facts.bounds = j->plan.box;
+    s->part_strokes = mem_calloc(count, sizeof *s->part_strokes);
+    s->part_marks = mem_calloc(count, sizeof *s->part_marks);
+    if (!s->part_strokes || !s->part_marks)
+        return error_memory(error);
+    for (size_t i = 0; i < count; i++)
+        s->facts.triangles += j->scene->parts[i].triangles * node_draw_count(&j->scene->nodes[j->scene->parts[i].node]);
+    char description[256];
+    snprintf(description, sizeof description, "Look %.100s; %zu parts%s%s", s->facts.look, count, *s->scale_text ? "; scale " : "", s->scale_text);
+    const char *file = j->scene->file_count ? strrchr(j->scene->files[0], '/') : NULL, *title = j->wanted->title;
+    file = file ? file + 1 : j->scene->file_count ? j->scene->files[0] : NULL;
+    sheet_set_title(&s->page, title && *title ? title : file, description);
+    note_marks(j);
+    refusal r = refusal_of(j, error);
+    return refuse_time(&r, j->look, j->desc->time_s, false);
+}
+
+/* Everything that is known before the first line is drawn. */
+static lmn_status prepare(vector_job *j, lmn_error *error)
+{
+    lmn_status status = plan_parts(j, error);
+    if (status == LMN_OK)
+        status = begin_page(j, error);
+    if (status == LMN_OK)
+        status = refuse_section(j, error);
+    if (status != LMN_OK)
+        return status;
+    lay_ground(j);
+    status = place_views(j, error);
+    return status == LMN_OK ? keep_facts(j, error) : status;
+}
+
+static void end_job(vector_job *j)
+{
+    stroke_scene_release(&j->strokes);
+    stroke_scene_release(&j->as_is);
+    plan_release(&j->plan);
+    pose_release(&j->pose);
+    mem_free(j->stroked);
+}
+
+lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, const lmn_sheet_desc *wanted, surfaces_fn draw_surfaces, void *user,
+                       lmn_error *error)
+{
+    double start = clock_ms();
+    bool   surfaces = vector_needs_pixels(look);
+    *out = NULL;
+    vector_job j = {.draw_surfaces = draw_surfaces, .user = user, .scene = scene, .look = look, .desc = desc, .wanted = wanted, .lines_only = wanted->lines_only || wanted->plotter};
+    bool       wants_pixels = surfaces && !j.lines_only && !wanted->fill;
+    j.out = mem_calloc(1, sizeof *j.out);
+    j.stroked = mem_calloc(scene->part_count, sizeof *j.stroked);
+    j.pixels = wants_pixels && draw_surfaces;
+    lmn_status status = j.out && j.stroked ? LMN_OK : error_memory(error);
+    if (status == LMN_OK) {
+        warnings_append(&j.out->warnings, &scene->warnings);
+        if (wants_pixels && !draw_surfaces)
+            warnings_add(&j.out->warnings, WARNING_NO_STROKES, "the surfaces of the look '%s' need pixels and a renderer; lines alone are drawn", look->name ? look->name : "");
+        status = prepare(&j, error);
+    }
+    if (status == LMN_OK)
+        status = draw_sheet(&j, error);
+    end_job(&j);
+    if (status != LMN_OK) {
+        vector_destroy(&j.out);
+        return status;
+    }
+    j.out->frame_ms = clock_ms() - start;
+    *out = j.out;
+    return LMN_OK;
+}
+
+void vector_destroy(lmn_sheet **sheet)
+{
+    if (!sheet || !*sheet)
+        return;
+    lmn_sheet *s = *sheet;
+    sheet_release(&s->page);
+    warnings_release(&s->warnings);
+    facts_release(&s->facts);
+    mem_free(s->part_strokes);
+    mem_free(s->part_marks);
+    mem_free(s);
+    *sheet = NULL;
+}
