@@ -48,6 +48,8 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
     int width = gpu_texture_width(depth), height = gpu_texture_height(depth);
     text prelude = {0};
     text_append(&prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", v->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
+    if (shadow_is_soft(f))
+        target_declare(&prelude, &target_rows[TARGET_SHADOW]);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;

@@ -4,9 +4,6 @@
 #include "light/cut.glsl"
 #endif
 
-uniform sampler2D  t_normal_depth;
-uniform usampler2D t_id;
-uniform sampler2D  t_albedo;
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;

@@ -27,7 +27,7 @@ vec4 edge_at(vec2 place)
 /* Share of the lines' ink that dashes leave. */
 float dash_at(vec2 place)
 {
-#ifdef HAS_DASHES
+#ifdef HAS_DASH
     return texelFetch(t_dash, clamp(ivec2(floor(place + 0.5)), ivec2(0), ivec2(u_size) - 1), 0).r;
 #else
     return 1.0;

@@ -7,7 +7,6 @@ uniform mat3  u_normal_matrix;
 uniform mat4  u_projection;
 uniform vec2  u_size;   /* of the picture, pixels */
 uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
-uniform sampler2D t_normal_depth;
 
 const vec4 NOWHERE = vec4(0.0, 0.0, 2.0, 1.0); /* outside of what is drawn: the cheapest way to leave a mark out (EX-13) */
 

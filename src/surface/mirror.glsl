@@ -1,8 +1,5 @@
 #include "light/light.glsl"
 
-#ifdef HAS_REFLECTION
-uniform sampler2D t_reflection;
-#endif
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;
