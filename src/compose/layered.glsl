@@ -6,14 +6,6 @@
 #endif
 layout(location = 0) out vec4 out_0;
 
-uniform int   u_layer; /* 0 = visible */
-uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
-uniform bool  u_filled; /* with the fill, not only the lines */
-uniform float u_forward; /* window depth by which the figure is in front of what it lies on */
-#ifdef SHARED_LAYERS
-uniform int   u_figure;
-#endif
-
 /* Several figures share their layers, so that they interleave; each draws its own pixels. */
 bool is_own(ivec2 at)
 {

@@ -8,6 +8,9 @@
 #include "layer/layer.h"
 #include "light/light.h"
 
+/* Before each shader: what frame_set_common and its kin set. */
+#define FRAME_UNIFORMS "technique/frame.glsl"
+
 /* How cut faces are hatched. Lengths count supersamples. */
 static void set_cut(frame *f)
 {
@@ -353,6 +356,21 @@ static void declare_id_bits(text *prelude)
                          "#define SURFACE_OPERAND %uu\n", SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK, SURFACE_OPERAND);
 }
 
+/* The program of two stages, behind the frame's uniforms. */
+static gpu_program *with_frame(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude)
+{
+    text stages[2] = {{0}};
+    text_append(&stages[0], FRAME_UNIFORMS "+%s", vertex);
+    text_append(&stages[1], FRAME_UNIFORMS "+%s", fragment);
+    char *first = text_take(&stages[0]), *second = text_take(&stages[1]);
+    gpu_program *p = first && second ? gpu_program_of(f->g, dialect, first, second, prelude) : NULL;
+    if (!first || !second)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(first);
+    mem_free(second);
+    return p;
+}
+
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     declare_id_bits(prelude);
@@ -360,7 +378,7 @@ gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const
     if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
         text_append(prelude, "#define HAS_FOCUS\n");
     char *finished = text_take(prelude);
-    gpu_program *p = finished ? gpu_program_of(f->g, dialect, vertex, fragment, finished) : NULL;
+    gpu_program *p = finished ? with_frame(f, dialect, vertex, fragment, finished) : NULL;
     if (!finished)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(finished);

@@ -119,8 +119,9 @@ void visibility_draw(frame *f);
 
 /* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);
+/* The same in another size than the page's: of SCALE_OWN. */
 gpu_texture         *frame_acquire_sized(frame *f, target t, int width, int height);
-/* The same for any picture, those of the technique that runs too, in the size that its row asks for. */
+/* Any picture, those of the technique that runs too, in the size that its row asks for. */
 gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
 const target_row    *target_row_of(const figure_state *s, target t);
 void                 target_size(const frame *f, const figure_state *s, target_scale scale, int out[2]);

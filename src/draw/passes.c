@@ -131,6 +131,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     watch_stop(f, w, group, p->name);
 }
 
+/* Gives back what lasts no longer. */
 static void forget(frame *f, figure_state *s, target_owner owner)
 {
     for (int t = 0; t < TARGET_COUNT; t++)

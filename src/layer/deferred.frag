@@ -4,10 +4,6 @@
 #include "light/cut.glsl"
 #endif
 
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 layout(location = 0) out vec4 out_shade;
 
 vec4 shade_of(ivec2 pixel, uvec2 id)

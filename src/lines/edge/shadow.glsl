@@ -1,7 +1,6 @@
 /* Ink where the light on one surface differs across the pixel. Both ends must face the light and lie in one surface: where a shape turns away from the light,
  * or another begins, is a matter for other operators. */
 #include "lines/edge/edge.glsl"
-#include "light/view.glsl"
 #include "light/shadow.glsl"
 
 uniform vec3 u_shadow_light; /* towards the light, eye space */
