@@ -1,5 +1,6 @@
 /* limner draw: models into pictures. */
 #include "cli.h"
+#include "formats.h"
 #include "names.h"
 #include "task.h"
 
@@ -27,8 +28,11 @@ static const char *const views[] = {"iso", "front", "back", "left", "right", "to
 
 static const char *const angles[] = {"third", "first", NULL};
 
-/* The endings that lmn_drawing_write and lmn_sheet_write know; asked before the work, not after it. */
-static const char *const formats[] = {".png", ".svg", ".pdf", ".dxf"};
+static void write_format_doc(char *out, size_t size)
+{
+    char pixels[FORMAT_LIST_SIZE], vectors[FORMAT_LIST_SIZE];
+    snprintf(out, size, "Format whatever the ending: %s, or as vectors %s.", format_list(pixels, FORMATS_PIXELS, false), format_list(vectors, FORMATS_VECTORS, false));
+}
 
 #define AT(field) offsetof(draw_values, field)
 
@@ -36,7 +40,7 @@ static const option options[] = {
     {"output", 'o', OPTION_TEXT, AT(output), "OUT",
      "Picture to write; its ending is the format. {name} gives one picture for each INPUT, {frame} is the frame's number, - is "
      "standard output. Default: the first INPUT's stem and .png."},
-    {"format", 0, OPTION_TEXT, AT(format), "FORMAT", "Format whatever the ending: png, or as vectors svg, pdf or dxf."},
+    {"format", 0, OPTION_TEXT, AT(format), "FORMAT", .write_doc = write_format_doc},
     {"look", 'l', OPTION_TEXT, AT(look), "NAME|FILE", "Look: one of `limner looks`, or a file. Default: edges."},
     {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
@@ -94,7 +98,8 @@ typedef struct session {
     lmn_renderer      *renderer;
     lmn_draw_desc      desc;
     char               ending[16]; /* of the format, ".svg"; empty: the path's */
-    bool               vectors;
+    lmn_format_info    format;     /* asked before the work, not after it */
+    bool               known;      /* there is such a format */
     progress           progress;
 } session;
 
@@ -119,14 +124,6 @@ static int parse_frames(const char *text, frame_range *out)
     return EXIT_DONE;
 }
 
-static bool knows_format(const char *ending)
-{
-    for (size_t i = 0; i < OPTION_COUNT(formats); i++)
-        if (strcmp(formats[i], ending) == 0)
-            return true;
-    return false;
-}
-
 /* The format: given, or the ending of the output. */
 static void find_format(session *s)
 {
@@ -135,42 +132,57 @@ static void find_format(session *s)
     if (v->format)
         snprintf(s->ending, sizeof s->ending, "%s%s", *v->format == '.' ? "" : ".", v->format);
     else if (!v->output || strcmp(v->output, "-") == 0)
-        snprintf(s->ending, sizeof s->ending, ".png");
+        snprintf(s->ending, sizeof s->ending, "%s", format_standard(false));
     else if (dot && !strchr(dot, '/'))
         snprintf(s->ending, sizeof s->ending, "%s", dot);
     for (char *c = s->ending; *c; c++)
         *c = (char)tolower((unsigned char)*c);
-    s->vectors = knows_format(s->ending) && strcmp(s->ending, ".png") != 0;
+    s->known = format_find(&s->format, s->ending);
 }
 
 static int check_format(const session *s)
 {
     const draw_values *v = s->values;
     const char *dot = v->output ? strrchr(v->output, '.') : NULL;
-    if (knows_format(s->ending) && v->format && dot && knows_format(dot) && strcmp(dot, s->ending) != 0)
+    lmn_format_info named;
+    char list[FORMAT_LIST_SIZE], hint[2 * FORMAT_LIST_SIZE];
+    if (s->known && v->format && dot && format_find(&named, dot) && strcmp(dot, s->ending) != 0)
         return message_usage(NULL, "the name '%s' says %s and --format says %s", v->output, dot + 1, s->ending + 1);
-    if (knows_format(s->ending))
+    if (s->known)
         return EXIT_DONE;
-    if (v->format)
-        return message_usage("the format is png, svg, pdf or dxf", "--format is '%s'; there is no such format", v->format);
-    return message_usage("the ending says the format: .png, .svg, .pdf or .dxf; --format says it whatever the ending",
-                         "%s: cannot tell the format from '%s'", v->output, *s->ending ? s->ending : v->output);
+    if (v->format) {
+        snprintf(hint, sizeof hint, "the format is %s", format_list(list, FORMATS_ALL, false));
+        return message_usage(hint, "--format is '%s'; there is no such format", v->format);
+    }
+    snprintf(hint, sizeof hint, "the ending says the format: %s; --format says it whatever the ending", format_list(list, FORMATS_ALL, true));
+    return message_usage(hint, "%s: cannot tell the format from '%s'", v->output, *s->ending ? s->ending : v->output);
+}
+
+/* Options for which the format has no room. */
+static int check_room(const session *s)
+{
+    const draw_values *v = s->values;
+    const lmn_format_info *f = &s->format;
+    if (v->background && !f->ground)
+        return message_usage(NULL, "--background does not go with %s, which has no ground", f->ending);
+    if (v->fill && !f->areas)
+        return message_usage(NULL, "--fill does not go with %s, which has no areas", f->ending);
+    if (v->title && !f->title && !v->frame)
+        return message_usage(NULL, "--title needs --frame in %s, which has no title of its own", f->ending);
+    return EXIT_DONE;
 }
 
 /* Options that the others given leave without effect. */
 static int check_effect(const session *s)
 {
     const draw_values *v = s->values;
-    bool dxf = strcmp(s->ending, ".dxf") == 0;
+    const lmn_format_info *f = &s->format;
     const struct {
         bool        given;
         const char *name, *why;
     } rows[] = {
-        {v->samples.given && s->vectors && (dxf || v->plotter || v->fill), "samples", "goes with pictures; here are lines and areas alone"},
-        {v->background && dxf, "background", "does not go with .dxf, which has no ground"},
-        {v->fill && dxf, "fill", "does not go with .dxf, which has lines alone"},
+        {v->samples.given && f->vectors && (!f->pictures || v->plotter || v->fill), "samples", "goes with pictures; here are lines and areas alone"},
         {v->fill && v->plotter, "fill", "does not go with --plotter, which draws lines alone"},
-        {v->title && dxf && !v->frame, "title", "needs --frame in .dxf, which has no title of its own"},
         {v->angle >= 0 && !v->views, "projection", "says how --views lie, and there are none"},
         {v->verify && !v->report, "verify", "puts its result into the report; add --report FILE"},
         {v->fit.given && v->eye.given, "fit", "does not go with --eye, which says how near the model is"},
@@ -194,12 +206,15 @@ static int check_vectors(const session *s)
         bool        given;
     } sheet_only[] = {{"page", v->page != NULL}, {"scale", v->scale != NULL}, {"unit", v->unit != NULL}, {"views", v->views != NULL}, {"projection", v->angle >= 0},
                       {"title", v->title != NULL}, {"frame", v->frame}, {"plotter", v->plotter}, {"fill", v->fill}, {"verify", v->verify}};
-    for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->vectors; i++)
+    char list[FORMAT_LIST_SIZE];
+    for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->format.vectors; i++)
         if (sheet_only[i].given)
-            return message_usage("for example -o drawing.svg", "--%s goes with vector drawings: .svg, .pdf or .dxf", sheet_only[i].name);
-    if (s->vectors && v->maps)
+            return message_usage("for example -o drawing.svg", "--%s goes with vector drawings: %s", sheet_only[i].name, format_list(list, FORMATS_VECTORS, true));
+    if (s->format.vectors && v->maps)
         return message_usage("draw a .png for them", "--aov goes with pictures");
-    int status = check_effect(s);
+    int status = check_room(s);
+    if (status == EXIT_DONE)
+        status = check_effect(s);
     if (status != EXIT_DONE)
         return status;
     if (v->views && (v->view >= 0 || v->eye.given || v->camera))
@@ -487,8 +502,8 @@ static lmn_status draw_sheet(session *s, const lmn_scene *scene, lmn_sheet **out
     d.title = v->title;
     d.frame = v->frame;
     d.plotter = v->plotter;
-    d.lines_only = strcmp(s->ending, ".dxf") == 0;
-    d.fill = v->fill && !d.lines_only;
+    d.lines_only = !s->format.pictures;
+    d.fill = v->fill;
     d.verify = v->verify;
     return lmn_draw_sheet(out, s->renderer, scene, s->look, &s->desc, &d, error);
 }
@@ -500,7 +515,7 @@ static int draw_picture(session *s, const lmn_scene *scene, const char *input, l
     double start = now_ms();
     if (s->frames.given)
         s->desc.time_s = (double)frame / s->frames.rate;
-    lmn_status done = s->vectors ? draw_sheet(s, scene, &drawn.sheet, &error) : lmn_draw(&drawn.drawing, s->renderer, scene, s->look, &s->desc, &error);
+    lmn_status done = s->format.vectors ? draw_sheet(s, scene, &drawn.sheet, &error) : lmn_draw(&drawn.drawing, s->renderer, scene, s->look, &s->desc, &error);
     progress_erase(&s->progress);
     if (done != LMN_OK)
         return message_error(&error);
@@ -535,7 +550,7 @@ static int check_last_frame(const session *s, const lmn_scene *scene)
     if (!s->frames.given)
         return EXIT_DONE;
     last.time_s = (double)s->frames.last / s->frames.rate;
-    return lmn_draw_check(scene, s->look, &last, s->vectors, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
+    return lmn_draw_check(scene, s->look, &last, s->format.vectors, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
 }
 
 static int draw_scene(session *s, const char *const *paths, size_t count)
@@ -549,7 +564,7 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
     double load_ms = now_ms() - start;
     if (s->values->verbose)
         message_note("%s: read in %.0f ms", paths[0], load_ms);
-    bool pixels = !s->vectors || (lmn_look_needs_pixels(s->look) && !s->values->plotter && !s->values->fill && strcmp(s->ending, ".dxf") != 0);
+    bool pixels = !s->format.vectors || (lmn_look_needs_pixels(s->look) && !s->values->plotter && !s->values->fill && s->format.pictures);
     /* Made when first needed, so that a missing input is told even where there is no OpenGL, and kept for the rest. */
     if (!s->renderer && pixels) {
         lmn_error error = {0};
@@ -591,7 +606,7 @@ static int run(const word_list *inputs, const void *values)
         status = check_programs(inputs, &(program_wishes){&v->defines, v->strict});
     if (status == EXIT_DONE)
         status = load_look(&s);
-    if (status == EXIT_DONE && v->samples.given && s.vectors && !lmn_look_needs_pixels(s.look))
+    if (status == EXIT_DONE && v->samples.given && s.format.vectors && !lmn_look_needs_pixels(s.look))
         status = message_usage(NULL, "--samples goes with pictures; with this look there are lines alone");
     char standard[64];
     snprintf(standard, sizeof standard, "%s%s", s.frames.given ? NAME_PLACE "-" FRAME_PLACE : NAME_PLACE, s.ending);

@@ -338,7 +338,10 @@ static void print_option(const option *o)
         printf("%s\n%*s", left, COLUMN, "");
     else
         printf("%-*s", COLUMN, left);
-    print_doc(o->doc);
+    char written[256];
+    if (o->write_doc)
+        o->write_doc(written, sizeof written);
+    print_doc(o->write_doc ? written : o->doc);
 }
 
 void options_print_usage(const command *c)

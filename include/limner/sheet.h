@@ -45,6 +45,19 @@ LMN_API lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const
  * Errors: LMN_USAGE (unknown format), LMN_WRITE, LMN_MEMORY. */
 LMN_API lmn_status lmn_sheet_write(const lmn_sheet *sheet, const char *path, const char *format, uint64_t *bytes, lmn_error *error);
 
+/* A format of drawings, and what it has room for. Texts last. */
+typedef struct lmn_format_info {
+    const char *ending;   /* ".svg" */
+    const char *doc;      /* what it is, in a line */
+    bool        vectors;  /* of sheets: lmn_sheet_write; else of pixels: lmn_drawing_write */
+    bool        ground;   /* a background */
+    bool        pictures; /* surfaces as pixels; a sheet for a format without them has `lines_only` */
+    bool        areas;    /* of vectors: areas, as `fill` wants them */
+    bool        title;    /* of vectors: a title, whether or not there is a frame */
+} lmn_format_info;
+/* One format by index from 0, for lists. False when out of range. Any thread. */
+LMN_API bool lmn_format_at(size_t index, lmn_format_info *out);
+
 /* The report as JSON (docs/reference/report.md). Free with lmn_text_free. NULL when memory is gone. */
 LMN_API char *lmn_sheet_report_json(const lmn_sheet *sheet);
 

@@ -11,7 +11,6 @@
 #include "base/file_store.h"
 #include "base/limits.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "base/work.h"
 #include "draw/maps.h"
 #include "plan/refuse.h"
@@ -132,28 +131,19 @@ const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *h
 
 lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes, lmn_error *error)
 {
-    static const char *const known[] = {".png"};
-    char ending[16];
-    if (!format) {
-        file_ending(path, ending, sizeof ending);
-        format = strcmp(path, "-") == 0 ? ".png" : ending;
-    }
-    const char *name = format[0] == '.' ? format + 1 : format;
-    if (strcmp(name, "png") != 0) {
-        lmn_status status = error_in_file(error, LMN_USAGE, path, 0, "cannot write '%s' pictures", format);
-        const char *nearest = text_nearest(format, known, 1);
-        error_hint(error, nearest ? "did you mean '%s'?" : "give the output a name that ends in %s", nearest ? nearest : ".png");
+    const export_format *chosen = NULL;
+    lmn_status status = export_choose(&chosen, path, format, false, error);
+    if (status != LMN_OK)
         return status;
-    }
     work w;
     work_begin(&w, NULL, NULL);
-    export_bytes png = {0};
-    lmn_status status = export_png(&png, drawing->pixels, drawing->width, drawing->height, error);
+    export_bytes data = {0};
+    status = chosen->write_pixels(&data, drawing->pixels, drawing->width, drawing->height, error);
     if (status == LMN_OK)
-        status = file_store(path, png.data, png.size, error);
+        status = file_store(path, data.data, data.size, error);
     if (bytes)
-        *bytes = png.size;
-    mem_free(png.data);
+        *bytes = data.size;
+    mem_free(data.data);
     return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 

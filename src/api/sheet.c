@@ -8,7 +8,6 @@
 #include "base/file.h"
 #include "base/file_store.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "base/work.h"
 #include "draw/sheet.h"
 #include "export/export.h"
@@ -63,45 +62,28 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
     return status;
 }
 
-typedef lmn_status (*export_fn)(export_bytes *out, const sheet *s, lmn_error *error);
-
-static const struct {
-    const char *ending;
-    export_fn   write;
-} formats[] = {{".svg", export_svg}, {".pdf", export_pdf}, {".dxf", export_dxf}};
-
-enum { FORMATS = sizeof formats / sizeof *formats };
-
-static lmn_status unknown_format(const char *path, const char *format, lmn_error *error)
+bool lmn_format_at(size_t index, lmn_format_info *out)
 {
-    const char *known[FORMATS];
-    for (size_t i = 0; i < FORMATS; i++)
-        known[i] = formats[i].ending;
-    lmn_status  status = error_in_file(error, LMN_USAGE, path, 0, "cannot write '%s' sheets", format);
-    const char *nearest = text_nearest(format, known, FORMATS);
-    error_hint(error, nearest ? "did you mean '%s'?" : "sheets are written as .svg, .pdf or .dxf%s", nearest ? nearest : "");
-    return status;
+    if (index >= export_format_count || !out)
+        return false;
+    const export_format *f = &export_formats[index];
+    *out = (lmn_format_info){.ending = f->ending, .doc = f->doc, .vectors = f->write_sheet != NULL, .ground = f->ground, .pictures = f->pictures,
+                             .areas = f->areas, .title = f->title};
+    return true;
 }
 
 lmn_status lmn_sheet_write(const lmn_sheet *s, const char *path, const char *format, uint64_t *bytes, lmn_error *error)
 {
-    char ending[16];
+    const export_format *chosen = NULL;
     if (!s || !path || !*path)
         return missing("lmn_sheet_write", s ? "path" : "sheet", error);
-    if (!format) {
-        file_ending(path, ending, sizeof ending);
-        format = strcmp(path, "-") == 0 ? ".svg" : ending;
-    }
-    const char *name = *format == '.' ? format + 1 : format;
-    size_t      which = 0;
-    while (which < FORMATS && strcmp(formats[which].ending + 1, name) != 0)
-        which++;
-    if (which == FORMATS)
-        return unknown_format(path, format, error);
+    lmn_status status = export_choose(&chosen, path, format, true, error);
+    if (status != LMN_OK)
+        return status;
     work w;
     work_begin(&w, NULL, NULL);
     export_bytes data = {0};
-    lmn_status   status = formats[which].write(&data, &s->page, error);
+    status = chosen->write_sheet(&data, &s->page, error);
     if (status == LMN_OK)
         status = file_store(path, data.data, data.size, error);
     if (bytes)

@@ -1,6 +1,8 @@
 /* The table of compositions. */
 #include "compose/compose.h"
 
+const target_row layer_nearer_row = {"t_nearer_row", TEXEL_RGBA16F};
+
 static const technique *const techniques[] = {&compose_opaque, &compose_superimpose, &compose_merged,
                                               &compose_blueprint, &compose_wire, &compose_xray};
 

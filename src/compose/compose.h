@@ -42,12 +42,17 @@ typedef struct layer_style {
 #define LAYER_READS                                                                                                               \
     {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NORMAL_DEPTH, \
      TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES}
+/* A picture that compositions of layers keep for themselves: nearer lines, on the way to TARGET_NEARER. */
+#define LAYER_NEARER_ROW TARGET_OWN(0)
+#define LAYER_TARGETS .targets = &layer_nearer_row, .target_count = 1
+extern const target_row layer_nearer_row;
+
 /* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the place is. */
 #define NEARER_LINES_PASSES(condition)                                                                                            \
-    {.name = "nearer lines across", .shader = "compose/nearer_row.frag", .reads = {TARGET_EDGE}, .writes = TARGET_NEARER_ROW,     \
-     .when = condition, .zero_outside = true},                                                                                    \
-    {.name = "nearer lines", .shader = "compose/nearer.frag", .reads = {TARGET_NEARER_ROW, TARGET_NEARER},                        \
-     .writes = TARGET_NEARER, .when = condition, .zero_outside = true}
+    {.name = "nearer lines across", .shader = "compose/nearer_row.frag", .reads = {TARGET_EDGE}, .writes = LAYER_NEARER_ROW,     \
+     .when = condition},                                                                                                          \
+    {.name = "nearer lines", .shader = "compose/nearer.frag", .reads = {LAYER_NEARER_ROW, TARGET_NEARER},                        \
+     .writes = TARGET_NEARER, .when = condition}
 #define LAYER_PASSES_BEHIND NEARER_LINES_PASSES("halo"), NEARER_LINES_PASSES("clutter&!halo")
 
 #endif

@@ -1,5 +1,5 @@
 /* What perturbations need that join the copies of a line: what is to be averaged at a copy's place, and the ink that an average stands for. */
-#if defined(MEAN_OF_INK) || CONTRAST > 0 || defined(HAS_DASHES)
+#if defined(MEAN_OF_INK) || CONTRAST > 0 || defined(HAS_DASH)
 vec4 averaged_at(vec2 place, int i)
 {
 #ifdef MEAN_OF_INK

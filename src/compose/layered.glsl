@@ -6,14 +6,6 @@
 #endif
 layout(location = 0) out vec4 out_0;
 
-uniform int   u_layer; /* 0 = visible */
-uniform float u_rear;  /* opacity of layers behind an uncovered focus, 1 before */
-uniform bool  u_filled; /* with the fill, not only the lines */
-uniform float u_forward; /* window depth by which the figure is in front of what it lies on */
-#ifdef SHARED_LAYERS
-uniform int   u_figure;
-#endif
-
 /* Several figures share their layers, so that they interleave; each draws its own pixels. */
 bool is_own(ivec2 at)
 {
@@ -35,7 +27,7 @@ vec4 layer_fill(vec2 place);
 
 vec4 layer_ink(vec4 ink);
 
-#if defined(MAP_OF_BEFORE) && ONCE
+#if defined(HAS_EDGE_BEFORE) && ONCE
 float ink_before(ivec2 at)
 {
     vec4 edge = texelFetch(t_edge_before, clamp(at, ivec2(0), ivec2(u_size) - 1), 0);
@@ -67,7 +59,7 @@ vec4 stacked_ink(vec2 place, int i)
         vec4 edge = edge_at(place);
         float important = max(1.0 - edge.r, 1.0 - edge.a);
         ink *= pow(1.0 - u_clutter * mix(0.5, 0.15, important), float(u_layer));
-#if defined(MAP_OF_BEFORE) && ONCE
+#if defined(HAS_EDGE_BEFORE) && ONCE
         /* A line lies on either side of its edge; the same edge in front is within half its width. */
         float before = ink_before(pixel);
         int reach = max(int(ceil(0.5 * u_line_width)), 1);

@@ -1,5 +1,4 @@
 /* The same upwards, and the nearer layers' added. */
-uniform vec2 u_texel;
 layout(location = 0) out vec4 out_0;
 
 vec2 row_at(float y)

@@ -1,5 +1,4 @@
 /* A layer's ink across: r the most within the halo, g the mean around. */
-uniform vec2 u_texel;
 layout(location = 0) out vec4 out_0;
 
 float ink_at(float x)

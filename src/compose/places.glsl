@@ -3,10 +3,6 @@
 #ifdef HAS_FOCUS
 #include "light/focus.glsl"
 #endif
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 
 #ifndef PERTURBED
 #define LINE_COPIES 1

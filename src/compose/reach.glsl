@@ -3,11 +3,6 @@
 bool is_own(ivec2 at);
 
 #ifdef HAS_OVERSHOOT
-#ifndef WINDOW_DEPTH_DECLARED
-#define WINDOW_DEPTH_DECLARED
-uniform vec4 u_window_depth; /* of the projection: what makes window depth of eye depth */
-#endif
-
 float overshoot_depth(ivec2 pixel)
 {
     uint bits = texelFetch(t_overshoot, pixel, 0).g;

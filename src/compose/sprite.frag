@@ -4,7 +4,6 @@
 #include "lines/ink.glsl"
 #endif
 layout(location = 0) out vec4 out_0;
-uniform bool u_filled; /* with the fill, not only the lines */
 
 /* Parts that other figures draw are here for their edges alone. */
 bool is_own(ivec2 at)

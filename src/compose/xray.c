@@ -24,5 +24,5 @@ const technique compose_xray = {
     .name = "xray", .doc = "Transparent layers with lines, in exact order.",
     .example = "{\"compose\": \"xray\", \"layers\": \"peel\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(xray), .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_SHADE,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), .merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true,
+    .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS, .merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true,
 };

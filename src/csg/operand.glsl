@@ -8,9 +8,6 @@ flat in uint v_key;
 
 #ifdef SHARED_PLANES
 uniform sampler2D t_planes; /* eye space, 256 a row */
-uniform vec2 u_unproject;
-uniform vec2 u_size;
-uniform float u_perspective;
 uniform float u_solid_step; /* planes of different solids never coincide: each lies a rounding farther than the one before */
 #endif
 

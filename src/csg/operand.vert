@@ -3,9 +3,6 @@ layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 5) in uint a_key;
 
-uniform mat4 u_model_view;
-uniform mat3 u_normal_matrix;
-uniform mat4 u_projection;
 uniform uint u_first_operand;
 uniform uint u_first_plane;
 

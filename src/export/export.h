@@ -1,4 +1,4 @@
-/* Export: pictures to bytes. One file a format. */
+/* Export: pictures to bytes. One file a format; export.c holds the table. */
 #ifndef LIMNER_EXPORT_EXPORT_H
 #define LIMNER_EXPORT_EXPORT_H
 
@@ -24,5 +24,20 @@ lmn_status export_pfm(export_bytes *out, const float *values, int channels, int 
 lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_dxf(export_bytes *out, const sheet *s, lmn_error *error);
+
+/* A format of drawings: of pixels or of sheets, whichever writer it has. */
+typedef struct export_format {
+    const char *ending; /* ".svg" */
+    const char *doc;    /* what it is: one line that ends in a full stop */
+    bool        ground, pictures, areas, title; /* lmn_format_info */
+    lmn_status (*write_pixels)(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error);
+    lmn_status (*write_sheet)(export_bytes *out, const sheet *s, lmn_error *error);
+} export_format;
+
+extern const export_format export_formats[];
+extern const size_t        export_format_count;
+
+/* Chooses a format of sheets, or of pixels: `format` with or without the dot, or the path's ending where that is NULL, the first one for the path "-". Errors: LMN_USAGE. */
+lmn_status export_choose(const export_format **out, const char *path, const char *format, bool sheets, lmn_error *error);
 
 #endif

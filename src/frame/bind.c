@@ -79,7 +79,7 @@ static void set_field(frame *f, const figure_state *s)
     const perturbation *p = use->technique->perturbs;
     if (p->cell) {
         int size[2];
-        coarse_size(f, s, TARGET_UNCERTAINTY, size);
+        target_size(f, s, SCALE_CELL, size);
         gpu_set_float(f->g, "u_cell", p->cell(use->values));
         gpu_set_vec2(f->g, "u_grid", (float)size[0], (float)size[1]);
     }
@@ -179,35 +179,33 @@ const technique_use *rule_inked_lines(const rule *r)
     return count ? &r->uses[KIND_LINES][count - 1] : NULL;
 }
 
-static const gpu_format formats[TARGET_COUNT] = {
-    [TARGET_NORMAL_DEPTH] = GPU_RGBA32F, [TARGET_ID] = GPU_RG32UI,           [TARGET_ALBEDO] = GPU_RGBA16F,
-    [TARGET_SHADE] = GPU_RGBA16F,        [TARGET_DEPTH] = GPU_DEPTH32F,      [TARGET_FILTERED] = GPU_RGBA16F,
-    [TARGET_EDGE] = GPU_RGBA16F,         [TARGET_EDGE_BEFORE] = GPU_RGBA16F, [TARGET_NEARER_ROW] = GPU_RGBA16F,
-    [TARGET_NEARER] = GPU_RGBA16F,       [TARGET_DASH] = GPU_R8,             [TARGET_GROUND] = GPU_RGBA16F,
-    [TARGET_ENLARGED] = GPU_RGBA32F,     [TARGET_TRACES] = GPU_RGBA32F,      [TARGET_TRACES_ROW] = GPU_RGBA32F,
-    [TARGET_UNCERTAINTY] = GPU_RGBA16F,  [TARGET_FIELD] = GPU_RGBA32F,       [TARGET_REFLECTION] = GPU_RGBA16F,
-    [TARGET_DIRECTION] = GPU_RGBA16F,
-    [TARGET_LAYERS] = GPU_RGBA16F,       [TARGET_PAGE] = GPU_RGBA16F,         [TARGET_OVERSHOOT] = GPU_RG32UI,
-    [TARGET_OUTLINES] = GPU_RGBA16F,     [TARGET_STROKES] = GPU_DEPTH32F,
+static const gpu_format formats[TEXEL_FORMAT_COUNT] = {
+    [TEXEL_R8] = GPU_R8, [TEXEL_RGBA16F] = GPU_RGBA16F, [TEXEL_RGBA32F] = GPU_RGBA32F, [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F,
 };
+
+const target_row *target_row_of(const figure_state *s, target t)
+{
+    return t < TARGET_COUNT ? &target_rows[t] : &s->own_targets[t - TARGET_COUNT];
+}
+
+gpu_texture *frame_acquire_sized(frame *f, target t, int width, int height)
+{
+    return gpu_target_acquire(f->g, width, height, formats[target_rows[t].format]);
+}
 
 gpu_texture *frame_acquire(frame *f, target t)
 {
-    return gpu_target_acquire(f->g, f->width, f->height, formats[t]);
+    return frame_acquire_sized(f, t, f->width, f->height);
 }
 
-bool target_is_coarse(target t)
+static void size_apart(const frame *f, int out[2])
 {
-    return t == TARGET_TRACES || t == TARGET_TRACES_ROW || t == TARGET_UNCERTAINTY || t == TARGET_DIRECTION;
+    out[0] = (f->width + DIRECTION_APART - 1) / DIRECTION_APART;
+    out[1] = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
 }
 
-void coarse_size(const frame *f, const figure_state *s, target t, int out[2])
+static void size_in_cells(const frame *f, const figure_state *s, int out[2])
 {
-    if (t == TARGET_DIRECTION) {
-        out[0] = (f->width + DIRECTION_APART - 1) / DIRECTION_APART;
-        out[1] = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
-        return;
-    }
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
     float cell = use->technique->perturbs->cell(use->values);
     /* One more, so that every pixel lies between two texels. */
@@ -215,13 +213,22 @@ void coarse_size(const frame *f, const figure_state *s, target t, int out[2])
     out[1] = (int)ceilf((float)f->height / cell) + 1;
 }
 
+void target_size(const frame *f, const figure_state *s, target_scale scale, int out[2])
+{
+    out[0] = f->width;
+    out[1] = f->height;
+    if (scale == SCALE_APART)
+        size_apart(f, out);
+    else if (scale == SCALE_CELL)
+        size_in_cells(f, s, out);
+}
+
 gpu_texture *frame_acquire_for(frame *f, const figure_state *s, target t)
 {
-    if (!target_is_coarse(t))
-        return frame_acquire(f, t);
+    const target_row *row = target_row_of(s, t);
     int size[2];
-    coarse_size(f, s, t, size);
-    return gpu_target_acquire(f->g, size[0], size[1], formats[t]);
+    target_size(f, s, row->scale, size);
+    return gpu_target_acquire(f->g, size[0], size[1], formats[row->format]);
 }
 
 gpu_texture *target_of(const frame *f, const figure_state *s, target t)
@@ -327,26 +334,15 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
 {
     target reads[2 * PASS_READS_MAX];
     int count = union_of_reads(a, b, reads);
-    for (int i = 0; i < count; i++)
-        if (target_of(f, s, reads[i]))
-            target_declare(prelude, reads[i]);
-    for (int i = 0; i < count; i++)
-        if (reads[i] == TARGET_DASH && s->targets[TARGET_DASH])
-            text_append(prelude, "#define HAS_DASHES\n");
-        else if (reads[i] == TARGET_OVERSHOOT && s->targets[TARGET_OVERSHOOT])
-            text_append(prelude, "#define HAS_OVERSHOOT\n");
-        else if (reads[i] == TARGET_STROKES && s->targets[TARGET_STROKES])
-            text_append(prelude, "#define HAS_STROKES\n");
-    if (s->targets[TARGET_EDGE_BEFORE])
-        text_append(prelude, "#define MAP_OF_BEFORE\n");
-    if (s->targets[TARGET_NEARER])
-        text_append(prelude, "#define HAS_NEARER\n");
-    if (s->targets[TARGET_SHADE])
-        text_append(prelude, "#define HAS_SHADE\n");
+    for (int i = 0; i < count; i++) {
+        if (!target_of(f, s, reads[i]))
+            continue;
+        target_declare(prelude, target_row_of(s, reads[i]));
+        if (reads[i] == TARGET_ID && f->plan->has_cut)
+            text_append(prelude, "#define HAS_CUT\n");
+    }
     if (s->shared)
         text_append(prelude, "#define SHARED_LAYERS\n");
-    if (s->targets[TARGET_ID])
-        text_append(prelude, "#define HAS_ID\n%s", f->plan->has_cut ? "#define HAS_CUT\n" : "");
 }
 
 void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
@@ -354,9 +350,7 @@ void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
     target reads[2 * PASS_READS_MAX];
     int count = union_of_reads(a, b, reads);
     for (int i = 0; i < count; i++) {
-        /* 16-bit float pictures may be filtered; whoever wants whole texels fetches them. */
-        bool linear = reads[i] == TARGET_SHADE || reads[i] == TARGET_EDGE || reads[i] == TARGET_FILTERED ||
-                      reads[i] == TARGET_UNCERTAINTY || reads[i] == TARGET_DIRECTION;
-        gpu_set_texture(f->g, target_name(reads[i]), target_of(f, s, reads[i]), linear);
+        const target_row *row = target_row_of(s, reads[i]);
+        gpu_set_texture(f->g, row->name, target_of(f, s, reads[i]), row->filtered);
     }
 }

@@ -25,7 +25,8 @@ size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*ou
 /* A figure while it is drawn: its pictures and its range of depth. */
 typedef struct figure_state {
     const figure *figure;
-    gpu_texture  *targets[TARGET_COUNT];
+    gpu_texture  *targets[TARGET_SLOTS];
+    const target_row *own_targets; /* rows of the technique whose passes run; NULL: it has none */
     gpu_texture  *geometry;  /* the normal-depth buffer as it was drawn; techniques may filter a copy of it */
     float        *edges;     /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
     int           pixels[4]; /* where the figure and its lines can be: scissor */
@@ -94,10 +95,12 @@ solid_view frame_solid_view(frame *f);
 
 /* --- bind.c: what programs of all passes get --- */
 gpu_texture         *frame_acquire(frame *f, target t);
-/* The same, coarse pictures in the size that the figure's perturbation asks for. */
+/* The same in another size than the page's: of SCALE_OWN. */
+gpu_texture         *frame_acquire_sized(frame *f, target t, int width, int height);
+/* Any picture, those of the technique that runs too, in the size that its row asks for. */
 gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
-bool                 target_is_coarse(target t);
-void                 coarse_size(const frame *f, const figure_state *s, target t, int out[2]);
+const target_row    *target_row_of(const figure_state *s, target t);
+void                 target_size(const frame *f, const figure_state *s, target_scale scale, int out[2]);
 /* What a technique works out once for all pixels. */
 void                 frame_set_numbers(frame *f, const technique_use *use);
 void                 frame_set_common(frame *f, const figure_state *s);
@@ -124,10 +127,10 @@ void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the pa
 void raster_shade_deferred(frame *f, figure_state *s);
 /* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
-/* The figure's parts with their surfaces moved outwards by some pixels, into TARGET_ENLARGED. */
-void raster_enlarged(frame *f, figure_state *s, float pixels);
-/* Its own parts' faces that look away, moved outwards across the page, into TARGET_STROKES. Solids have none: their surfaces are made for one place. */
-void raster_shell(frame *f, figure_state *s, float pixels);
+/* The figure's parts with their surfaces moved outwards by some pixels: x and y of the normal, part id, eye depth (0: empty). */
+void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
+/* The depth of its own parts' faces that look away, moved outwards across the page. Solids have none: their surfaces are made for one place. */
+void raster_shell(frame *f, figure_state *s, target into, float pixels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */

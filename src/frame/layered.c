@@ -53,16 +53,26 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
         memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
 }
 
+/* Does a figure keep such a picture from layer to layer, or lend it from the stack? */
+static bool is_kept(target t)
+{
+    return target_rows[t].owner >= OWNER_LINES && target_rows[t].owner <= OWNER_FIGURE;
+}
+
+static bool is_lent(target t)
+{
+    return target_rows[t].owner == OWNER_LAYER || target_rows[t].owner == OWNER_LAYERS;
+}
+
 /* Gives back what the figures keep of the lines in front. */
 static void forget_lines(frame *f, layer_stack *stack)
 {
-    static const target own[] = {TARGET_EDGE, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NEARER_ROW, TARGET_FILTERED, TARGET_GROUND, TARGET_DASH, TARGET_OVERSHOOT, TARGET_STROKES,
-                                 TARGET_OUTLINES, TARGET_ENLARGED, TARGET_TRACES, TARGET_TRACES_ROW, TARGET_UNCERTAINTY, TARGET_FIELD};
     for (int i = 0; i < stack->count; i++)
-        for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
-            gpu_target_release(f->g, stack->states[i].targets[own[k]]);
-            stack->states[i].targets[own[k]] = NULL;
-        }
+        for (target t = 0; t < TARGET_COUNT; t++)
+            if (is_kept(t)) {
+                gpu_target_release(f->g, stack->states[i].targets[t]);
+                stack->states[i].targets[t] = NULL;
+            }
 }
 
 static void stack_close(frame *f, layer_stack *stack)
@@ -94,7 +104,7 @@ static void forget_layer(frame *f, layer_stack *stack, bool keep_order)
         stack->targets[TARGET_DEPTH] = stack->targets[TARGET_ID] = NULL;
     }
     for (int t = 0; t < TARGET_COUNT; t++) {
-        if (t == TARGET_LAYERS)
+        if (target_rows[t].owner != OWNER_LAYER)
             continue;
         gpu_target_release(f->g, stack->targets[t]);
         stack->targets[t] = NULL;
@@ -167,14 +177,14 @@ static coverage count_coverage(frame *f, layer_stack *stack)
 
 static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
 {
-    static const target borrowed[] = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_SHADE, TARGET_DEPTH, TARGET_LAYERS};
     figure_state *s = &stack->states[which];
     const figure *visible = s->figure;
     if (layer > 0)
         s->figure = &stack->hidden[which];
     s->layer = layer;
-    for (size_t k = 0; k < sizeof borrowed / sizeof *borrowed; k++)
-        s->targets[borrowed[k]] = stack->targets[borrowed[k]];
+    for (target t = 0; t < TARGET_COUNT; t++)
+        if (is_lent(t))
+            s->targets[t] = stack->targets[t];
     if (!(stack->channels & CHANNEL_ID)) /* peeling has ids of its own need */
         s->targets[TARGET_ID] = NULL;
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
@@ -190,8 +200,9 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
     } else {
         passes_compose_lines(f, s, true);
     }
-    for (size_t k = 0; k < sizeof borrowed / sizeof *borrowed; k++)
-        s->targets[borrowed[k]] = NULL;
+    for (target t = 0; t < TARGET_COUNT; t++)
+        if (is_lent(t))
+            s->targets[t] = NULL;
     s->figure = visible;
 }
 
@@ -266,14 +277,14 @@ static void put_on_page(frame *f, const layer_stack *stack, const int band[4])
 {
     stopwatch w = watch_start(&f->profile);
     text prelude = {0};
-    target_declare(&prelude, TARGET_LAYERS);
+    target_declare(&prelude, &target_rows[TARGET_LAYERS]);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "compose/stack.frag", &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
         memcpy(pass.scissor, band, sizeof pass.scissor);
         gpu_pass_begin(f->g, &pass);
         gpu_use(f->g, p, (gpu_state){.blend = GPU_BLEND_OVER});
-        gpu_set_texture(f->g, target_name(TARGET_LAYERS), stack->targets[TARGET_LAYERS], false);
+        gpu_set_texture(f->g, target_rows[TARGET_LAYERS].name, stack->targets[TARGET_LAYERS], false);
         gpu_draw_screen(f->g);
     }
     watch_stop(&f->profile, w, "layers", "page");
@@ -284,8 +295,8 @@ static void clear_sum(frame *f, layer_stack *stack)
     stack->targets[TARGET_LAYERS] = frame_acquire(f, TARGET_LAYERS);
     if (gpu_failed(f->g))
         return;
-    gpu_pass pass = {.colours = {stack->targets[TARGET_LAYERS]}, .colour_count = 1, .clear = true,
-                     .clear_values = {{0, 0, 0, 1}}};
+    gpu_pass pass = {.colours = {stack->targets[TARGET_LAYERS]}, .colour_count = 1, .clear = true};
+    target_empty(&target_rows[TARGET_LAYERS], f->camera.far, pass.clear_values[0]);
     memcpy(pass.clear_box, stack->box, sizeof pass.clear_box);
     gpu_pass_begin(f->g, &pass);
 }

@@ -32,7 +32,10 @@ static void visibility_declare(text *prelude, const frame *f)
 void lights_declare(text *prelude, const frame *f)
 {
     light_list l = list_lights(f);
-    text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, f->shadow && scene_of(f)->shadows ? "#define HAS_SHADOW\n" : "");
+    bool shadows = f->shadow && scene_of(f)->shadows;
+    text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, shadows ? "#define LIT_WITH_SHADOW\n" : "");
+    if (shadows)
+        target_declare(prelude, &target_rows[TARGET_SHADOW]);
     visibility_declare(prelude, f);
 }
 

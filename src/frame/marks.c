@@ -59,6 +59,7 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     if (points)
         text_append(&prelude, "#define AS_POINTS\n");
+    target_declare(&prelude, &target_rows[TARGET_NORMAL_DEPTH]);
     gpu_program *p = set && set->marks ? program_of(f, GPU_FLOOR, source->vertex, source->fragment, &prelude) : NULL;
     if (p && !gpu_failed(f->g)) {
         gpu_pass pass = {.colours = {onto}, .colour_count = 1};
@@ -74,7 +75,7 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         gpu_set_float(f->g, "u_focal", (float)(f->camera.projection.m[5] * f->height / 2));
         gpu_set_float(f->g, "u_density", (float)set->density);
         gpu_set_float(f->g, "u_near_plane", (float)f->camera.near);
-        gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
+        gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
         mark_style style = {.diameter = 1};
         surface_mark_style(&style, surface);
         gpu_draw_first_marks(f->g, set->marks, count_to_draw(f, s->figure, set, &style));

@@ -23,7 +23,7 @@ static bool goes_onto_page(const pass *p)
 /* Is the pass drawn in the tiles that have something, instead of everywhere? */
 static bool in_boxes(const figure_state *s, const pass *p)
 {
-    return s->boxes && !target_is_coarse(p->writes) && p->writes != TARGET_FIELD;
+    return s->boxes && target_row_of(s, p->writes)->scale == SCALE_PAGE;
 }
 
 static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
@@ -53,18 +53,6 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
 }
 
-/* The value a written picture has outside the scissor: what later passes take for emptiness when they look beyond it. */
-static void set_outside(const figure_state *s, const pass *p, float out[4])
-{
-    const float background[4] = {0, 0, 1, (float)s->far}, filtered[4] = {0, 0, 1, 1}, paper[4] = {1, 1, 1, 1};
-    if (!p->zero_outside && p->writes == TARGET_EDGE)
-        memcpy(out, paper, sizeof paper);
-    else if (!p->zero_outside && p->writes == TARGET_NORMAL_DEPTH)
-        memcpy(out, background, sizeof background);
-    else if (p->writes == TARGET_FILTERED)
-        memcpy(out, filtered, sizeof filtered);
-}
-
 /* The value of a parameter that is a length. */
 static float length_of(kind_id id, const technique_use *use, const char *key)
 {
@@ -76,9 +64,9 @@ static void run_geometry(frame *f, figure_state *s, const pass *p, kind_id id, c
 {
     stopwatch w = watch_start(&f->profile);
     if (p->shell)
-        raster_shell(f, s, length_of(id, use, p->enlarge));
+        raster_shell(f, s, p->writes, length_of(id, use, p->enlarge));
     else if (p->enlarge)
-        raster_enlarged(f, s, length_of(id, use, p->enlarge));
+        raster_enlarged(f, s, p->writes, length_of(id, use, p->enlarge));
     else
         raster_inked(f, s, p);
     watch_stop(&f->profile, w, kinds[id]->name, p->name);
@@ -89,10 +77,11 @@ static void set_scissor(const frame *f, const figure_state *s, const pass *p, gp
 {
     memcpy(out->scissor, p->writes == TARGET_LAYERS ? s->band : s->pixels, sizeof out->scissor);
     memcpy(out->clear_box, s->around, sizeof out->clear_box);
-    if (!target_is_coarse(p->writes))
+    target_scale scale = target_row_of(s, p->writes)->scale;
+    if (scale == SCALE_PAGE)
         return;
-    int size[2], beyond = p->writes == TARGET_DIRECTION ? 0 : 1; /* a perturbation's have one texel more */
-    coarse_size(f, s, p->writes, size);
+    int size[2], beyond = scale == SCALE_CELL ? 1 : 0; /* a perturbation's have one texel more */
+    target_size(f, s, scale, size);
     const int limits[2] = {f->width, f->height};
     memset(out->clear_box, 0, sizeof out->clear_box);
     for (int k = 0; k < 2; k++) { /* lookups between texels need those beside */
@@ -112,7 +101,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     if (program && written && !gpu_failed(f->g)) {
         gpu_pass target = {.colours = {written}, .colour_count = 1, .depth = p->depth ? f->page_depth : NULL,
                            .clear = !page, .keep_depth = true};
-        set_outside(s, p, target.clear_values[0]);
+        target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
         set_scissor(f, s, p, &target);
         gpu_pass_begin(f->g, &target);
         gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth && !layers,
@@ -142,10 +131,24 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     watch_stop(&f->profile, w, group, p->name);
 }
 
-static void forget(frame *f, figure_state *s, target t)
+/* Gives back what lasts no longer. */
+static void forget(frame *f, figure_state *s, target_owner owner)
 {
-    gpu_target_release(f->g, s->targets[t]);
-    s->targets[t] = NULL;
+    for (int t = 0; t < TARGET_COUNT; t++)
+        if (target_rows[t].owner == owner) {
+            gpu_target_release(f->g, s->targets[t]);
+            s->targets[t] = NULL;
+        }
+}
+
+/* What the technique kept for itself while its passes ran. */
+static void forget_own(frame *f, figure_state *s)
+{
+    for (int t = TARGET_COUNT; t < TARGET_SLOTS; t++) {
+        gpu_target_release(f->g, s->targets[t]);
+        s->targets[t] = NULL;
+    }
+    s->own_targets = NULL;
 }
 
 /* Where a pass has anything to do: the box around all that is drawn. */
@@ -201,7 +204,7 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
                       .perspective = !f->camera.orthographic};
     for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
         in.values[i] = read_floats(f, s, p->reads[i], box);
-    gpu_texture *written = frame_acquire(f, p->writes);
+    gpu_texture *written = frame_acquire_for(f, s, p->writes);
     void *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
     if (out && s->targets[p->writes])
         gpu_read_box(f->g, s->targets[p->writes], box, out);
@@ -226,10 +229,9 @@ static bool is_due(const frame *f, const pass *p, bool before)
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
 {
     const technique *t = use->technique;
-    if (id == KIND_LINES) { /* each line technique has dashes of its own, or none */
-        forget(f, s, TARGET_DASH);
-        forget(f, s, TARGET_STROKES);
-    }
+    if (id == KIND_LINES)
+        forget(f, s, OWNER_LINES);
+    s->own_targets = t->targets;
     pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
     const technique_use *lines = rule_inked_lines(s->figure->rule);
@@ -258,6 +260,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
             for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
                 run_pass(f, s, p, &params, kinds[id]->name, k);
     }
+    forget_own(f, s);
 }
 
 /* Takes what a line technique found into the picture before the next one looks. */
@@ -281,9 +284,9 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
 {
     const rule *r = s->figure->rule;
     if (id == KIND_LINES)
-        forget(f, s, TARGET_OVERSHOOT);
+        forget(f, s, OWNER_ALL_LINES);
     if (id == KIND_LINES && !f->maps && rule_merged_detection(r)) {
-        forget(f, s, TARGET_DASH);
+        forget(f, s, OWNER_LINES);
         return;
     }
     for (size_t i = 0; i < r->use_counts[id]; i++) {

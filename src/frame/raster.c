@@ -162,7 +162,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const char *
     if (f->mirror)
         text_append(&prelude, "#define CLIPPED\n");
     if (s->targets[TARGET_REFLECTION])
-        text_append(&prelude, "#define HAS_REFLECTION\n");
+        target_declare(&prelude, &target_rows[TARGET_REFLECTION]);
     char path[320] = "layer/raster.frag";
     if (job->at.shade >= 0) {
         lights_declare(&prelude, f);
@@ -222,7 +222,7 @@ static void set_pass(frame *f, const raster_job *job, const figure_state *s, int
     if (f->mirror)
         gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
     if (s->targets[TARGET_REFLECTION])
-        gpu_set_texture(f->g, "t_reflection", s->targets[TARGET_REFLECTION], false);
+        gpu_set_texture(f->g, target_rows[TARGET_REFLECTION].name, s->targets[TARGET_REFLECTION], target_rows[TARGET_REFLECTION].filtered);
 }
 
 static gpu_state state_of(const raster_job *job)
@@ -505,28 +505,28 @@ static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
     mem_free(wanted);
 }
 
-/* Adds a channel to the geometry pass; background is depth "far", normal to the viewer, id 0, and no colour. */
-static int add_output(frame *f, gpu_texture *targets[TARGET_COUNT], gpu_pass *pass, target t, const float clear[4])
+/* Adds a channel to the geometry pass. */
+static int add_output(frame *f, gpu_texture **targets, gpu_pass *pass, target t, double far)
 {
     targets[t] = frame_acquire(f, t);
-    memcpy(pass->clear_values[pass->colour_count], clear, 4 * sizeof(float));
+    target_empty(&target_rows[t], far, pass->clear_values[pass->colour_count]);
     pass->colours[pass->colour_count] = targets[t];
     return pass->colour_count++;
 }
 
 /* The pictures for these channels, cleared to emptiness, with a depth buffer. */
-static outputs open_outputs(frame *f, unsigned channels, gpu_texture *targets[TARGET_COUNT], gpu_pass *pass, double far)
+static outputs open_outputs(frame *f, unsigned channels, gpu_texture **targets, gpu_pass *pass, double far)
 {
     outputs o = no_outputs;
     pass->clear = true;
     if (channels & CHANNEL_NORMAL_DEPTH)
-        o.normal_depth = add_output(f, targets, pass, TARGET_NORMAL_DEPTH, (float[]){0, 0, 1, (float)far});
+        o.normal_depth = add_output(f, targets, pass, TARGET_NORMAL_DEPTH, far);
     if (channels & CHANNEL_ID)
-        o.id = add_output(f, targets, pass, TARGET_ID, (float[]){0, 0, 0, 0});
+        o.id = add_output(f, targets, pass, TARGET_ID, far);
     if (channels & CHANNEL_ALBEDO)
-        o.albedo = add_output(f, targets, pass, TARGET_ALBEDO, (float[]){1, 1, 1, 0});
+        o.albedo = add_output(f, targets, pass, TARGET_ALBEDO, far);
     if (channels & CHANNEL_SHADE)
-        o.shade = add_output(f, targets, pass, TARGET_SHADE, (float[]){0, 0, 0, 0});
+        o.shade = add_output(f, targets, pass, TARGET_SHADE, far);
     pass->depth = targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
     return o;
 }
@@ -545,12 +545,12 @@ void raster_figure(frame *f, figure_state *s)
     watch_stop(&f->profile, w, "", "geometry");
 }
 
-void raster_enlarged(frame *f, figure_state *s, float pixels)
+void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
 {
     gpu_pass pass = {.clear = true, .colour_count = 1};
     gpu_texture *depth = frame_acquire(f, TARGET_DEPTH);
-    gpu_target_release(f->g, s->targets[TARGET_ENLARGED]);
-    pass.colours[0] = s->targets[TARGET_ENLARGED] = frame_acquire(f, TARGET_ENLARGED);
+    gpu_target_release(f->g, s->targets[into]);
+    pass.colours[0] = s->targets[into] = frame_acquire_for(f, s, into);
     pass.depth = depth;
     if (!gpu_failed(f->g)) {
         /* The clip planes hug the model; the enlarged one comes nearer and goes farther. */
@@ -564,16 +564,19 @@ void raster_enlarged(frame *f, figure_state *s, float pixels)
     gpu_target_release(f->g, depth);
 }
 
-void raster_shell(frame *f, figure_state *s, float pixels)
+void raster_shell(frame *f, figure_state *s, target into, float pixels)
 {
-    gpu_target_release(f->g, s->targets[TARGET_STROKES]);
-    gpu_pass pass = {.clear = true, .depth = s->targets[TARGET_STROKES] = frame_acquire(f, TARGET_STROKES)};
+    gpu_target_release(f->g, s->targets[into]);
+    gpu_pass pass = {.clear = true, .depth = s->targets[into] = frame_acquire_for(f, s, into)};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
     if (!gpu_failed(f->g)) {
         draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = no_outputs, .enlarge = pixels, .shell = true});
     }
 }
+
+/* What shading from the G-buffer reads. */
+static const pass shading = {.reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION}, .writes = TARGET_SHADE};
 
 void raster_shade_deferred(frame *f, figure_state *s)
 {
@@ -584,14 +587,9 @@ void raster_shade_deferred(frame *f, figure_state *s)
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     used_textures_declare(&prelude, surface, &s->figure->textures->surface);
     text_append(&prelude, "#define SHADED_LATER\n");
-    if (s->targets[TARGET_DIRECTION]) {
-        text_append(&prelude, "#define HAS_DIRECTION\n");
-        target_declare(&prelude, TARGET_DIRECTION);
-    }
+    reads_declare(&prelude, f, s, &shading, NULL);
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
-    if (f->plan->has_cut)
-        text_append(&prelude, "#define HAS_CUT\n");
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {
@@ -604,11 +602,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
         used_textures_set(f->g, surface, &s->figure->textures->surface);
         frame_set_numbers(f, surface);
-        gpu_set_texture(f->g, "t_normal_depth", s->targets[TARGET_NORMAL_DEPTH], false);
-        gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
-        gpu_set_texture(f->g, "t_albedo", s->targets[TARGET_ALBEDO], false);
-        if (s->targets[TARGET_DIRECTION])
-            gpu_set_texture(f->g, "t_direction", s->targets[TARGET_DIRECTION], true);
+        reads_set(f, s, &shading, NULL);
         gpu_draw_screen(f->g);
     }
     watch_stop(&f->profile, w, "", "deferred shading");

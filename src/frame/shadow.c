@@ -102,7 +102,7 @@ void shadow_draw(frame *f)
     light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
     light.width = light.height = side_of(f, !read && v->shadow_softness > 0);
     light.maps = NULL;
-    gpu_texture *depth = gpu_target_acquire(f->g, light.width, light.height, GPU_DEPTH32F);
+    gpu_texture *depth = frame_acquire_sized(f, TARGET_SHADOW, light.width, light.height);
     light.page_depth = depth; /* what solids are gathered in must be as large */
     if (!gpu_failed(f->g))
         raster_depth(&light, depth);

@@ -34,7 +34,8 @@ static void open_maps(frame *f, figure_state *s)
         gpu_target_release(f->g, s->targets[written[i]]);
         s->targets[written[i]] = frame_acquire(f, written[i]);
     }
-    gpu_pass target = {.colours = {s->targets[TARGET_EDGE]}, .colour_count = 1, .depth = s->targets[TARGET_STROKES], .clear = true, .clear_values = {{1, 1, 1, 1}}};
+    gpu_pass target = {.colours = {s->targets[TARGET_EDGE]}, .colour_count = 1, .depth = s->targets[TARGET_STROKES], .clear = true};
+    target_empty(&target_rows[TARGET_EDGE], s->far, target.clear_values[0]);
     memcpy(target.clear_box, s->around, sizeof target.clear_box);
     memcpy(target.scissor, s->pixels, sizeof target.scissor);
     if (!gpu_failed(f->g))

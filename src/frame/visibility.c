@@ -48,6 +48,8 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
     int width = gpu_texture_width(depth), height = gpu_texture_height(depth);
     text prelude = {0};
     text_append(&prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", v->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
+    if (shadow_is_soft(f))
+        target_declare(&prelude, &target_rows[TARGET_SHADOW]);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
@@ -64,7 +66,8 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
 
 static void blur(frame *f, gpu_texture *from, gpu_texture *to, gpu_texture *normals, bool upwards)
 {
-    gpu_program *p = gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "light/visibility_blur.frag", "");
+    text prelude = {0};
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility_blur.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
     gpu_pass_begin(f->g, &(gpu_pass){.colours = {to}, .colour_count = 1});

@@ -130,8 +130,15 @@ static void source_release(source *s)
     text_release(&s->body);
 }
 
+/* The one of a '+'-joined list that has main(). */
+static const char *main_file(const char *list)
+{
+    const char *last = strrchr(list, '+');
+    return last ? last + 1 : list;
+}
+
 /* Turns "0:12(3): error: …" and "ERROR: 0:12: …" into "src/FILE:12: error: …". */
-static void explain(gpu *g, const source *s, const char *log)
+static void explain(gpu *g, const source *s, const char *path, const char *log)
 {
     const char *at = strncmp(log, "ERROR: ", 7) == 0 ? log + 7 : log;
     char *behind;
@@ -140,7 +147,7 @@ static void explain(gpu *g, const source *s, const char *log)
         long line = strtol(behind + 1, &behind, 10);
         gpu_fail(g, LMN_GL, "src/%s:%ld: %s", s->files[file], line, behind);
     } else {
-        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", s->file_count ? s->files[0] : "?", log);
+        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", main_file(path), log);
     }
 }
 
@@ -160,7 +167,7 @@ static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *pat
         if (!good) {
             char log[1024] = "";
             glGetShaderInfoLog(shader, sizeof log, NULL, log);
-            explain(g, &s, log);
+            explain(g, &s, path, log);
             glDeleteShader(shader);
             shader = 0;
         }
@@ -183,7 +190,7 @@ static GLuint link_program(gpu *g, GLuint vertex, GLuint fragment, const char *p
         return program;
     char log[1024] = "";
     glGetProgramInfoLog(program, sizeof log, NULL, log);
-    gpu_fail(g, LMN_GL, "src/%s: the driver cannot link the program: %s", path, log);
+    gpu_fail(g, LMN_GL, "src/%s: the driver cannot link the program: %s", main_file(path), log);
     glDeleteProgram(program);
     return 0;
 }

@@ -4,13 +4,6 @@
 #include "light/cut.glsl"
 #endif
 
-uniform sampler2D  t_normal_depth;
-uniform usampler2D t_id;
-uniform sampler2D  t_albedo;
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 layout(location = 0) out vec4 out_shade;
 
 vec4 shade_of(ivec2 pixel, uvec2 id)

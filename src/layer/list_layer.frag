@@ -3,7 +3,6 @@ layout(std430, binding = 1) readonly buffer nodes_block { uvec4 nodes[]; };
 
 uniform usampler2D t_nodes;
 uniform int u_slot;
-uniform float u_far;
 #ifdef AT_NORMAL_DEPTH
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif

@@ -15,16 +15,12 @@ layout(location = 8) in vec4 a_patch; /* src/scene/lapped.h */
 out vec4 v_patch;
 #endif
 
-uniform mat4 u_model_view;
-uniform mat3 u_normal_matrix;
-uniform mat4 u_projection;
 #ifdef CUT_FACE
 uniform float u_nearer; /* in clip space */
 #endif
 #ifdef ENLARGED
 /* Seed 000, section 6.7, "enlarging the geometry": as wide on the page at any distance. */
 uniform float u_enlarge; /* length at distance 1 */
-uniform float u_perspective;
 #endif
 
 #ifdef LAYERED

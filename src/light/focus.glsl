@@ -1,9 +1,5 @@
 /* Depth focus: the share of its ink that a place keeps. Seed 004, section 5 (figures 16 and 21), which has no formula; row P22. */
 uniform vec4 u_focus; /* share that is lost at most, depth that is looked at, 1 / range, 0; eye depths */
-#ifndef WINDOW_DEPTH_DECLARED
-#define WINDOW_DEPTH_DECLARED
-uniform vec4 u_window_depth; /* of the projection: what makes window depth of eye depth */
-#endif
 
 float in_focus(float eye_depth)
 {

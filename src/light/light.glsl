@@ -5,9 +5,7 @@
 uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
 uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 
-#ifdef HAS_SHADOW
 #include "light/shadow.glsl"
-#endif
 #if defined(HAS_SOFT_SHADOW) || defined(HAS_OCCLUSION)
 #include "light/arrived.glsl"
 #endif
@@ -25,7 +23,7 @@ float unshadowed(surface_point p)
 #if defined(HAS_SOFT_SHADOW)
     arrived_light arrived = light_at(p);
     return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
-#elif defined(HAS_SHADOW)
+#elif defined(LIT_WITH_SHADOW)
     return lit_share(p.eye, p.normal, towards_light(0, p.eye));
 #else
     return 1.0;

@@ -1,5 +1,3 @@
-#include "light/view.glsl"
-
 /* What a surface technique knows about the place it colours. All vectors in eye space; colours linear. */
 struct surface_point {
     vec3 eye;     /* position */
@@ -23,7 +21,6 @@ uniform float u_patch_radius;
 vec2 s_uv;
 vec2 s_uv_unique;
 #endif
-
 
 /* Unit vector from the place to the viewer. */
 vec3 towards_viewer(vec3 eye)

@@ -1,7 +1,5 @@
-/* How much of the key light reaches a place: its depth as the light sees it against what is nearest there. */
-#ifndef SHADOW_DECLARED
-uniform sampler2D t_shadow;      /* depth from the light */
-#endif
+/* How much of the key light reaches a place: its depth as the light sees it against what is nearest there. Nothing where there is no shadow map. */
+#ifdef HAS_SHADOW
 uniform mat4 u_shadow_from_eye;  /* to 0 … 1 in all three */
 uniform vec2 u_shadow_texel;     /* side of a texel: of the map, and in eye space */
 
@@ -25,3 +23,4 @@ float lit_share(vec3 eye, vec3 normal, vec3 light)
     vec4 lit = step(vec4(at.z), nearest);
     return mix(mix(lit.x, lit.y, share.x), mix(lit.z, lit.w, share.x), share.y);
 }
+#endif

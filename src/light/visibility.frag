@@ -38,7 +38,6 @@ vec3 normal_at(ivec2 pixel, float own, vec3 eye)
 }
 
 #ifdef HAS_SOFT_SHADOW
-uniform sampler2D t_shadow;
 uniform mat4  u_shadow_from_eye;
 uniform vec2  u_shadow_texel;   /* side of a texel: of the map, and in eye space */
 uniform float u_shadow_depth;   /* what the map's depth 0 … 1 is in eye space */

@@ -1,5 +1,4 @@
 /* Places of the small picture of what light arrives; light/visibility.frag says what it holds. */
-#include "light/view.glsl"
 
 uniform vec2 u_pixel; /* of the small picture: its sides at depth 1, or for parallel rays */
 

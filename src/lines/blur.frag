@@ -1,6 +1,4 @@
 /* Gaussian blur, across in the first round and up in the second. */
-uniform vec2 u_size;
-uniform int  u_iteration;
 layout(location = 0) out vec4 out_0;
 
 void main()

@@ -2,12 +2,6 @@
  * screen space on any plane. */
 #include "lines/halo_reach.glsl"
 
-uniform float u_near; /* of the figure, eye depth */
-uniform float u_far;
-uniform float u_perspective;
-uniform vec2  u_unproject;
-uniform vec4  u_window_depth; /* of the projection: what makes window depth of eye depth */
-
 /* Ink of less than this is shading; see lines.c. */
 const float LINE_INK = 0.15;
 /* A step that separates objects, as a share of the figure's depth range; and what rounding can add up to. */

@@ -1,5 +1,4 @@
 /* Lengths that the passes of haloed lines share. */
-uniform vec2 u_texel;
 
 /* How far from an outline's pixel its own ink goes, and farther lines are taken away: growing makes both wider afterwards. */
 float own_reach()

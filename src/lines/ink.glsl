@@ -1,9 +1,5 @@
 /* Ink of the edge map at a pixel, premultiplied. Seed 000, section 4.4: intensities blend between line and surface colour, each
  * class with a colour of its own. */
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 
 /* Integer places are the centres of pixels; a perturbation looks in between. */
 vec4 edge_at(vec2 place)
@@ -27,7 +23,7 @@ vec4 edge_at(vec2 place)
 /* Share of the lines' ink that dashes leave. */
 float dash_at(vec2 place)
 {
-#ifdef HAS_DASHES
+#ifdef HAS_DASH
     return texelFetch(t_dash, clamp(ivec2(floor(place + 0.5)), ivec2(0), ivec2(u_size) - 1), 0).r;
 #else
     return 1.0;

@@ -74,6 +74,13 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
     }
 }
 
+const target_row lines_targets[LINES_TARGET_COUNT] = {
+    {"t_outlines", TEXEL_RGBA16F},
+    {"t_nearer_row", TEXEL_RGBA16F},
+    {"t_filtered", TEXEL_RGBA16F, .filtered = true, .empty = {0, 0, 1, 1}},
+    {"t_gradient", TEXEL_RGBA16F},
+};
+
 static const technique *const techniques[] = {
     &lines_discontinuity, &lines_four_tap, &lines_sobel, &lines_saito, &lines_saito_normalised, &lines_denormal,
     &lines_id,            &lines_colour,   &lines_shadow, &lines_shell, &lines_strokes,

@@ -37,6 +37,15 @@ enum { LINES_GROW_FROM = 2 };
     {.name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,           \
      .repeat = 2, .when = "contrast>1"}
 
+/* Pictures that line techniques keep for themselves, rows of lines_targets. */
+#define LINES_OUTLINES TARGET_OWN(0)   /* r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
+#define LINES_NEARER_ROW TARGET_OWN(1) /* how near the nearest outline is across */
+#define LINES_FILTERED TARGET_OWN(2)   /* normal and normalised depth, which may be sampled with a filter */
+#define LINES_GRADIENT TARGET_OWN(3)   /* r = first-order, g = second-order difference of depth */
+#define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT
+enum { LINES_TARGET_COUNT = 4 };
+extern const target_row lines_targets[LINES_TARGET_COUNT];
+
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they grow: thin ones are
  * traced best, and dashes know where lines end. */
 #define LINES_PASSES_BEFORE                                                                                           \
@@ -48,11 +57,11 @@ enum { LINES_GROW_FROM = 2 };
     {.name = "overshoot ink", .shader = "lines/edge/overshoot.frag", .reads = {TARGET_EDGE, TARGET_OVERSHOOT},        \
      .writes = TARGET_EDGE, .when = "overshoot", .stylised = true},                                                   \
     {.name = "halo outlines", .shader = "lines/halo_outline.frag", .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH}, \
-     .writes = TARGET_OUTLINES, .when = "halo", .stylised = true, .zero_outside = true},                              \
-    {.name = "halo across", .shader = "lines/halo_row.frag", .reads = {TARGET_OUTLINES}, .writes = TARGET_NEARER_ROW, \
-     .when = "halo", .stylised = true, .zero_outside = true},                                                         \
+     .writes = LINES_OUTLINES, .when = "halo", .stylised = true},                                                   \
+    {.name = "halo across", .shader = "lines/halo_row.frag", .reads = {LINES_OUTLINES}, .writes = LINES_NEARER_ROW, \
+     .when = "halo", .stylised = true},                                                                              \
     {.name = "halo", .shader = "lines/halo.frag",                                                                     \
-     .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, TARGET_OUTLINES, TARGET_NEARER_ROW, TARGET_OVERSHOOT}, \
+     .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW, TARGET_OVERSHOOT}, \
      .writes = TARGET_EDGE, .when = "halo", .stylised = true},                                                        \
     {.name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",        \
      .stylised = true},                                                                                               \

@@ -1,12 +1,4 @@
 /* The field of uncertainty at a pixel, out of its coarse picture. */
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
-uniform float u_cell;  /* side of a texel, pixels */
-uniform vec2  u_grid;  /* texels */
-uniform float u_reach; /* largest displacement, pixels */
-uniform uint  u_seed;
 
 /* Shrinks displacements towards the page's border so that none leaves it. */
 float border_share(ivec2 pixel)

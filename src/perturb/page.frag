@@ -1,6 +1,4 @@
 /* The field that stays on the sheet. */
-uniform float u_cell;
-uniform uint  u_seed;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 2.6
 #include "perturb/noise.glsl"

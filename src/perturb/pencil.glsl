@@ -1,8 +1,4 @@
 /* Where copies of a line are looked up, and what their inks add up to. Seed 004, equations 4 and 5 and section 2.3. */
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 
 #define LINE_COPIES (DARK + LIGHT)
 #define JOINS_INK

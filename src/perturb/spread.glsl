@@ -1,5 +1,4 @@
 /* Sum of the texels on a line through this one, farther ones with less weight. */
-uniform vec2 u_grid; /* texels of the picture */
 const int   SPREAD_REACH = 8; /* texels; uncertainty.c counts on them */
 const float SPREAD_FALLOFF = 0.6; /* of the weight's logarithm, a texel: what is nearest counts, smoothed over a few texels */
 

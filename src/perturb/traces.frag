@@ -3,14 +3,6 @@
  * Seed 000, section 6.7: noise as a function of a property of the surface. */
 #include "light/point.glsl"
 
-uniform vec2  u_size;
-uniform vec2  u_texel;
-uniform float u_cell;
-uniform uint  u_seed;
-uniform float u_empty; /* depth where nothing is drawn */
-uniform mat4  u_world_from_eye;
-uniform int   u_only_part;
-uniform sampler2D t_part_frames;
 layout(location = 0) out vec4 out_0;
 #define NOISE_GAIN 3.0
 #include "perturb/noise.glsl"

@@ -133,14 +133,25 @@ static const perturbation perturbs = {
     .places = "perturb/uncertainty.glsl", .active = is_active, .reach = reach_of, .cell = cell_of, .seed = seed_of, .map = &map,
 };
 
+/* The figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty). */
+#define ENLARGED TARGET_OWN(0)
+/* Uncertainty of the surfaces, times how sure it is; a: how sure. And on the way to the next. */
+#define TRACES TARGET_OWN(1)
+#define TRACES_ROW TARGET_OWN(2)
+static const target_row targets[] = {
+    {"t_enlarged", TEXEL_RGBA32F},
+    {"t_traces", TEXEL_RGBA32F, SCALE_CELL},
+    {"t_traces_row", TEXEL_RGBA32F, SCALE_CELL},
+};
+
 static const pass passes[] = {
     {.name = "noise", .shader = "perturb/page.frag", .writes = TARGET_UNCERTAINTY, .when = "lock=screen"},
-    {.name = "enlarged", .geometry = true, .enlarge = "enlarge", .writes = TARGET_ENLARGED, .when = "lock=object&outward=enlarged"},
-    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ENLARGED}, .writes = TARGET_TRACES,
+    {.name = "enlarged", .geometry = true, .enlarge = "enlarge", .writes = ENLARGED, .when = "lock=object&outward=enlarged"},
+    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, ENLARGED}, .writes = TRACES,
      .when = "lock=object"},
-    {.name = "spread across", .shader = "perturb/spread_row.frag", .reads = {TARGET_TRACES}, .writes = TARGET_TRACES_ROW,
+    {.name = "spread across", .shader = "perturb/spread_row.frag", .reads = {TRACES}, .writes = TRACES_ROW,
      .when = "lock=object&outward=continuous"},
-    {.name = "spread", .shader = "perturb/spread.frag", .reads = {TARGET_TRACES, TARGET_TRACES_ROW}, .writes = TARGET_UNCERTAINTY,
+    {.name = "spread", .shader = "perturb/spread.frag", .reads = {TRACES, TRACES_ROW}, .writes = TARGET_UNCERTAINTY,
      .when = "lock=object"},
 };
 
@@ -149,5 +160,5 @@ const technique perturb_uncertainty = {
     .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty),
     .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), .perturbs = &perturbs,
+    .passes = passes, .pass_count = PARAM_COUNT(passes), .targets = targets, .target_count = PARAM_COUNT(targets), .perturbs = &perturbs,
 };

@@ -5,37 +5,20 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const target_names[TARGET_COUNT] = {
-    [TARGET_NONE] = "",
-    [TARGET_NORMAL_DEPTH] = "t_normal_depth", [TARGET_ID] = "t_id",                   [TARGET_ALBEDO] = "t_albedo",
-    [TARGET_SHADE] = "t_shade",               [TARGET_DEPTH] = "t_depth",             [TARGET_FILTERED] = "t_filtered",
-    [TARGET_EDGE] = "t_edge",                 [TARGET_EDGE_BEFORE] = "t_edge_before", [TARGET_NEARER_ROW] = "t_nearer_row",
-    [TARGET_NEARER] = "t_nearer",             [TARGET_DASH] = "t_dash",               [TARGET_GROUND] = "t_ground",
-    [TARGET_ENLARGED] = "t_enlarged",         [TARGET_TRACES] = "t_traces",           [TARGET_TRACES_ROW] = "t_traces_row",
-    [TARGET_UNCERTAINTY] = "t_uncertainty",   [TARGET_FIELD] = "t_field",             [TARGET_REFLECTION] = "t_reflection",
-    [TARGET_SHADOW] = "t_shadow",             [TARGET_DIRECTION] = "t_direction",
-    [TARGET_LAYERS] = "t_layers",             [TARGET_PAGE] = "t_page",              [TARGET_OVERSHOOT] = "t_overshoot",
-    [TARGET_OUTLINES] = "t_outlines",         [TARGET_STROKES] = "t_strokes",
-};
-
-const char *target_name(target t)
-{
-    return target_names[t];
-}
-
-void target_declare(text *prelude, target t)
-{
-    text_append(prelude, "uniform %s %s;\n", t == TARGET_ID || t == TARGET_OVERSHOOT ? "usampler2D" : "sampler2D", target_names[t]);
-    if (t == TARGET_SHADOW)
-        text_append(prelude, "#define SHADOW_DECLARED\n");
-}
-
 void uniforms_capitals(const char *key, char out[CAPITALS_SIZE])
 {
     size_t i = 0;
     for (; key[i] && i + 1 < CAPITALS_SIZE; i++)
         out[i] = (char)toupper((unsigned char)key[i]);
     out[i] = '\0';
+}
+
+void target_declare(text *prelude, const target_row *row)
+{
+    char capitals[CAPITALS_SIZE];
+    uniforms_capitals(row->name + 2, capitals);
+    text_append(prelude, "#ifndef HAS_%s\n#define HAS_%s\nuniform %s %s;\n#endif\n", capitals, capitals,
+                row->format == TEXEL_RG32UI ? "usampler2D" : "sampler2D", row->name);
 }
 
 static void declare_variant(text *prelude, const param *p, const void *values)

@@ -25,8 +25,7 @@ void uniforms_capitals(const char *key, char out[CAPITALS_SIZE]);
 /* A linear colour from the sRGB of a parameter, premultiplied by nothing. */
 void uniforms_linear(colour c, float out[4]);
 
-/* Sampler name of a target ("t_edge") and its declaration. */
-const char *target_name(target t);
-void        target_declare(text *prelude, target t);
+/* Declares a picture that is there: its sampler t_NAME, and HAS_NAME. Once is enough, more does no harm. */
+void target_declare(text *prelude, const target_row *row);
 
 #endif

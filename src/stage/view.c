@@ -53,11 +53,29 @@ static void declare_id_bits(text *prelude)
                          "#define SURFACE_OPERAND %uu\n", SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK, SURFACE_OPERAND);
 }
 
+/* Before each shader: what frame_set_common and its kin set. */
+#define FRAME_UNIFORMS "technique/frame.glsl"
+
+/* The program of two stages, behind the frame's uniforms. */
+static gpu_program *with_frame(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude)
+{
+    text stages[2] = {{0}};
+    text_append(&stages[0], FRAME_UNIFORMS "+%s", vertex);
+    text_append(&stages[1], FRAME_UNIFORMS "+%s", fragment);
+    char *first = text_take(&stages[0]), *second = text_take(&stages[1]);
+    gpu_program *p = first && second ? gpu_program_of(g, dialect, first, second, prelude) : NULL;
+    if (!first || !second)
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+    mem_free(first);
+    mem_free(second);
+    return p;
+}
+
 gpu_program *view_program(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     declare_id_bits(prelude);
     char *finished = text_take(prelude);
-    gpu_program *p = finished ? gpu_program_of(g, dialect, vertex, fragment, finished) : NULL;
+    gpu_program *p = finished ? with_frame(g, dialect, vertex, fragment, finished) : NULL;
     if (!finished)
         gpu_fail(g, LMN_MEMORY, "out of memory");
     mem_free(finished);

@@ -2,12 +2,7 @@
  * same numbers. Seed 001, sections 5.1 and 5.4, with what is printed wrong there mended; rows EX-01 to EX-08. */
 #include "surface/halftone/tone.glsl"
 
-uniform mat4  u_model_view;
-uniform mat3  u_normal_matrix;
-uniform mat4  u_projection;
-uniform vec2  u_size;   /* of the picture, pixels */
 uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
-uniform sampler2D t_normal_depth;
 
 const vec4 NOWHERE = vec4(0.0, 0.0, 2.0, 1.0); /* outside of what is drawn: the cheapest way to leave a mark out (EX-13) */
 

@@ -1,6 +1,4 @@
 /* A piece of a stroke. Whether it is hidden is asked at its axis, so that its own surface does not cut its sides off (EX-14). */
-uniform sampler2D t_normal_depth;
-uniform float u_perspective;
 
 flat in vec4 v_ends, v_depths, v_run;
 flat in float v_ink;

@@ -1,13 +1,5 @@
 #include "light/light.glsl"
 
-#ifdef HAS_REFLECTION
-uniform sampler2D t_reflection;
-#endif
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
-
 /* The mirrored scene was drawn with the same projection, so it is looked up at the same pixel. A mirror seen in a mirror, or
  * through, reflects nothing. */
 vec4 surface_colour(surface_point p)

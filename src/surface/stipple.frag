@@ -1,5 +1,4 @@
 /* A dot, cut off where another surface begins. */
-uniform sampler2D t_normal_depth;
 
 flat in vec4 v_dot;
 flat in vec2 v_at;

@@ -6,48 +6,17 @@
 #include "base/mip_chain.h"
 #include "base/text.h"
 #include "technique/param.h"
+#include "technique/target.h"
 
 /* What the geometry pass can write for each pixel. Only what some technique needs is drawn. */
 typedef enum channel {
-    CHANNEL_NORMAL_DEPTH = 1 << 0, /* RGBA32F: eye-space unit normal, linear eye depth (−z, file units) */
-    CHANNEL_ID           = 1 << 1, /* RG32UI: part id (0 = empty), surface id */
-    CHANNEL_ALBEDO       = 1 << 2, /* RGBA16F: unlit surface colour, linear */
-    CHANNEL_SHADE        = 1 << 3  /* RGBA16F: the surface technique's colour, linear, premultiplied */
+    CHANNEL_NORMAL_DEPTH = 1 << 0, /* eye-space unit normal, linear eye depth (−z, file units) */
+    CHANNEL_ID           = 1 << 1, /* part id (0 = empty), surface id */
+    CHANNEL_ALBEDO       = 1 << 2, /* unlit surface colour, linear */
+    CHANNEL_SHADE        = 1 << 3  /* the surface technique's colour, linear, premultiplied */
 } channel;
 
-/* Pictures that passes read and write. A pass reads them as sampler `t_NAME`. */
-typedef enum target {
-    TARGET_NONE = 0,
-    TARGET_NORMAL_DEPTH,
-    TARGET_ID,
-    TARGET_ALBEDO,
-    TARGET_SHADE,
-    TARGET_DEPTH,      /* the figure's depth buffer */
-    TARGET_FILTERED,   /* RGBA16F: normal and normalised depth, which may be sampled with a filter */
-    TARGET_EDGE,       /* RGBA16F edge map: R profile, G inner, B combined, A id; 1 = no edge */
-    TARGET_EDGE_BEFORE, /* edge map of the layer in front of this one */
-    TARGET_NEARER_ROW, /* RGBA16F: on the way to the next */
-    TARGET_NEARER,     /* RGBA16F, of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up */
-    TARGET_OUTLINES,   /* RGBA16F: r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
-    TARGET_DASH,       /* R8: share of the lines' ink that stays; not there = all */
-    TARGET_OVERSHOOT,  /* RG32UI, where lines run on beyond their ends: bits of ink (profile, inner, id, 8 each); eye depth as a float */
-    TARGET_STROKES,    /* depth of what strokes were drawn, or of the shell, 1 elsewhere */
-    TARGET_GROUND,     /* RGBA16F: picture behind the lines, blurred */
-    TARGET_ENLARGED,   /* RGBA32F: the figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty) */
-    TARGET_TRACES,     /* coarse RGBA32F: uncertainty of the surfaces, times how sure it is; a: how sure */
-    TARGET_TRACES_ROW, /* coarse RGBA32F: on the way to the next */
-    TARGET_UNCERTAINTY, /* coarse RGBA16F: r, g = offset of lookups, −1 … 1; b = a third value of the same kind */
-    TARGET_FIELD,      /* RGBA32F: uncertainty at each pixel, for maps */
-    TARGET_REFLECTION, /* RGBA16F: the scene as the figure's mirror plane sees it */
-    TARGET_SHADOW,     /* depth from the first light; there when the look has shadows or a pass reads it */
-    TARGET_DIRECTION,  /* RGBA16F, one texel for DIRECTION_APART² pixels, of the one in its middle: the way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure;
-                        * a: 1 where there is a surface */
-    TARGET_LAYERS,     /* RGBA16F: what the layers so far add up to, front to back; alpha is what still shows through */
-    TARGET_PAGE,       /* the sheet: colour RGBA16F premultiplied, with its depth */
-    TARGET_COUNT
-} target;
-
-enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96, DIRECTION_APART = 4 };
+enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 
@@ -65,7 +34,7 @@ typedef struct pass_pixels {
 typedef struct pass {
     const char *name;
     const char *shader; /* path below src/, for example "lines/edge/four_tap.frag" */
-    target      reads[PASS_READS_MAX];
+    target      reads[PASS_READS_MAX]; /* as samplers t_NAME, with HAS_NAME, in capitals, where the picture is there */
     target      writes;
     pass_blend  blend;
     bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
@@ -80,7 +49,6 @@ typedef struct pass {
     const char *when;   /* condition on the technique's parameters; NULL: always */
     bool        prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded with its geometry */
     bool        stylised; /* left out in maps, which show what was detected */
-    bool        zero_outside; /* what it writes is 0 where the figure cannot be, instead of the picture's usual emptiness */
 } pass;
 
 /* What a technique wants meshes to have besides positions and normals. */
@@ -137,6 +105,8 @@ typedef struct technique {
     const char  *detect;      /* line techniques of one pass: GLSL file with `void detect_edges()` */
     const pass  *passes;
     size_t       pass_count;
+    const target_row *targets; /* pictures that these passes alone write and read: TARGET_OWN(0) and up */
+    size_t       target_count; /* at most OWN_TARGETS_MAX */
     const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
                                * technique's `detect` itself instead of reading its map; NULL: never */
     const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */

@@ -334,11 +334,63 @@ static void test_same_again(void **state)
         file_data_release(&files[i]);
 }
 
+/* What the table of formats says, the reference says in the same words. */
+static void see_documented(const char *page, const lmn_format_info *f)
+{
+    static const char *const cells[] = {"", " yes"};
+    char line[256];
+    snprintf(line, sizeof line, "| `%s` | %s |%s |%s |%s |%s |\n", f->ending, f->doc, cells[f->ground], cells[f->pictures], cells[f->areas], cells[f->title]);
+    if (!strstr(page, line))
+        fail_msg("docs/reference/draw.md lacks: %s", line);
+}
+
+/* A sheet can be written in each format of vectors and in no other; the format's own name is not refused with another one's. */
+static void see_written(const lmn_sheet *s, const lmn_format_info *f)
+{
+    char       path[] = "/tmp/limner-sheet-XXXXXX";
+    lmn_error  error = {0};
+    uint64_t   bytes = 0;
+    int        descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    lmn_status status = lmn_sheet_write(s, path, f->ending, &bytes, &error);
+    assert_int_equal(status, f->vectors ? LMN_OK : LMN_USAGE);
+    assert_true(!f->vectors || bytes > 100);
+    assert_int_equal(lmn_sheet_write(s, path, f->ending + 1, &bytes, &error), status);
+    unlink(path);
+}
+
+static void test_formats(void **state)
+{
+    lmn_sheet_desc  desc = LMN_SHEET_DESC_INIT;
+    lmn_sheet      *s = draw(*state, &desc);
+    file_data       page;
+    lmn_format_info f, other;
+    lmn_error       error = {0};
+    size_t          count = 0, vectors = 0;
+    assert_int_equal(file_load(&page, LIMNER_SOURCE_DIR "/docs/reference/draw.md", &error), LMN_OK);
+    for (; lmn_format_at(count, &f); count++) {
+        assert_true(f.ending[0] == '.' && f.ending[1] && f.doc[strlen(f.doc) - 1] == '.');
+        for (size_t i = 0; i < count && lmn_format_at(i, &other); i++)
+            assert_string_not_equal(other.ending, f.ending);
+        vectors += f.vectors;
+        see_documented((const char *)page.data, &f);
+        see_written(s, &f);
+    }
+    assert_true(count > vectors && vectors > 0);
+    assert_false(lmn_format_at(count, &f));
+    assert_false(lmn_format_at(0, NULL));
+    assert_int_equal(lmn_sheet_write(s, "x.drawing", NULL, NULL, &error), LMN_USAGE);
+    assert_string_equal(error.hint, "sheets are written as .svg, .pdf or .dxf");
+    file_data_release(&page);
+    lmn_sheet_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused),   cmocka_unit_test(test_report),        cmocka_unit_test(test_scale),      cmocka_unit_test(test_without_renderer),
-        cmocka_unit_test(test_not_drawn),
+        cmocka_unit_test(test_not_drawn), cmocka_unit_test(test_formats),
         cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_same_again),
     };
     return cmocka_run_group_tests_name("sheet_api", tests, set_up, tear_down);

@@ -20,5 +20,5 @@ const technique lines_colour = {
     .name = "colour", .doc = "Sobel gradient of the unlit colour.",
     .example = "{\"lines\": {\"operator\": \"colour\"}, \"surface\": \"textured\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(colour_edges),
-    .channels = CHANNEL_ALBEDO, .detect = "lines/edge/colour.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_ALBEDO, .detect = "lines/edge/colour.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
 };

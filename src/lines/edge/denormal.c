@@ -16,8 +16,8 @@ static const param params[] = {
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "filterable", .shader = "lines/edge/filterable.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_FILTERED},
-    {.name = "edges", .shader = "lines/edge/denormal.frag", .reads = {TARGET_FILTERED}, .writes = TARGET_EDGE},
+    {.name = "filterable", .shader = "lines/edge/filterable.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = LINES_FILTERED},
+    {.name = "edges", .shader = "lines/edge/denormal.frag", .reads = {LINES_FILTERED}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
@@ -25,5 +25,5 @@ const technique lines_denormal = {
     .name = "denormal", .doc = "One filtered sample of the normals: where it is short, normals differ.",
     .example = "{\"lines\": {\"operator\": \"denormal\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(denormal),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
 };

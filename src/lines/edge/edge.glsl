@@ -5,14 +5,6 @@ vec4 out_edge;
 layout(location = 0) out vec4 out_edge;
 #endif
 
-uniform float u_near; /* of the figure, eye depth */
-uniform float u_far;
-uniform vec2  u_texel; /* 1 / u_size */
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
-
 /* Normalised linear depth, 0 at the figure's near plane, 1 at its far plane and where nothing is. */
 float normalised(float depth)
 {

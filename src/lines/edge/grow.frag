@@ -1,5 +1,4 @@
 /* Lines wider than two pixels: the darkest map value within the disc that is missing to the width, its rim antialiased. */
-uniform vec2 u_size;
 layout(location = 0) out vec4 out_0;
 
 void main()

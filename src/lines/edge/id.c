@@ -22,5 +22,5 @@ const technique lines_id = {
     .name = "id", .doc = "Lines wherever the part changes, whatever its depth.",
     .example = "{\"lines\": {\"operator\": \"id\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(id_edges),
-    .channels = CHANNEL_ID, .detect = "lines/edge/id.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .channels = CHANNEL_ID, .detect = "lines/edge/id.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
 };

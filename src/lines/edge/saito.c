@@ -24,7 +24,7 @@ const technique lines_saito = {
     .name = "saito", .doc = "First-order profiles and second-order inner lines of the depth buffer.",
     .example = "{\"lines\": {\"operator\": \"saito\", \"gain\": 8}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(saito),
-    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/saito.glsl", .passes = plain_passes, .pass_count = PARAM_COUNT(plain_passes),
+    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/saito.glsl", .passes = plain_passes, .pass_count = PARAM_COUNT(plain_passes), LINES_TARGETS,
 };
 
 typedef struct saito_normalised {
@@ -41,9 +41,8 @@ static const param normalised_params[] = {
 
 static const pass normalised_passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "gradient", .shader = "lines/edge/saito_gradient.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE,
-     .zero_outside = true},
-    {.name = "normalise", .shader = "lines/edge/saito_normalise.frag", .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
+    {.name = "gradient", .shader = "lines/edge/saito_gradient.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = LINES_GRADIENT},
+    {.name = "normalise", .shader = "lines/edge/saito_normalise.frag", .reads = {LINES_GRADIENT, TARGET_NORMAL_DEPTH}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
@@ -51,5 +50,5 @@ const technique lines_saito_normalised = {
     .name = "saito-normalised", .doc = "Gradients normalised by their neighbourhood's extremes, against large jumps and double lines.",
     .example = "{\"lines\": {\"operator\": \"saito-normalised\"}, \"surface\": \"flat\"}",
     .params = normalised_params, .param_count = PARAM_COUNT(normalised_params), .params_size = sizeof(saito_normalised),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = normalised_passes, .pass_count = PARAM_COUNT(normalised_passes),
+    .channels = CHANNEL_NORMAL_DEPTH, .passes = normalised_passes, .pass_count = PARAM_COUNT(normalised_passes), LINES_TARGETS,
 };

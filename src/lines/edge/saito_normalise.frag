@@ -9,11 +9,11 @@ void main()
     float least = 1e9, greatest = 0.0;
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {
-            float g = texel(t_edge, pixel + ivec2(x, y)).r;
+            float g = texel(t_gradient, pixel + ivec2(x, y)).r;
             least = min(least, g);
             greatest = max(greatest, g);
         }
-    vec2 own = texel(t_edge, pixel).rg;
+    vec2 own = texel(t_gradient, pixel).rg;
     float rise = greatest - least;
     float profile = greatest > u_line_floor ? (rise / greatest) * min(greatest / u_line_jump, 1.0) : 0.0;
     float inner = greatest >= u_line_jump ? 0.0 : clamp(abs(own.y) / max(u_line_jump, 1e-6), 0.0, 1.0);

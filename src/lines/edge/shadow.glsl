@@ -1,7 +1,6 @@
 /* Ink where the light on one surface differs across the pixel. Both ends must face the light and lie in one surface: where a shape turns away from the light,
  * or another begins, is a matter for other operators. */
 #include "lines/edge/edge.glsl"
-#include "light/view.glsl"
 #include "light/shadow.glsl"
 
 uniform vec3 u_shadow_light; /* towards the light, eye space */
@@ -27,6 +26,7 @@ float facing_light(shadow_place p)
     return -p.eye.z < u_far ? smoothstep(0.05, 0.2, dot(p.normal, u_shadow_light)) : 0.0;
 }
 
+#ifdef HAS_SHADOW
 /* The light at a pixel beside, UNKNOWN where that is another surface. */
 float lit_beside(shadow_place own, vec2 off)
 {
@@ -41,11 +41,12 @@ float step_between(float a, float b)
 {
     return a == UNKNOWN || b == UNKNOWN ? 0.0 : abs(a - b);
 }
+#endif
 
 void detect_edges()
 {
     float ink = 0.0;
-#ifdef SHADOW_DECLARED
+#ifdef HAS_SHADOW
     shadow_place own = place_at(ivec2(gl_FragCoord.xy));
     float off = 0.5 * min(u_line_width, 2.0);
     ink = max(step_between(lit_beside(own, vec2(-off, off)), lit_beside(own, vec2(off, -off))),

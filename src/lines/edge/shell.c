@@ -16,5 +16,5 @@ static const pass passes[] = {
 const technique lines_shell = {
     .name = "shell", .doc = "Outlines outside closed bodies, wholly beside them, from their far faces moved outwards; at hard edges they are narrower and have gaps at corners.",
     .example = "{\"lines\": {\"operator\": \"shell\", \"width\": 4}, \"surface\": \"flat\"}",
-    .params_size = sizeof(shell), .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .params_size = sizeof(shell), .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
 };

@@ -1,6 +1,5 @@
 /* Ink where the shell is nearer than the figure; of several layers the first has it. */
 #include "lines/edge/edge.glsl"
-uniform int u_layer;
 
 /* Of window depth: what two ways to the same place may differ by. */
 const float ROUNDING = 2e-6;

@@ -1,5 +1,4 @@
 /* The quad around a piece of a line on the page, with room for its round ends and its soft rim. Row EX-12. */
-uniform vec2 u_size;
 flat out vec4 v_begin; /* pixels from the bottom left; window depth; half the width */
 flat out vec4 v_end;
 flat out vec4 v_look;  /* opacity at both ends; channel of the edge map; bits */

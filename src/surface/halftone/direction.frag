@@ -8,10 +8,6 @@
 #include "light/point.glsl"
 #include "surface/halftone/part_frame.glsl"
 #include "surface/halftone/form.glsl"
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 layout(location = 0) out vec4 out_0;
 
 const int STEP = 2; /* pixels to the neighbours that are asked */

@@ -1,9 +1,4 @@
 /* Directions averaged with those around on the same surface, farther in the second round; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
-uniform int u_iteration;
 layout(location = 0) out vec4 out_0;
 
 ivec2 pixel_of(ivec2 texel)

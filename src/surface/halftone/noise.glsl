@@ -1,8 +1,6 @@
 /* Noise on the plane that strokes lie on, as fine on the page at any zoom. Seed 001, sections 6.7.6 and 6.8. */
 #include "gpu/hash.glsl"
 
-uniform float u_time; /* seconds */
-
 /* A positive number as a power of two times 1 … 2, from its bits: logarithms and powers are what takes longest on software drivers. */
 float power_below(float x)
 {

@@ -1,6 +1,4 @@
 /* The frame of what a part moves with, for what comes after the geometry: from eye space to it. src/draw/upload.h */
-uniform sampler2D t_part_frames;
-uniform mat4 u_world_from_eye;
 
 struct part_frame {
     mat3 turn;   /* from world axes */

@@ -6,10 +6,6 @@
 #ifdef SHADED_LATER
 #include "surface/halftone/part_frame.glsl"
 #else
-uniform vec4 u_rest[3]; /* rows: from eye space to the part's frame */
-uniform vec3 u_upward;
-uniform vec3 u_level; /* an axis of the part */
-
 mat3 turn_to_rest()
 {
     return transpose(mat3(u_rest[0].xyz, u_rest[1].xyz, u_rest[2].xyz));
@@ -35,11 +31,6 @@ struct rest_place {
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
 const float STEEPEST = 0.2;
-
-#ifndef SIZE_DECLARED
-#define SIZE_DECLARED
-uniform vec2 u_size;
-#endif
 
 /* The tangent plane's point moves by this much in eye space when the ray moves by a pixel in one direction (x or y of `pixel`). */
 vec3 rate_of(vec3 eye, vec3 normal, vec3 pixel)
@@ -275,7 +266,6 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 /* Straight strokes on the page, in patches: a few ways on the page, each place has the two that come nearest to the way its surface bends. They move with the middle of
  * the model. Seed 004, section 4.4 (after Kim 2008), whose weights are interchanged; rows P23, P24. */
 #define PLANES 2
-uniform vec2 u_anchor; /* where the middle of the model is on the page, pixels */
 float s_between = 0.0; /* ways are turned by this share of the angle between two; repetitions differ in it */
 
 int planes_at(rest_place r, vec2 turn)

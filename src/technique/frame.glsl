@@ -1,0 +1,42 @@
+/* The frame's uniforms. They stand before every shader of a technique, which uses what it needs and declares none of them; what is not used costs nothing. Lights,
+ * shadows, cut faces and depth focus have theirs beside their functions: light/light.glsl, light/shadow.glsl, light/cut.glsl, light/focus.glsl. Parameters
+ * (u_KEY), pictures (t_NAME, HAS_NAME) and made textures are declared from their rows. */
+
+/* The page, and how the viewer's rays run. */
+uniform vec2  u_size;         /* of the page, pixels */
+uniform vec2  u_texel;        /* 1 / u_size */
+uniform float u_perspective;  /* 1, or 0 for parallel rays */
+uniform vec2  u_unproject;    /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
+uniform vec4  u_window_depth; /* of the projection: what makes window depth of eye depth */
+uniform vec2  u_anchor;       /* where the middle of the model is on the page, pixels */
+uniform float u_time;         /* seconds */
+
+/* The figure that is drawn, and the pass. */
+uniform float u_near;         /* of the figure, eye depth */
+uniform float u_far;
+uniform int   u_figure;       /* its number among those that share their layers */
+uniform int   u_layer;        /* 0 = visible */
+uniform float u_rear;         /* opacity of layers behind an uncovered focus, 1 before */
+uniform float u_forward;      /* window depth by which the figure is in front of what it lies on */
+uniform bool  u_filled;       /* with the fill, not only the lines */
+uniform int   u_iteration;    /* of a pass that is repeated, from 0 */
+
+/* From eye space to where the part is when nothing has moved. With the geometry: of its part. Later, from t_part_frames: surface/halftone/part_frame.glsl. */
+uniform vec4  u_rest[3];      /* rows */
+uniform vec3  u_upward;       /* which way is up there */
+uniform vec3  u_level;        /* an axis of the part that is not */
+uniform mat4  u_world_from_eye;
+uniform sampler2D t_part_frames;
+uniform int   u_only_part;    /* the part where there are no ids */
+
+/* A figure's perturbation. */
+uniform float u_cell;         /* side of a texel of coarse pictures, pixels */
+uniform vec2  u_grid;         /* their size, texels */
+uniform float u_reach;        /* largest displacement, pixels */
+uniform uint  u_seed;
+uniform float u_empty;        /* eye depth where nothing is drawn */
+
+/* Where geometry or marks are drawn. */
+uniform mat4  u_model_view;
+uniform mat3  u_normal_matrix;
+uniform mat4  u_projection;
