@@ -22,7 +22,7 @@ uniform mat4 u_projection;
 uniform float u_nearer; /* in clip space */
 #endif
 #ifdef ENLARGED
-/* Seed 000, section 6.7, "enlarging the geometry": as wide on the page at any distance. */
+/* Nienhaus 2005, section 6.7, "enlarging the geometry": as wide on the page at any distance. */
 uniform float u_enlarge; /* length at distance 1 */
 uniform float u_perspective;
 #endif

@@ -1,4 +1,4 @@
-/* Directions averaged with those around on the same surface, farther in the second round; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
+/* Directions averaged with those around on the same surface, farther in the second round; sure ones count for more. Müller, section 4.1, step 5, in the picture. */
 #ifndef SIZE_DECLARED
 #define SIZE_DECLARED
 uniform vec2 u_size;

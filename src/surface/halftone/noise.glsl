@@ -1,4 +1,4 @@
-/* Noise on the plane that strokes lie on, as fine on the page at any zoom. Seed 001, sections 6.7.6 and 6.8. */
+/* Noise on the plane that strokes lie on, as fine on the page at any zoom. Freudenberg 2003, sections 6.7.6 and 6.8. */
 #include "gpu/hash.glsl"
 
 uniform float u_time; /* seconds */
