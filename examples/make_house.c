@@ -1,6 +1,6 @@
 /* Writes the example model of a brick house: make_house OUT.glb FOLDER
  *
- * It shows what halftone screens are for (seed 001, figures 5.12 and 6.17 to 6.21). FOLDER, which is named as it stands beside OUT.glb, gets a
+ * It shows what halftone screens are for (Freudenberg 2003, figures 5.12 and 6.17 to 6.21). FOLDER, which is named as it stands beside OUT.glb, gets a
  * picture for each material and beside it the strokes that stand for it, and the indication map. Texture coordinates are metres over metres
  * a tile; the second set is unique. Metres, +y is up. */
 #include "house.h"

@@ -9,7 +9,7 @@
  *
  * On any error the scene is unchanged. Every function can fail with LMN_USAGE (a NULL, an id that is not there, a number that is not
  * finite or not in its range) and LMN_MEMORY; other errors are named. A scene is edited by one thread at a time and never while it is
- * drawn. No GL context needed. Seed 003, section 2; row K09. */
+ * drawn. No GL context needed. Nienhaus, Kirsch and Döllner 2006, section 2. */
 #ifndef LIMNER_SOLID_H
 #define LIMNER_SOLID_H
 

@@ -3,7 +3,7 @@
  * (.stx). docs/reference/strokes.md has the files.
  *
  * Every function can fail with LMN_USAGE (a NULL, a number that is not finite or not in its range) and LMN_MEMORY; other errors are named, and on
- * any error nothing has changed. Strokes are used by one thread at a time. No GL context needed. Seed 001, section 5.2; rows EX-17 to EX-24. */
+ * any error nothing has changed. Strokes are used by one thread at a time. No GL context needed. Freudenberg 2003, section 5.2. */
 #ifndef LIMNER_STROKES_H
 #define LIMNER_STROKES_H
 

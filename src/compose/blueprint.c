@@ -1,6 +1,6 @@
-/* blueprint: every layer's lines, and a tint that adds up, so that depth complexity shows. The seed takes the edge intensity for
+/* blueprint: every layer's lines, and a tint that adds up, so that depth complexity shows. Nienhaus takes the edge intensity for
  * alpha; literally that makes all areas opaque and hides every layer but one, so areas get a small alpha and lines a full one.
- * Seed 000, section 5.2; rows B02, B04, B12, B13. */
+ * Nienhaus 2005, section 5.2; rows B02, B04, B12, B13. */
 #include "compose/compose.h"
 
 typedef struct blueprint {

@@ -9,7 +9,7 @@ extern const kind kind_compose;
 extern const technique compose_opaque, compose_superimpose, compose_merged, compose_blueprint, compose_wire, compose_xray;
 
 /* How lines look that are behind something. First member of the parameters of every composition of layers; the first four are
- * read by src/draw, which gives them to the line techniques of hidden layers. */
+ * read by src/plan, which gives them to the line techniques of hidden layers. */
 typedef struct layer_style {
     colour hidden_colour;
     float  hidden_width, hidden_dash, hidden_gap;

@@ -1,5 +1,5 @@
 /* merged: edge detection inside the shading pass, without a full-screen pass; an explicit comparison with the first pass's depth
- * keeps hidden fragments out of it. Only for line techniques of one pass, others are superimposed. Seed 000, section 4.7; row E16. */
+ * keeps hidden fragments out of it. Only for line techniques of one pass, others are superimposed. Nienhaus 2005, section 4.7; row E16. */
 #include "compose/compose.h"
 
 static const pass passes[] = {

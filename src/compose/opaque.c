@@ -1,5 +1,5 @@
 /* opaque: the figure becomes a depth sprite: colour with true depth, so that figures and plain geometry occlude each other per
- * pixel. Lines outside the boundary take the depth of the surface they belong to. Seed 000, sections 3.7 and 4.7; rows E03, E08,
+ * pixel. Lines outside the boundary take the depth of the surface they belong to. Nienhaus 2005, sections 3.7 and 4.7; rows E03, E08,
  * E15, E20. */
 #include "compose/compose.h"
 

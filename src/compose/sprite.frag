@@ -31,7 +31,7 @@ float own_depth(ivec2 at)
 
 #ifdef PERTURBED
 /* Paper where the fill fell short of the outline, and under the grains that it leaves bare; not where a surface has none. What stands behind is
- * hidden by it. Seed 000, section 6.4. */
+ * hidden by it. Nienhaus 2005, section 6.4. */
 vec4 fallback_of(float alpha)
 {
     return vec4(u_perturb_fallback.rgb, 1.0) * (u_perturb_fallback.a * alpha);

@@ -1,5 +1,5 @@
-/* superimpose: the seed's third pass. The parts are drawn again and look the edge map up where they land, so outlines end at the
- * boundary. Seed 000, sections 4.4 and 4.5; row E08. */
+/* superimpose: the third pass of edge enhancement. The parts are drawn again and look the edge map up where they land, so outlines end at the
+ * boundary. Nienhaus 2005, sections 4.4 and 4.5; row E08. */
 #include "compose/compose.h"
 
 static const pass passes[] = {

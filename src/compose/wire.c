@@ -1,4 +1,4 @@
-/* wire: lines alone, by a threshold of the edge intensity: a wireframe of what matters, with the ground between. Seed 000,
+/* wire: lines alone, by a threshold of the edge intensity: a wireframe of what matters, with the ground between. Nienhaus 2005,
  * section 5.2 and figure 5-4b; row B06. */
 #include "compose/compose.h"
 
@@ -11,7 +11,7 @@ static const param params[] = {
     LAYER_STYLE_ROWS,
     PARAM_FLOAT_ROW(wire, threshold, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Ink below this share is left out."),
     PARAM_FLOAT_ROW(wire, softness, .def = 0, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE,
-                    .doc = "Width of a soft threshold; 0 leaves lines fully inked or out, as the seed does."),
+                    .doc = "Width of a soft threshold; 0 leaves lines fully inked or out, as Nienhaus (2005) does."),
 };
 
 static const pass passes[] = {

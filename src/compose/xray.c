@@ -1,5 +1,5 @@
 /* xray: every layer's own colour, transparent, with its lines: order-independent transparency with outlines. Equal to sorted 'over'
- * of the surfaces, whatever the order of drawing. Seed 000, section 5.3; rows B07, B08. */
+ * of the surfaces, whatever the order of drawing. Nienhaus 2005, section 5.3; rows B07, B08. */
 #include "compose/compose.h"
 
 typedef struct xray {

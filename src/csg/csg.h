@@ -1,5 +1,5 @@
 /* Image-based evaluation of solids: their trees as programs that shaders run, and the planes in which faces of several operands lie.
- * Seed 003, section 2; seed 000, section 5.6; rows K01–K04, C1–C6. */
+ * Nienhaus et al. 2006, section 2; Nienhaus 2005, section 5.6; rows K01–K04, C1–C6. */
 #ifndef LIMNER_CSG_CSG_H
 #define LIMNER_CSG_CSG_H
 

@@ -1,7 +1,7 @@
 /* Which fragments are surfaces of the solids: the pixel's list is walked from front to back, in rounds of the nearest few, and with each
  * fragment an operand is entered or left and the terms above it are counted. Where a whole tree's value changes, there is the surface.
  * Fragments at the same depth in one plane are one event: the state before and after them decides, so that flush unions have no
- * wall inside and flush cuts leave no skin. The one of them at which the whole changes, in the order of their keys, gives the surface. Roth 1982, per pixel; seed 003, 5.1; rows K02, K03, C3, C5, C6. */
+ * wall inside and flush cuts leave no skin. The one of them at which the whole changes, in the order of their keys, gives the surface. Roth 1982, per pixel; Nienhaus et al. 2006, 5.1; rows K02, K03, C3, C5, C6. */
 layout(std430, binding = 3) readonly buffer heads_block { uint heads[]; };
 layout(std430, binding = 4) readonly buffer nodes_block { uvec4 nodes[]; };
 layout(std430, binding = 6) readonly buffer program_block { uvec2 links[]; };

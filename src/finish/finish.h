@@ -8,7 +8,7 @@ extern const kind kind_finish;
 
 typedef enum sheet_motion { SHEET_FIXED, SHEET_FOLLOWING, SHEET_ZOOMING } sheet_motion;
 
-/* The parameters, read by src/draw when it lays out the page. */
+/* The parameters, read by src/frame when it lays out the page. */
 typedef struct sheet_values {
     colour  ground, ink;
     int32_t paper, motion, paper_seed;

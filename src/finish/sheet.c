@@ -1,4 +1,4 @@
-/* sheet: the page's ground, and the paper that what is drawn is rubbed onto. Notes: seed-pencil-city, section 3.6, P28. */
+/* sheet: the page's ground, and the paper that what is drawn is rubbed onto. Müller, section 2.3; row P28. */
 #include "finish/finish.h"
 
 #include <math.h>

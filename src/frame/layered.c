@@ -1,5 +1,5 @@
 /* Figures that are seen through: layer after layer, nearest first, each with its lines, put under those before. Several figures
- * share the layers, so that they interleave per pixel. Seed 000, chapter 5; rows B01–B13. */
+ * share the layers, so that they interleave per pixel. Nienhaus 2005, chapter 5; rows B01–B13. */
 #include "frame/frame_private.h"
 
 #include <string.h>
@@ -190,7 +190,7 @@ static void compose_figure(frame *f, layer_stack *stack, int which, int layer)
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
     if (s->targets[TARGET_SHADE])
         marks_draw(f, s, s->targets[TARGET_SHADE]);
-    /* One field for all layers: they move together, and their order stays. Seed 000, section 6.8. */
+    /* One field for all layers: they move together, and their order stays. Nienhaus 2005, section 6.8. */
     if (layer == 0 && (!f->maps || f->maps->whole))
         passes_run_kind(f, s, KIND_PERTURB);
     if (f->maps) {

@@ -1,4 +1,4 @@
-/* Mirrors: the scene once more as a plane shows it. Seed 000, section 4.6; row E14. */
+/* Mirrors: the scene once more as a plane shows it. Nienhaus 2005, section 4.6; row E14. */
 #include "frame/frame_private.h"
 
 #include <math.h>

@@ -617,7 +617,7 @@ void raster_direct(frame *f, figure_state *s)
     watch_stop(&f->profile, w, "", "geometry");
 }
 
-/* The seed's third pass: the parts once more, with the edge map projected on them. */
+/* The third pass of edge enhancement (Nienhaus 2005, section 4.4): the parts once more, with the edge map projected on them. */
 void raster_inked(frame *f, figure_state *s, const pass *inking)
 {
     gpu_pass onto = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};

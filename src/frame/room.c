@@ -44,7 +44,7 @@ static void add_format(room_pass *pass, gpu_format format, bool wanted)
         pass->formats[pass->count++] = format;
 }
 
-/* The channels as src/draw/raster.c has them, and fields of what perturbs. */
+/* The channels as src/frame/raster.c has them, and fields of what perturbs. */
 static void list_passes(room_pass out[PASSES], const plan *p, const room_wishes *w)
 {
     unsigned channels = 0;

@@ -1,4 +1,4 @@
-/* Marks: records drawn as quads. Each record is there once a corner, and an index buffer makes triangles of them (seed 001, section 5.4.1; row EX-29): on the
+/* Marks: records drawn as quads. Each record is there once a corner, and an index buffer makes triangles of them (Freudenberg 2003, section 5.4.1; row EX-29): on the
  * software driver instances of four corners take a quarter to a half longer. */
 #include "gpu/gpu_private.h"
 

@@ -1,4 +1,4 @@
-/* What graphite looks like on its own: how dark a lead gets, and the unevenness of what it leaves. Seed 004, sections 1 and 2.3; rows P10, P29, P32, P33. */
+/* What graphite looks like on its own: how dark a lead gets, and the unevenness of what it leaves. Müller, sections 1 and 2.3; rows P10, P29, P32, P33. */
 #ifndef LIMNER_HALFTONE_GRAPHITE_H
 #define LIMNER_HALFTONE_GRAPHITE_H
 

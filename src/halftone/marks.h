@@ -1,4 +1,4 @@
-/* Marks on surfaces: dots, strokes and polygons that lie on a mesh, each with priorities that decide where and when it is drawn. Seed 001, chapter 5 (explicit
+/* Marks on surfaces: dots, strokes and polygons that lie on a mesh, each with priorities that decide where and when it is drawn. Freudenberg 2003, chapter 5 (explicit
  * halftoning); rows EX-01 to EX-16 and EX-26 to EX-33. Needs no GPU.
  *
  *   a mesh ──► marks, once ──► thresholds from light and place, each frame ──► what is drawn of them: on the GPU, or here as a marks_page

@@ -1,4 +1,4 @@
-/* Which marks are drawn: thresholds from place and light. Seed 001, sections 5.1.1, 5.1.3 and 5.4.3 to 5.4.5, with what is printed wrong there mended: visible is what reaches both
+/* Which marks are drawn: thresholds from place and light. Freudenberg 2003, sections 5.1.1, 5.1.3 and 5.4.3 to 5.4.5, with what is printed wrong there mended: visible is what reaches both
  * thresholds (not what misses one), fades take the greater lack (not the smaller) over a ramp (not over all), and laws know what kind of mark they are for. */
 #include "halftone/marks.h"
 

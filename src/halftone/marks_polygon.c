@@ -1,4 +1,4 @@
-/* Polygons as marks: shapes between a source and a target (EX-15), and triangles that are cut once and shrink as if they had not been (EX-16). Seed 001, sections 5.1.8 and 5.3.3; what is
+/* Polygons as marks: shapes between a source and a target (EX-15), and triangles that are cut once and shrink as if they had not been (EX-16). Freudenberg 2003, sections 5.1.8 and 5.3.3; what is
  * printed there as length M1 Mp is M2 Mp, the angle is that of atan2, and a corner that goes is replaced by two points where both its neighbours stay. */
 #include "halftone/marks.h"
 

@@ -1,4 +1,4 @@
-/* Dots on a surface: many candidates, evenly shared out by area, of which those that crowd each other are taken away. Seed 001, section 5.4.7; rows EX-31, EX-32. */
+/* Dots on a surface: many candidates, evenly shared out by area, of which those that crowd each other are taken away. Freudenberg 2003, section 5.4.7; rows EX-31, EX-32. */
 #include "halftone/marks.h"
 
 #include <math.h>

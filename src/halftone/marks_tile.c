@@ -1,4 +1,4 @@
-/* Stroke textures on surfaces: copies of the strokes over all texture coordinates, cut at every triangle, lifted by barycentric coordinates. Seed 001, sections 5.3.1, 5.3.4 and 5.3.5; rows
+/* Stroke textures on surfaces: copies of the strokes over all texture coordinates, cut at every triangle, lifted by barycentric coordinates. Freudenberg 2003, sections 5.3.1, 5.3.4 and 5.3.5; rows
  * EX-26 to EX-28 and EX-33. A grid on texture coordinates finds what a triangle can have. */
 #include "halftone/marks.h"
 

@@ -1,5 +1,5 @@
 /* Strokes that follow a surface: from evenly spread places, each walks over the triangles in a plane of its own, so that it is straight where it is drawn and bends only as the surface does. For
- * meshes without texture coordinates, which the seed's explicit strokes need (section 5.3.2). */
+ * meshes without texture coordinates, which Freudenberg's explicit strokes need (2003, section 5.3.2). */
 #include "halftone/marks.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Papers as height fields that repeat without a seam, and what a pencil that is rubbed over them finds. Notes: seed-pencil-city, section 3.6, P28. */
+/* Papers as height fields that repeat without a seam, and what a pencil that is rubbed over them finds. Müller, section 2.3; row P28. */
 #ifndef LIMNER_HALFTONE_PAPER_H
 #define LIMNER_HALFTONE_PAPER_H
 

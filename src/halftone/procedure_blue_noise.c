@@ -1,4 +1,4 @@
-/* Blue noise by void and cluster (Ulichney 1993), in integers. Seed 001 names only "any generator of nested tones" (section 6.3.1). */
+/* Blue noise by void and cluster (Ulichney 1993), in integers. Freudenberg 2003 names only "any generator of nested tones" (section 6.3.1). */
 #include "halftone/screen_private.h"
 
 #include "base/memory.h"

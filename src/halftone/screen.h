@@ -1,5 +1,5 @@
 /* Halftone screens: textures whose grey is the light up to which ink stays, with mip levels that keep strokes as wide and as dense on the screen at any
- * distance. Seed 001, chapter 6; rows IM-01 to IM-14, IM-17, IM-18. Low values are ink of high priority, so that a screen looks like the drawing (IM-10): a
+ * distance. Freudenberg 2003, chapter 6; rows IM-01 to IM-14, IM-17, IM-18. Low values are ink of high priority, so that a screen looks like the drawing (IM-10): a
  * texel of value v is inked where light + v ≤ 1; 255 is never inked. */
 #ifndef LIMNER_HALFTONE_SCREEN_H
 #define LIMNER_HALFTONE_SCREEN_H

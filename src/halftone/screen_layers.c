@@ -1,4 +1,4 @@
-/* Screens that were painted, in layers: seed 001, section 6.3.2. */
+/* Screens that were painted, in layers: Freudenberg 2003, section 6.3.2. */
 #include "halftone/screen_private.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Stroke textures: strokes in the unit square, which repeats, each with two priorities and a layer. Seed 001, section 5.2; rows EX-17 to EX-24. */
+/* Stroke textures: strokes in the unit square, which repeats, each with two priorities and a layer. Freudenberg 2003, section 5.2; rows EX-17 to EX-24. */
 #ifndef LIMNER_HALFTONE_STROKES_H
 #define LIMNER_HALFTONE_STROKES_H
 
@@ -34,7 +34,7 @@ int32_t strokes_layer_count(const strokes *s); /* the largest layer + 1 */
 
 /* --- files --- */
 
-/* The seed's text: seven numbers a line, blanks between: u0 v0 u1 v1 light perspective layer. Empty lines and what follows '#' are ignored. `name` is for
+/* Freudenberg's text format: seven numbers a line, blanks between: u0 v0 u1 v1 light perspective layer. Empty lines and what follows '#' are ignored. `name` is for
  * messages, which have file and line. Errors: LMN_FORMAT (wrong count, not a number, not finite, a layer outside of 0 … 65535, coordinates beyond ±16), LMN_LIMIT
  * (a million strokes), LMN_MEMORY. No strokes at all is allowed. */
 lmn_status strokes_read(strokes *out, const char *name, const char *bytes, size_t size, lmn_error *error);

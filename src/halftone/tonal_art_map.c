@@ -45,7 +45,7 @@ typedef struct darkening {
     float      limit, opacity;
 } darkening;
 
-/* Each stroke takes its share of what is left, so that overlaps darken less and less (seed-pencil-city P32), and never past the limit. */
+/* Each stroke takes its share of what is left, so that overlaps darken less and less (Müller, section 3.2; row P32), and never past the limit. */
 static void darken(void *user, size_t index, float coverage)
 {
     darkening *d = user;

@@ -1,5 +1,5 @@
-/* Tonal art maps: strokes of a lighter tone are all in every darker one, and strokes of a coarser mip level in every finer one. Notes: seed-grossmann rows
- * 3 to 5, seed-pencil-city P16 to P20, P39; after Praun 2001. */
+/* Tonal art maps: strokes of a lighter tone are all in every darker one, and strokes of a coarser mip level in every finer one. Großmann 2011, section 3.2.3;
+ * Müller, section 3; rows Großmann 3 to 5, P16 to P20, P39; after Praun 2001. */
 #ifndef LIMNER_HALFTONE_TONAL_ART_MAP_H
 #define LIMNER_HALFTONE_TONAL_ART_MAP_H
 

@@ -1,4 +1,4 @@
-/* Where the strokes of a tonal art map go: into the widest gap (after Praun 2001), or one into each strip (seed-pencil-city, section 3.1). */
+/* Where the strokes of a tonal art map go: into the widest gap (after Praun 2001), or one into each strip (Müller, section 3.1). */
 #include "halftone/tonal_art_map_private.h"
 
 #include <math.h>
@@ -191,7 +191,7 @@ static size_t common_divisor(size_t a, size_t b)
 }
 
 /* As many strips as strokes are needed, one stroke into each, until the tone is there. Strips are taken in steps of the golden section, so that those that
- * are left over at the end lie apart. The seed's strips are of an empty picture; here there are strokes of lighter tones and coarser levels already, so
+ * are left over at the end lie apart. Müller's strips are of an empty picture; here there are strokes of lighter tones and coarser levels already, so
  * that each stroke takes the best of a few places in its strip. */
 bool tam_fill_strips(tam *t)
 {

@@ -1,5 +1,5 @@
 /* Inside the import folder: the syntax of OpenSCAD's evaluated files (.csg) as a tree. Nodes and values are kept in the order of
- * the text, so that all below one is the run up to its `after`. Seed 003, section 2. */
+ * the text, so that all below one is the run up to its `after`. Nienhaus et al. 2006, section 2. */
 #ifndef LIMNER_IMPORT_CSG_TREE_H
 #define LIMNER_IMPORT_CSG_TREE_H
 

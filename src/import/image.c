@@ -13,7 +13,7 @@
 
 static const char stroke_ending[] = ".stx";
 
-/* Seed 001, section 5.3.2: strokes lie beside the picture that showed where they go, under its name. *out stays NULL when there are none. */
+/* Freudenberg 2003, section 5.3.2: strokes lie beside the picture that showed where they go, under its name. *out stays NULL when there are none. */
 static lmn_status find_strokes(const import_job *job, const char *name, char **out, lmn_error *error)
 {
     const char *slash = strrchr(name, '/'), *dot = strrchr(name, '.');

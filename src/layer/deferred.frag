@@ -1,4 +1,4 @@
-/* Shades a figure from its G-buffer. Seed 000, section 3.6; row E04. */
+/* Shades a figure from its G-buffer. Nienhaus 2005, section 3.6; row E04. */
 #include "light/point.glsl"
 #ifdef HAS_CUT
 #include "light/cut.glsl"

@@ -1,4 +1,4 @@
-/* front: the visible surface only. Seed 000, sections 3.6 and 4.7; rows E04, E15, E18. */
+/* front: the visible surface only. Nienhaus 2005, sections 3.6 and 4.7; rows E04, E15, E18. */
 #include "layer/layer.h"
 
 static const char *const shading_names[] = {"forward", "deferred", NULL};

@@ -10,7 +10,7 @@ extern const technique layers_front, layers_peel;
 
 typedef enum layer_shading { SHADING_FORWARD, SHADING_DEFERRED } layer_shading;
 
-/* The parameters, read by src/draw when it plans the geometry pass. */
+/* The parameters, read by src/plan and src/frame when it plans the geometry pass. */
 typedef struct front_values {
     bool    complement;
     int32_t shading, evaluation;

@@ -1,4 +1,4 @@
-/* The light on a mesh, laid out by its texture coordinates. Seed 001, section 6.6.1; row IM-19. The surface technique says what light is. */
+/* The light on a mesh, laid out by its texture coordinates. Freudenberg 2003, section 6.6.1; row IM-19. The surface technique says what light is. */
 #include "light/point.glsl"
 #include "layer/material.glsl"
 

@@ -1,7 +1,7 @@
 /* peel: one surface behind the other, nearest first, by (depth, part id, front-facing first): none skipped, none twice. Coincident
  * surfaces of one part with the same facing count once. Two producers give the same layers: peeling draws the geometry once a
  * layer and leaves out what the layer before had; lists draw it once and keep every fragment in a list of its pixel. With a
- * focus, only as many layers are taken as uncover it (depth masking). Seed 000, sections 5.1, 5.2 and 5.4; rows B01–B05, B09, B10. */
+ * focus, only as many layers are taken as uncover it (depth masking). Nienhaus 2005, sections 5.1, 5.2 and 5.4; rows B01–B05, B09, B10. */
 #include "layer/layer.h"
 
 static const char *const producers[] = {"auto", "peeling", "lists", NULL};

@@ -19,7 +19,7 @@ out vec4 v_patch;
 uniform float u_nearer; /* in clip space */
 #endif
 #ifdef ENLARGED
-/* Seed 000, section 6.7, "enlarging the geometry": as wide on the page at any distance. */
+/* Nienhaus 2005, section 6.7, "enlarging the geometry": as wide on the page at any distance. */
 uniform float u_enlarge; /* length at distance 1 */
 #endif
 

@@ -10,7 +10,7 @@ enum { LIGHTS_MAX = 8 };
 
 typedef enum light_source { LIGHTS_STUDIO, LIGHTS_FILE } light_source;
 
-/* The parameters, read by src/draw when it sets the scene up. */
+/* The parameters, read by src/plan and src/frame when it sets the scene up. */
 typedef struct scene_values {
     direction light_direction;
     float     fill, crease_angle;

@@ -1,5 +1,5 @@
 /* Dashes as a draughtsman places them: ink where lines meet, at corners and at ends, and between them equal dashes. Goes past
- * seed 000, section 5.7, which has no dashed lines because edges of pictures have no identity; tracing gives them one. */
+ * Nienhaus 2005, section 5.7, which has no dashed lines because edges of pictures have no identity; tracing gives them one. */
 #include "lines/dash.h"
 
 #include <math.h>

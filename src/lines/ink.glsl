@@ -1,4 +1,4 @@
-/* Ink of the edge map at a pixel, premultiplied. Seed 000, section 4.4: intensities blend between line and surface colour, each
+/* Ink of the edge map at a pixel, premultiplied. Nienhaus 2005, section 4.4: intensities blend between line and surface colour, each
  * class with a colour of its own. */
 
 /* Integer places are the centres of pixels; a perturbation looks in between. */
@@ -66,7 +66,7 @@ vec4 ink_at(vec2 place)
     ivec2 pixel = ivec2(floor(place + 0.5));
 #endif
 #if CONTRAST == 1
-    /* Seed 001, section 8.6.1: the same contour once more in the second colour, moved; the first lies on top. */
+    /* Freudenberg 2003, section 8.6.1: the same contour once more in the second colour, moved; the first lies on top. */
     vec2 moved = place - floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5);
     ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #elif CONTRAST == 2

@@ -1,6 +1,6 @@
 /* Lines that run on, as a draughtsman's do who lifts the pencil behind the corner and not before it. A chain that is straight for long
  * enough before it meets others goes on in its own direction, and in space: where a surface lies in front of the line's course it stays
- * hidden, and outside the figure it has the depth that the edge itself would have there. Goes past seed 000, section 6, which
+ * hidden, and outside the figure it has the depth that the edge itself would have there. Goes past Nienhaus 2005, section 6, which
  * perturbs lines but cannot lengthen them: edges of pictures have no ends. */
 #include "lines/overshoot.h"
 

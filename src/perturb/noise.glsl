@@ -1,4 +1,4 @@
-/* Gradient noise (Perlin's): three independent values at once. Seed 000, section 6.2. */
+/* Gradient noise (Perlin's): three independent values at once. Nienhaus 2005, section 6.2. */
 #include "gpu/hash.glsl"
 
 vec3 fade_of(vec3 t)

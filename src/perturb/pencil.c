@@ -1,9 +1,9 @@
 /* pencil: lines drawn several times, as a hand restates them: fine dark copies, and coarse light ones like those of a first construction. Each copy looks the edge map
- * up along waves of its own; all of them in the one pass that composes the figure, a lookup a copy. Seed 004, section 2.3, equations 4 and 5, appendix B; rows P7 to
+ * up along waves of its own; all of them in the one pass that composes the figure, a lookup a copy. Müller, section 2.3, equations 4 and 5, appendix B; rows P7 to
  * P11, P29, P33, P34, P38, and hatching that runs past contours (P35).
  *
- * Other than the seed: copies sample the finished edge map instead of repeating the detection; both factors of an edge are clamped by the detection itself; amplitudes
- * are held back where waves would fold the picture (the seed's do so below 128 pixels); intensities are of displayed grey, as there, and become ink in linear light. */
+ * Other than Müller: copies sample the finished edge map instead of repeating the detection; both factors of an edge are clamped by the detection itself; amplitudes
+ * are held back where waves would fold the picture (Müller's do so below 128 pixels); intensities are of displayed grey, as there, and become ink in linear light. */
 #include <math.h>
 
 #include "halftone/graphite.h"

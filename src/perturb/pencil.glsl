@@ -1,4 +1,4 @@
-/* Where copies of a line are looked up, and what their inks add up to. Seed 004, equations 4 and 5 and section 2.3. */
+/* Where copies of a line are looked up, and what their inks add up to. Müller, equations 4 and 5 and section 2.3. */
 
 #define LINE_COPIES (DARK + LIGHT)
 #define JOINS_INK

@@ -12,7 +12,7 @@ void main()
     own = own * own.a * 0.5 + spread_along(t_traces_row, gl_FragCoord.xy, vec2(0.0, 1.0));
     out_0 = vec4(own.rgb / (own.a + 1e-9), 1.0);
 #else
-    /* Seed 000, section 6.7: outside the enlarged model there is no uncertainty. */
+    /* Nienhaus 2005, section 6.7: outside the enlarged model there is no uncertainty. */
     out_0 = vec4(own.rgb, 1.0);
 #endif
 }

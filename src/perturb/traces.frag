@@ -1,6 +1,6 @@
 /* What the surfaces behind a texel of the coarse picture say about uncertainty, and how sure that is: a surface close behind another one's
  * border leaves the say to the nearer one, so that its lines and what runs over them move together.
- * Seed 000, section 6.7: noise as a function of a property of the surface. */
+ * Nienhaus 2005, section 6.7: noise as a function of a property of the surface. */
 #include "light/point.glsl"
 
 layout(location = 0) out vec4 out_0;

@@ -1,11 +1,11 @@
 /* uncertainty: a continuous field of noise moves the places where lines, fill and depth of a figure are looked up, so that lines
  * waver, fill runs over the lines and falls short of them, and all of it still obeys the depth of its neighbours.
- * Seed 000, chapter 6, and seed 003, section 4; rows S01–S13, C13–C18, C20–C25.
+ * Nienhaus 2005, chapter 6, and Nienhaus et al. 2006, section 4; rows S01–S13, C13–C18, C20–C25.
  *
- * Where the seeds are silent or wrong: noise is signed (unsigned values, as listing 6-1 reads them, move everything one way); the two
- * components are independent (the seed's second one, taken at (1−s, 1−t), equals the first in the middle of the page); ink outside
+ * Where the sources are silent or wrong: noise is signed (unsigned values, as listing 6-1 reads them, move everything one way); the two
+ * components are independent (the sources' second one, taken at (1−s, 1−t), equals the first in the middle of the page); ink outside
  * the boundary has the depth of the surface that it surrounds (its own lookup is empty); towards the page's border the field
- * shrinks, so that nothing is looked up outside. The seed's enlarged geometry gives a field that jumps where depth jumps; spread from
+ * shrinks, so that nothing is looked up outside. Enlarged geometry (section 6.7) gives a field that jumps where depth jumps; spread from
  * the nearest surfaces outwards ("continuous") it does not. Its wave length counts pixels, not units, at any distance: octaves come
  * and go as the viewer approaches. */
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Where lines and fill are looked up. Seed 000, section 6.3 and listing 6-1; seed 003, section 4. */
+/* Where lines and fill are looked up. Nienhaus 2005, section 6.3 and listing 6-1; Nienhaus et al. 2006, section 4. */
 #include "perturb/field.glsl"
 #include "gpu/hash.glsl"
 

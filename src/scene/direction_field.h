@@ -1,5 +1,5 @@
 /* Along which way a surface bends: a field of directions without sign, one symmetric tensor a vertex, which may be interpolated where directions may not.
- * Notes: seed-grossmann row 6, seed-pencil-city P26 (Alliez et al. 2003, with the printed traps there mended). */
+ * Großmann 2011, section 3.2.3.2; Müller, section 4.1; rows Großmann 6, P26 (Alliez et al. 2003, with the printed traps there mended). */
 #ifndef LIMNER_SCENE_DIRECTION_FIELD_H
 #define LIMNER_SCENE_DIRECTION_FIELD_H
 

@@ -1,5 +1,5 @@
 /* Lapped textures: patches that overlap and cover a surface, each laid flat along a field of directions, so that patterns can be drawn on models without texture
- * coordinates. Notes: seed-grossmann row 7; after Praun 2000. */
+ * coordinates. Großmann 2011, section 3.2.3.3; row Großmann 7; after Praun 2000. */
 #ifndef LIMNER_SCENE_LAPPED_H
 #define LIMNER_SCENE_LAPPED_H
 

@@ -1,5 +1,5 @@
 /* Solids: trees of set operations over closed meshes (constructive solid geometry). Nobody computes their surface: drawing finds
- * it pixel by pixel. Seed 003, section 2; seed 000, section 5.6. */
+ * it pixel by pixel. Nienhaus et al. 2006, section 2; Nienhaus 2005, section 5.6. */
 #ifndef LIMNER_SCENE_SOLID_H
 #define LIMNER_SCENE_SOLID_H
 

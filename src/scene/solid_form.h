@@ -1,6 +1,6 @@
 /* A solid's tree brought into the form that drawing evaluates: unions and intersections in turn, with operands of an intersection
  * possibly taken away (negated); nothing empty, nothing with one operand, and without what cannot matter because boxes do not touch
- * (geometric pruning). Goldfeather et al. 1989; seed 003, section 2; rows K01, C2. */
+ * (geometric pruning). Goldfeather et al. 1989; Nienhaus et al. 2006, section 2; rows K01, C2. */
 #ifndef LIMNER_SCENE_SOLID_FORM_H
 #define LIMNER_SCENE_SOLID_FORM_H
 

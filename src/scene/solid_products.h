@@ -1,5 +1,5 @@
 /* A solid as a union of partial products: each an intersection of operands, minus others. Goldfeather's normal form, found by
- * carrying negations down and multiplying out, with products and subtractions left out whose boxes do not touch. Seed 003, section 2;
+ * carrying negations down and multiplying out, with products and subtractions left out whose boxes do not touch. Nienhaus et al. 2006, section 2;
  * rows K01, C2. */
 #ifndef LIMNER_SCENE_SOLID_PRODUCTS_H
 #define LIMNER_SCENE_SOLID_PRODUCTS_H

@@ -2,7 +2,7 @@
  * operand that is taken away holds it. Operands are taken away in the order of their distance, so that what is seen through several holes
  * is mostly found in one round; rounds go on until nothing moves (sequenced convex subtraction, Stewart et al. 1998).
  * Products that do not meet on the page are done at the same time, and so are operands that do not. No shader runs before the last pass,
- * which asks whose surface lies at the depth that was found. Seed 003, section 2; rows K02, C3. */
+ * which asks whose surface lies at the depth that was found. Nienhaus et al. 2006, section 2; rows K02, C3. */
 #include "solids/solids_private.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Surfaces of solids on every GL: the operands are peeled fragment by fragment, front faces and back faces, and after each one the normal form
  * says at each pixel whether the solid begins or ends there. One pass over the geometry and one over the picture for each fragment
  * of the deepest pixel; 128 bytes a pixel. Needs no storage blocks, no limit on how operands are shaped, and gives every layer.
- * Seed 003, 5.1: the CSG calculation is done for each layer, for what faces to the camera and what faces away; rows K01, K03, C2, C5, C6. */
+ * Nienhaus et al. 2006, 5.1: the CSG calculation is done for each layer, for what faces to the camera and what faces away; rows K01, K03, C2, C5, C6. */
 #include "solids/solids_private.h"
 
 #include <string.h>

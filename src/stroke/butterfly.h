@@ -1,4 +1,4 @@
-/* Modified butterfly subdivision (Zorin, Schröder, Sweldens 1996): a finer mesh through the vertices of a coarse one. Seed 001, section 7.3.1; row OE-09. */
+/* Modified butterfly subdivision (Zorin, Schröder, Sweldens 1996): a finer mesh through the vertices of a coarse one. Freudenberg 2003, section 7.3.1; row OE-09. */
 #ifndef LIMNER_STROKE_BUTTERFLY_H
 #define LIMNER_STROKE_BUTTERFLY_H
 

@@ -1,4 +1,4 @@
-/* Edge meshes refined when they are made, and the outlines of refined meshes. Seed 001, section 7.3. */
+/* Edge meshes refined when they are made, and the outlines of refined meshes. Freudenberg 2003, section 7.3. */
 #ifndef LIMNER_STROKE_BUTTERFLY_MESH_H
 #define LIMNER_STROKE_BUTTERFLY_MESH_H
 

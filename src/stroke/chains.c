@@ -1,4 +1,4 @@
-/* Lines joined into long chains, chains cut where the number of surfaces in front changes, and points left out that change nothing. Seed 001, section 7.3.3; row OE-11. */
+/* Lines joined into long chains, chains cut where the number of surfaces in front changes, and points left out that change nothing. Freudenberg 2003, section 7.3.3; row OE-11. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>

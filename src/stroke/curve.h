@@ -1,4 +1,4 @@
-/* Four-point subdivision of curves (Dyn, Levin, Gregory 1987): finer chains through the points of coarse ones. Seed 001, section 7.3.3; rows OE-12, OE-13. */
+/* Four-point subdivision of curves (Dyn, Levin, Gregory 1987): finer chains through the points of coarse ones. Freudenberg 2003, section 7.3.3; rows OE-12, OE-13. */
 #ifndef LIMNER_STROKE_CURVE_H
 #define LIMNER_STROKE_CURVE_H
 

@@ -1,4 +1,4 @@
-/* Chains of lines drawn as curves: what lies between the ends of their lines bends with what is before and behind. Seed 001, section 7.3.3; rows OE-12, OE-13. */
+/* Chains of lines drawn as curves: what lies between the ends of their lines bends with what is before and behind. Freudenberg 2003, section 7.3.3; rows OE-12, OE-13. */
 #ifndef LIMNER_STROKE_CURVE_PATH_H
 #define LIMNER_STROKE_CURVE_PATH_H
 

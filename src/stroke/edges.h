@@ -1,5 +1,5 @@
 /* Edges of meshes, sorted before anything is drawn into those that are always lines, those that may become an outline, and the rest,
- * which never are. Seed 001, section 7.1; rows OE-01 to OE-04. */
+ * which never are. Freudenberg 2003, section 7.1; rows OE-01 to OE-04. */
 #ifndef LIMNER_STROKE_EDGES_H
 #define LIMNER_STROKE_EDGES_H
 

@@ -1,4 +1,4 @@
-/* The lines of one view: edges that are always drawn, edges where front and back meet, and where pieces run through each other. Seed 001, section 7.1.3; rows OE-03, OE-05. */
+/* The lines of one view: edges that are always drawn, edges where front and back meet, and where pieces run through each other. Freudenberg 2003, section 7.1.3; rows OE-03, OE-05. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* The silhouette of a refined mesh, found level by level: only near the silhouette of one level is there one on the next. Seed 001, section 7.3.2; row OE-10. */
+/* The silhouette of a refined mesh, found level by level: only near the silhouette of one level is there one on the next. Freudenberg 2003, section 7.3.2; row OE-10. */
 #ifndef LIMNER_STROKE_PROPAGATE_H
 #define LIMNER_STROKE_PROPAGATE_H
 

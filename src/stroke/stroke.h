@@ -1,5 +1,5 @@
 /* Strokes: lines with geometry. From a scene and a camera to chains of points on the page, each stretch with the number of surfaces in front of it.
- * Needs no GPU. Seed 001, chapter 7.
+ * Needs no GPU. Freudenberg 2003, chapter 7.
  *
  *   stroke_scene: edges of all parts, once a scene ──► stroke_view: what a camera sees of it ──► stroke_set: the lines that were asked for
  *

@@ -1,5 +1,5 @@
 /* dots: points on the surface that are worked out where they are needed, at any zoom as dense and as large on the page. Tone comes by their number or by their size. Requirement R-L3 of
- * seed 001; for any model, since no texture is laid on it. */
+ * Freudenberg 2003; for any model, since no texture is laid on it. */
 #include "surface/halftone/halftone.h"
 #include "surface/surface.h"
 

@@ -1,4 +1,4 @@
-/* flat: one colour, no light. Seed 000, figures drawn by lines alone; row E23. */
+/* flat: one colour, no light. Nienhaus 2005, figures drawn by lines alone; row E23. */
 #include "surface/surface.h"
 
 typedef struct flat {

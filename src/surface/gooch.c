@@ -1,5 +1,5 @@
-/* gooch: tone from cool to warm, so that shadow stays readable and lines stay the darkest, highlights the lightest thing. Seed 000,
- * section 4.6 and listings 3-1, 3-2; seed 002, section 3.2.2; rows E10, grossmann 2. The seeds leave the colours open; these are
+/* gooch: tone from cool to warm, so that shadow stays readable and lines stay the darkest, highlights the lightest thing. Nienhaus 2005,
+ * section 4.6 and listings 3-1, 3-2; Großmann 2011, section 3.2.2; rows E10, Großmann 2. The sources leave the colours open; these are
  * near those of Gooch's paper. */
 #include "surface/surface.h"
 
@@ -14,7 +14,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(gooch, cool_share, .def = 0.2, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much of the model's colour is added to the cool tone."),
     PARAM_FLOAT_ROW(gooch, warm_share, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much of the model's colour is added to the warm tone."),
     PARAM_FLOAT_ROW(gooch, specular, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the highlight."),
-    PARAM_FLOAT_ROW(gooch, shininess, .def = 32, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true, .doc = "Sharpness of the highlight; the seed has 32."),
+    PARAM_FLOAT_ROW(gooch, shininess, .def = 32, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true, .doc = "Sharpness of the highlight; Nienhaus (2005) has 32."),
 };
 
 const technique surface_gooch = {

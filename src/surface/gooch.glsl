@@ -1,6 +1,6 @@
 #include "light/light.glsl"
 
-/* The key light alone gives the tone, as in the seed's listing 3-2. */
+/* The key light alone gives the tone, as in listing 3-2 of Nienhaus 2005. */
 vec4 surface_colour(surface_point p)
 {
     float tone = 0.5 * dot(p.normal, towards_light(0, p.eye)) + 0.5;

@@ -1,5 +1,5 @@
 /* hatch: lines that are worked out where they are needed, at any zoom as dense and as wide on the page, and fixed to the surface. Tone comes by their number or by
- * their width. Seed 001, section 6.7 (its frequency and taper mended, see hatch.glsl); rows IM-11, IM-21 to IM-27, IM-31. */
+ * their width. Freudenberg 2003, section 6.7 (its frequency and taper mended, see hatch.glsl); rows IM-11, IM-21 to IM-27, IM-31. */
 #include "surface/halftone/halftone.h"
 #include "surface/surface.h"
 

@@ -1,5 +1,5 @@
-/* strokes: pen strokes that lie on the surface as lines, of which light and distance choose. Seed 001, sections 5.1.6, 5.3 and 5.4; rows EX-11 to EX-14, EX-26 to EX-29, EX-33. With texture
- * coordinates strokes of a texture, as in the seed; without, strokes that follow the form. */
+/* strokes: pen strokes that lie on the surface as lines, of which light and distance choose. Freudenberg 2003, sections 5.1.6, 5.3 and 5.4; rows EX-11 to EX-14, EX-26 to EX-29, EX-33. With texture
+ * coordinates strokes of a texture, as in Freudenberg's work; without, strokes that follow the form. */
 #include <math.h>
 #include <string.h>
 
@@ -44,7 +44,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed<2", .doc = "How much strokes differ in length and way."),
     PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_SHARE, .doc = "Share of its length over which each end of a stroke runs out."),
     PARAM_ENUM_ROW(surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
-                   .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is the seed's simpler law, which leaves too few where strokes are foreshortened."),
+                   .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is the simpler one of Freudenberg (2003), which leaves too few where strokes are foreshortened."),
     PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .example = "brick", .only_if = "placed=uv", .check = check_strokes,
                    .doc = "What is laid out by texture coordinates: a file of strokes (.stx, .svg) or a pattern (parallel, cross, contour, brick, stipple, scribble, random). Empty: cross."),
     PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 20, .soft_max = 8, .cpu_only = true, .only_if = "placed=uv",

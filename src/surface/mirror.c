@@ -1,4 +1,4 @@
-/* mirror: a flat part shows the scene behind its plane, with edges of its own. Seed 000, section 4.6; row E14. */
+/* mirror: a flat part shows the scene behind its plane, with edges of its own. Nienhaus 2005, section 4.6; row E14. */
 #include "surface/surface.h"
 
 typedef struct mirror {

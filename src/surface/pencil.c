@@ -1,4 +1,4 @@
-/* pencil: graphite or coloured pencils that shade along the form: a tonal art map laid over itself several times, with light, shadow, occlusion and texture as the tone. Seed 004,
+/* pencil: graphite or coloured pencils that shade along the form: a tonal art map laid over itself several times, with light, shadow, occlusion and texture as the tone. Müller,
  * sections 1, 3 and 4.4; rows P20 to P24, P32 to P34, P36, P37. */
 #include "halftone/graphite.h"
 #include "halftone/tonal_art_map.h"

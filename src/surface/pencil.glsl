@@ -1,4 +1,4 @@
-/* Pencil strokes on paper. Seed 004, section 4.4: the map is looked up along quantised ways, gone over several times with a little variation. */
+/* Pencil strokes on paper. Müller, section 4.4: the map is looked up along quantised ways, gone over several times with a little variation. */
 #include "surface/halftone/place.glsl"
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/screen.glsl"

@@ -1,4 +1,4 @@
-/* screen: a halftone screen on the surface, whose grey says up to which light a stroke stays. Seed 001, sections 6.1 to 6.6; rows IM-02 to IM-20, IM-28 to IM-30. */
+/* screen: a halftone screen on the surface, whose grey says up to which light a stroke stays. Freudenberg 2003, sections 6.1 to 6.6; rows IM-02 to IM-20, IM-28 to IM-30. */
 #include "surface/screen_textures.h"
 #include "surface/surface.h"
 
@@ -13,12 +13,12 @@ static const param params[] = {
                           "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp; NAME-1.png, NAME-2.png … are its layers); material takes the strokes that lie beside each "
                           "material's picture under its name (.stx). Empty: cross."),
     PARAM_ENUM_ROW(screen_values, scheme, .names = scheme_names, .def = SCHEME_SHARP, .variant = true,
-                   .doc = "binary: hard thresholds; smooth: a ramp in the tone, the seed's; sharp: a ramp of a pixel at any zoom; multiply: all strokes, "
+                   .doc = "binary: hard thresholds; smooth: a ramp in the tone (Freudenberg 2003); sharp: a ramp of a pixel at any zoom; multiply: all strokes, "
                           "whatever the light, over the lit colour."),
     PARAM_FLOAT_ROW(screen_values, gain, .def = 4, .min = 0.25, .max = 255, .soft_min = 1, .soft_max = 16, .logarithmic = true, .only_if = "scheme=smooth",
                     .doc = "Steepness of the ramp."),
     PARAM_BOOL_ROW(screen_values, centred, .def = 0, .only_if = "scheme=smooth",
-                   .doc = "Puts the middle of the ramp at the threshold, which keeps the tone; the seed's ramp ends there and is 1 / (2 gain) lighter."),
+                   .doc = "Puts the middle of the ramp at the threshold, which keeps the tone; Freudenberg's ramp ends there and is 1 / (2 gain) lighter."),
     PARAM_FLOAT_ROW(screen_values, scale, .def = 7, .min = 1, .max = 200, .soft_min = 3, .soft_max = 40, .unit = UNIT_PX,
                     .doc = "Mean distance of strokes where all are there, or the period."),
     PARAM_FLOAT_ROW(screen_values, width, .def = 1.6, .min = 0.3, .max = 64, .soft_max = 6, .unit = UNIT_PX, .doc = "Width of strokes; of no effect on procedures and painted screens."),

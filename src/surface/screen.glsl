@@ -97,7 +97,7 @@ float ink_between(vec2 at, float level, float darkness)
 #if defined(HAS_WARP) && defined(HAS_UV) && defined(HAS_LIGHT_MAP)
 uniform sampler2D t_light_map;
 
-/* How much darker it is at the middle of the stroke that owns a place of the screen than at this place. Seed 001, section 6.6; rows IM-18 to IM-20: the way to the
+/* How much darker it is at the middle of the stroke that owns a place of the screen than at this place. Freudenberg 2003, section 6.6; rows IM-18 to IM-20: the way to the
  * middle is relative, so that the screen may repeat, and is taken from the screen's coordinates to those of the light map. */
 float darker_at_middle(stroke_plane s, screen_octave o, vec2 at, float own)
 {

@@ -1,4 +1,4 @@
-/* stipple: dots that lie on the surface itself, evenly spread, of which light and distance choose. Seed 001, sections 5.1.5 and 5.4.7; rows EX-10, EX-31, EX-32. The room `dots` works its dots out
+/* stipple: dots that lie on the surface itself, evenly spread, of which light and distance choose. Freudenberg 2003, sections 5.1.5 and 5.4.7; rows EX-10, EX-31, EX-32. The room `dots` works its dots out
  * for each pixel instead, on planes laid on the model. */
 #include <math.h>
 

@@ -1,4 +1,4 @@
-/* tonal-art-map: a stack of hatched tones, each of which holds all strokes of the lighter ones, at any distance as wide. Notes: seed-grossmann rows 3 to 5, seed-pencil-city
+/* tonal-art-map: a stack of hatched tones, each of which holds all strokes of the lighter ones, at any distance as wide. Großmann 2011, section 3.2.3; Müller, section 3; rows Großmann 3 to 5,
  * P16 to P21; after Praun 2001. */
 #include "halftone/tonal_art_map.h"
 

@@ -1,5 +1,5 @@
-/* tones: the sum of the lights picks one of a few colours, with hard borders. Seed 000, section 4.8 (n-tone shading); seed 002,
- * section 3.2.1 (a look-up table with any number of steps); row grossmann 1. */
+/* tones: the sum of the lights picks one of a few colours, with hard borders. Nienhaus 2005, section 4.8 (n-tone shading); Großmann 2011,
+ * section 3.2.1 (a look-up table with any number of steps); row Großmann 1. */
 #include "surface/surface.h"
 
 typedef struct tones {

@@ -1,4 +1,4 @@
-/* toon: bands the summed light, then smooths only the borders between bands. Seed 000, sections 3.4 and 4.6 (the shade map is
+/* toon: bands the summed light, then smooths only the borders between bands. Nienhaus 2005, sections 3.4 and 4.6 (the shade map is
  * blurred by four samples that cover nine texels); row E12. */
 #include "surface/surface.h"
 
@@ -18,7 +18,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(toon, highlight, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the hard-edged highlight; 0 leaves it out."),
     PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2, .doc = "Saturation of the tones; cartoons like more than nature."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
-                   .doc = "Smooths tone borders by blurring the shade map as the seed does, instead of by the border's own distance."),
+                   .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the border's own distance."),
 };
 
 static const pass passes[] = {

@@ -1,5 +1,5 @@
 /* The 3x3 mean from four samples: at two thirds of a texel off centre, bilinear filtering gives each of the nine texels one
- * ninth. Seed 000, section 3.4, with its listing 3-3 repaired (it samples one corner twice). Row E02. */
+ * ninth. Nienhaus 2005, section 3.4, with its listing 3-3 repaired (it samples one corner twice). Row E02. */
 layout(location = 0) out vec4 out_0;
 
 void main()

@@ -1,5 +1,5 @@
 /* What a technique is: a room's parameters, the G-buffer channels it needs and the passes it draws, all declared as data.
- * A kind is a table of techniques that answer the same question. src/draw runs them without knowing any by name. */
+ * A kind is a table of techniques that answer the same question. src/frame runs them without knowing any by name. */
 #ifndef LIMNER_TECHNIQUE_TECHNIQUE_H
 #define LIMNER_TECHNIQUE_TECHNIQUE_H
 

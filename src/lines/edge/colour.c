@@ -1,4 +1,4 @@
-/* colour: lines in the unlit surface colour, for details that are painted and not modelled. Seed 004, section 2.2; row P13. */
+/* colour: lines in the unlit surface colour, for details that are painted and not modelled. Müller, section 2.2; row P13. */
 #include "lines/lines.h"
 
 typedef struct colour_edges {

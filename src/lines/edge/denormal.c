@@ -1,4 +1,4 @@
-/* denormal: the mean of differing unit normals is shorter than one. Seed 001, section 8.4; rows OI-06, OI-07, OI-08. */
+/* denormal: the mean of differing unit normals is shorter than one. Freudenberg 2003, section 8.4; rows OI-06, OI-07, OI-08. */
 #include "lines/lines.h"
 
 typedef struct denormal {

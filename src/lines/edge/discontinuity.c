@@ -1,5 +1,5 @@
 /* discontinuity: lines where visibility, orientation or part changes, whatever the slant of the surfaces. Goes past the
- * operators of seed 000 (4.3) and seed 004 (2.2), whose depth differences also answer to a plane seen at a grazing angle:
+ * operators of Nienhaus 2005 (4.3) and Müller (2.2), whose depth differences also answer to a plane seen at a grazing angle:
  * here a depth step counts only as far as the slopes on both of its sides do not explain it. Window depth is affine in
  * screen space on any plane, so a plane gives exactly nothing. Rows E19, E22, and the edge-set test. */
 #include "lines/lines.h"

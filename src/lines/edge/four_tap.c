@@ -1,4 +1,4 @@
-/* four-tap: edge intensities from four samples on the diagonals. Seed 000, section 4.3; rows E06, E07, E21. */
+/* four-tap: edge intensities from four samples on the diagonals. Nienhaus 2005, section 4.3; rows E06, E07, E21. */
 #include "lines/lines.h"
 
 typedef struct four_tap {
@@ -8,7 +8,7 @@ typedef struct four_tap {
 
 static const param params[] = {
     PARAM_BOOL_ROW(four_tap, squared, .def = 1, .variant = true,
-                   .doc = "Depth factors are squared, as the seed's text has them; its listing leaves the square out."),
+                   .doc = "Depth factors are squared, as the text of Nienhaus (2005, section 4.3) has them; its listing leaves the square out."),
 };
 
 static const pass passes[] = {

@@ -1,4 +1,4 @@
-/* id: lines between parts, from unfiltered ids. Seed 000, sections 4.7 and 4.8; seed 004, section 2.2; rows E22, E23, P12. */
+/* id: lines between parts, from unfiltered ids. Nienhaus 2005, sections 4.7 and 4.8; Müller, section 2.2; rows E22, E23, P12. */
 #include "lines/lines.h"
 
 typedef struct id_edges {

@@ -1,4 +1,4 @@
-/* Sharpens (or, negative, blurs) the normal-depth buffer: centre 1 + 8s, each neighbour −s. Seed 004, section 2.2, says "a simple
+/* Sharpens (or, negative, blurs) the normal-depth buffer: centre 1 + 8s, each neighbour −s. Müller, section 2.2, says "a simple
  * sharpen kernel with factor about −0.1" and that lines become softer and stronger: that holds when −0.1 is the weight of each
  * neighbour, which is s = 0.1 here; s = −0.1 makes the lines of creases wider, but paler. Row P6. */
 layout(location = 0) out vec4 out_0;

@@ -1,4 +1,4 @@
-/* saito, saito-normalised: the reference operators of Saito and Takahashi on the depth buffer, as seed 000 (4.1) and seed 004
+/* saito, saito-normalised: the reference operators of Saito and Takahashi on the depth buffer, as Nienhaus 2005 (4.1) and Müller
  * (2.2, equation 3) quote them: profiles by a first-order, inner lines by a second-order difference. Rows E24, E26, P4. */
 #include "lines/lines.h"
 
@@ -11,7 +11,7 @@ static const char *const weight_names[] = {"sobel", "pencil", "pencil-shader", N
 
 static const param params[] = {
     PARAM_ENUM_ROW(saito, weights, .names = weight_names, .variant = true,
-                   .doc = "Profile formula: sobel (seed 000), pencil (seed 004, equation 3), pencil-shader (its printed weights)."),
+                   .doc = "Profile formula: sobel (Nienhaus 2005), pencil (Müller, equation 3), pencil-shader (its printed weights)."),
 };
 
 static const pass plain_passes[] = {

@@ -1,4 +1,4 @@
-/* shadow: lines around the shadows that the first light throws. Seed 004, section 2.2 (normals turned around in shadow, Mitchell 2002); row P15. */
+/* shadow: lines around the shadows that the first light throws. Müller, section 2.2 (normals turned around in shadow, Mitchell 2002); row P15. */
 #include "lines/lines.h"
 
 typedef struct shadow_edges {

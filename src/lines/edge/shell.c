@@ -1,4 +1,4 @@
-/* shell: outlines by shifted back faces (Raskar and Cohen 1999). Seed 002, section 3.2.4.1, where the line's width cannot be chosen; here faces that look away are moved
+/* shell: outlines by shifted back faces (Raskar and Cohen 1999). Großmann 2011, section 3.2.4.1, where the line's width cannot be chosen; here faces that look away are moved
  * across the page, by the line's width in pixels, and ink is where they come into sight: beside an outline, on nothing or on what lies farther. They move away from the body
  * they belong to, so that no flat face has ink; how much a line costs does not depend on its width. Sections and solids have no shells. */
 #include "lines/lines.h"

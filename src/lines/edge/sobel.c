@@ -1,5 +1,5 @@
-/* sobel: gradient magnitudes of depth and normal from few bilinear samples. Seed 001, section 8.3 (four samples a direction)
- * and seed 002, section 3.2.4.2 (four samples on the texel corners for both directions); rows OI-04, OI-05, grossmann 12, 13. */
+/* sobel: gradient magnitudes of depth and normal from few bilinear samples. Freudenberg 2003, section 8.3 (four samples a direction)
+ * and Großmann 2011, section 3.2.4.2 (four samples on the texel corners for both directions); rows OI-04, OI-05, Großmann 12, 13. */
 #include "lines/lines.h"
 
 typedef struct sobel {

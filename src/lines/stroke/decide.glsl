@@ -1,4 +1,4 @@
-/* Which edges of a mesh are lines in this view: decided in the vertex stage, from the edge's record alone, so that all corners of its quad agree. Seed 001, section 7.2;
+/* Which edges of a mesh are lines in this view: decided in the vertex stage, from the edge's record alone, so that all corners of its quad agree. Freudenberg 2003, section 7.2;
  * rows OE-05 to OE-07. An edge is an outline where one of its faces is seen from the front and the other is not; any place of the edge lies in both planes, so its
  * middle, the same for both ends, decides exactly in perspective too. Faces seen exactly from the side count as seen from behind. */
 layout(location = 0) in vec4 a_begin;  /* place; bits */

@@ -1,4 +1,4 @@
-/* strokes: lines with geometry, from the edges of meshes instead of from pictures. Seed 001, chapters 5 and 7; rows OE-05 to OE-08, EX-12 to EX-14. */
+/* strokes: lines with geometry, from the edges of meshes instead of from pictures. Freudenberg 2003, chapters 5 and 7; rows OE-05 to OE-08, EX-12 to EX-14. */
 #include "lines/stroke/strokes.h"
 
 #include <math.h>

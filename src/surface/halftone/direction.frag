@@ -1,8 +1,8 @@
-/* The way surfaces bend most, from the picture of normals and depth alone: seed 004, section 4.2 (after Yu 2007 and Kim 2008), derived anew in the notes.
+/* The way surfaces bend most, from the picture of normals and depth alone: Müller, section 4.2 (after Yu 2007 and Kim 2008), derived anew.
  *
  * The normals of neighbours are rays. In the frame of the middle one they pass the plane z = 0 at (u, v), and from there to z = 1 they move by (σ, τ). To first order
  * (σ, τ) = S (u, v) with the shape operator S, which four neighbours give by least squares; its eigenvectors are the directions of greatest and least curvature. The printed
- * way, slits through which rays pass, is the same for two neighbours, but has no answer on planes; and its shader is wrong (the notes say where).
+ * way, slits through which rays pass, is the same for two neighbours, but has no answer on planes; and its shader is wrong.
  *
  * Row P25; P27 where nothing bends. */
 #include "light/point.glsl"

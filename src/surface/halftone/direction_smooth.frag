@@ -1,4 +1,4 @@
-/* Directions averaged with those around on the same surface, farther in the second round; sure ones count for more. Seed 004, section 4.1, step 5, in the picture. */
+/* Directions averaged with those around on the same surface, farther in the second round; sure ones count for more. Müller, section 4.1, step 5, in the picture. */
 layout(location = 0) out vec4 out_0;
 
 ivec2 pixel_of(ivec2 texel)

@@ -1,4 +1,4 @@
-/* Directions on surfaces and on the page. A direction without sign is (cos 2θ, sin 2θ), which may be averaged. Seed 004, sections 4 and 5; rows P23 to P27. */
+/* Directions on surfaces and on the page. A direction without sign is (cos 2θ, sin 2θ), which may be averaged. Müller, sections 4 and 5; rows P23 to P27. */
 
 /* Two unit tangents that make a right-handed frame with the normal. */
 mat3 frame_around(vec3 normal)

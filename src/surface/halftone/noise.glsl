@@ -1,4 +1,4 @@
-/* Noise on the plane that strokes lie on, as fine on the page at any zoom. Seed 001, sections 6.7.6 and 6.8. */
+/* Noise on the plane that strokes lie on, as fine on the page at any zoom. Freudenberg 2003, sections 6.7.6 and 6.8. */
 #include "gpu/hash.glsl"
 
 /* A positive number as a power of two times 1 … 2, from its bits: logarithms and powers are what takes longest on software drivers. */

@@ -1,4 +1,4 @@
-/* The frame of what a part moves with, for what comes after the geometry: from eye space to it. src/draw/upload.h */
+/* The frame of what a part moves with, for what comes after the geometry: from eye space to it. src/stage/upload.h */
 
 struct part_frame {
     mat3 turn;   /* from world axes */

@@ -264,7 +264,7 @@ stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
 }
 #elif defined(HAS_FORM)
 /* Straight strokes on the page, in patches: a few ways on the page, each place has the two that come nearest to the way its surface bends. They move with the middle of
- * the model. Seed 004, section 4.4 (after Kim 2008), whose weights are interchanged; rows P23, P24. */
+ * the model. Müller, section 4.4 (after Kim 2008), whose weights are interchanged; rows P23, P24. */
 #define PLANES 2
 float s_between = 0.0; /* ways are turned by this share of the angle between two; repetitions differ in it */
 

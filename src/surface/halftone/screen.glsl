@@ -1,5 +1,5 @@
 /* Looking screens up so that their strokes are as wide and as dense on the page at any distance: mip levels by rates of change, and beyond the last ones the same screen
- * again at double and half size. Seed 001, section 6.1. */
+ * again at double and half size. Freudenberg 2003, section 6.1. */
 
 /* One of the sizes in which a screen is laid. */
 struct screen_octave {
