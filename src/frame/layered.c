@@ -10,12 +10,6 @@
 /* From this many layers on, one pass into lists is faster than a pass for each. */
 enum { LISTS_PAY_FROM = 3 };
 
-static const peel_values *peel_of(const figure *fig)
-{
-    const technique_use *layers = rule_use(fig->rule, KIND_LAYERS);
-    return layers && layers->technique == &layers_peel ? layers->values : NULL;
-}
-
 static void stack_open(frame *f, layer_stack *stack, const figure *figures, int count)
 {
     *stack = (layer_stack){.states = mem_calloc((size_t)count, sizeof *stack->states),
@@ -214,14 +208,14 @@ static bool is_behind(const figure_state *s, int layer)
 /* Has the figure had its last layer? */
 static bool is_finished(const frame *f, figure_state *s, coverage c)
 {
-    const peel_values *peel = peel_of(s->figure);
-    if (!peel)
+    const layering *how = &s->figure->layering;
+    if (!how->several)
         return true;
-    if (peel->fraction > 0 && c.covered < (double)peel->fraction * f->width * f->height)
+    if (how->fraction > 0 && c.covered < (double)how->fraction * f->width * f->height)
         return true;
-    if (s->figure->focus && c.uncovered >= (double)peel->focus_share * c.mask) {
-        s->rear = peel->rear;
-        return peel->rear <= 0;
+    if (s->figure->focus && c.uncovered >= (double)how->focus_share * c.mask) {
+        s->rear = how->rear;
+        return how->rear <= 0;
     }
     return false;
 }
@@ -334,14 +328,14 @@ static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
     stack_wishes out = {.lists = gpu_has_lists(f->g), .whole = f->maps != NULL, .bytes = SIZE_MAX};
     for (int i = 0; i < stack->count; i++) {
         const rule *r = stack->states[i].figure->rule;
-        const peel_values *peel = peel_of(stack->states[i].figure);
-        if (!peel)
+        const layering *how = &stack->states[i].figure->layering;
+        if (!how->several)
             continue;
-        if (peel->producer == PRODUCER_PEELING || (peel->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
+        if (how->producer == PRODUCER_PEELING || (how->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
             out.lists = false;
-        out.whole = out.whole || peel->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) ||
+        out.whole = out.whole || how->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) ||
                     rule_traces_lines(stack->hidden[i].rule) || rule_use(r, KIND_PERTURB);
-        size_t bytes = (size_t)peel->memory << 20;
+        size_t bytes = (size_t)how->memory << 20;
         out.bytes = bytes < out.bytes ? bytes : out.bytes;
     }
     return out;

@@ -21,10 +21,10 @@ static const material *material_of(const frame *f, const figure *fig, const draw
     static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1}, .base_texture = TEXTURE_USE_NONE,
                                       .normal_texture = TEXTURE_USE_NONE, .normal_scale = 1, .alpha_cutoff = 0.5f};
     const material *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
-    if (!fig->highlight)
+    if (!(fig->highlight.a > 0))
         return own;
     float linear[4];
-    uniforms_linear(*fig->highlight, linear);
+    uniforms_linear(fig->highlight, linear);
     *room = *own;
     room->base_texture = standard.base_texture;
     room->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
@@ -404,8 +404,8 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     solids_set_depth(job->view, job->solids);
     gpu_set_vec2(f->g, "u_solid_size", (float)f->width, (float)f->height);
     float highlight[4] = {0, 0, 0, 0};
-    if (s->figure->highlight)
-        uniforms_linear(*s->figure->highlight, highlight);
+    if (s->figure->highlight.a > 0)
+        uniforms_linear(s->figure->highlight, highlight);
     gpu_set_vec4(f->g, "u_solid_highlight", highlight);
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);
@@ -440,11 +440,7 @@ static int32_t evaluation_of(const raster_job *job)
     int32_t evaluation = EVALUATION_AUTO;
     for (int i = 0; i < count && evaluation == EVALUATION_AUTO; i++) {
         const figure_state *s = job->state ? job->state : &job->stack->states[i];
-        const technique_use *layers = rule_use(s->figure->rule, KIND_LAYERS);
-        if (layers && layers->technique == &layers_front)
-            evaluation = ((const front_values *)layers->values)->evaluation;
-        else if (layers && layers->technique == &layers_peel)
-            evaluation = ((const peel_values *)layers->values)->evaluation;
+        evaluation = s->figure->layering.evaluation;
     }
     return evaluation;
 }
@@ -663,7 +659,7 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
 void raster_depth(frame *f, gpu_texture *depth)
 {
     gpu_pass pass = {.depth = depth, .clear = true};
-    figure all = {.rule = f->plan->figures[0].rule, .designated = f->plan->selected};
+    figure all = {.rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = f->plan->selected};
     figure_state s = {.figure = &all, .near = f->camera.near, .far = f->camera.far};
     solid_layers solids = {.ready = false};
     draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = f->plan->selected});

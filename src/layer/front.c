@@ -1,6 +1,13 @@
 /* front: the visible surface only. Nienhaus 2005, sections 3.6 and 4.7; rows E04, E15, E18. */
 #include "layer/layer.h"
 
+typedef enum layer_shading { SHADING_FORWARD, SHADING_DEFERRED } layer_shading;
+
+typedef struct front_values {
+    bool    complement;
+    int32_t shading, evaluation;
+} front_values;
+
 static const char *const shading_names[] = {"forward", "deferred", NULL};
 
 static const param params[] = {
@@ -13,7 +20,16 @@ static const param params[] = {
                           "intersections and differences; auto takes what is faster. The surfaces are the same."),
 };
 
+static void front_layering(layering *out, const void *values)
+{
+    const front_values *v = values;
+    out->complement = v->complement;
+    out->deferred = v->shading == SHADING_DEFERRED;
+    out->evaluation = v->evaluation;
+}
+
 const technique layers_front = {
     .name = "front", .doc = "The visible surface.", .example = "{\"layers\": \"front\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(front_values),
+    .layering = front_layering,
 };

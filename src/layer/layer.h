@@ -8,14 +8,6 @@ extern const kind kind_layers;
 
 extern const technique layers_front, layers_peel;
 
-typedef enum layer_shading { SHADING_FORWARD, SHADING_DEFERRED } layer_shading;
-
-/* The parameters, read by src/plan and src/frame when it plans the geometry pass. */
-typedef struct front_values {
-    bool    complement;
-    int32_t shading, evaluation;
-} front_values;
-
 /* How the surfaces of solids are found. */
 typedef enum layer_evaluation { EVALUATION_AUTO, EVALUATION_LISTS, EVALUATION_PRODUCTS } layer_evaluation;
 extern const char *const layer_evaluations[];
@@ -33,12 +25,20 @@ enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = 
 #define SURFACE_BACK       0x10000000u /* back-facing by winding */
 #define SURFACE_OPERAND    0x00080000u /* of a solid: what is below this bit is the operand's number */
 
-typedef struct peel_values {
-    int32_t     count, producer, memory, evaluation;
-    float       fraction;
-    param_words focus;
-    float       focus_share, rear;
+/* What a technique says of a figure's surfaces; those of figures that are not composed layer by layer are asked for the first line alone. */
+typedef struct layering {
+    bool        deferred, complement; /* shaded from the G-buffer; other figures' parts take part in edge detection */
+    int32_t     evaluation;           /* of solids: layer_evaluation */
+    bool        several;              /* surfaces behind the visible one, too */
+    int32_t     count;                /* of layers at most; 0: all there are */
+    int32_t     producer, memory;     /* layer_producer; MiB for lists */
+    float       fraction;             /* of the picture: ends with a layer that covers less */
+    const char *focus;                /* selector of what is to be uncovered; empty: nothing */
+    float       focus_share, rear;    /* of it; opacity of what lies behind that */
     colour      focus_colour;
-} peel_values;
+} layering;
+
+/* Of a rule's use, NULL: of the visible surface. */
+layering layering_of(const technique_use *layers);
 
 #endif

@@ -10,3 +10,11 @@ const kind kind_layers = {
     .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &layers_front,
     .selector_key = "technique",
 };
+
+layering layering_of(const technique_use *layers)
+{
+    layering out = {.count = 1, .evaluation = EVALUATION_AUTO, .focus = ""};
+    if (layers)
+        layers->technique->layering(&out, layers->values);
+    return out;
+}

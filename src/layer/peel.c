@@ -4,6 +4,14 @@
  * focus, only as many layers are taken as uncover it (depth masking). Nienhaus 2005, sections 5.1, 5.2 and 5.4; rows B01–B05, B09, B10. */
 #include "layer/layer.h"
 
+typedef struct peel_values {
+    int32_t     count, producer, memory, evaluation;
+    float       fraction;
+    param_words focus;
+    float       focus_share, rear;
+    colour      focus_colour;
+} peel_values;
+
 static const char *const producers[] = {"auto", "peeling", "lists", NULL};
 
 static const param params[] = {
@@ -28,8 +36,15 @@ static const param params[] = {
                           "the tree, a union of intersections and differences; auto takes what is faster. The layers are the same."),
 };
 
+static void peel_layering(layering *out, const void *values)
+{
+    const peel_values *v = values;
+    *out = (layering){.evaluation = v->evaluation, .several = true, .count = v->count, .producer = v->producer, .memory = v->memory, .fraction = v->fraction, .focus = v->focus.text,
+                      .focus_share = v->focus_share, .rear = v->rear, .focus_colour = v->focus_colour};
+}
+
 const technique layers_peel = {
     .name = "peel", .doc = "Several surfaces behind each pixel.",
     .example = "{\"layers\": {\"technique\": \"peel\", \"count\": 3}, \"compose\": \"xray\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(peel_values), .layered = true,
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(peel_values), .layered = true, .layering = peel_layering,
 };

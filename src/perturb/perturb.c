@@ -1,6 +1,10 @@
 /* The table of techniques that perturb. */
 #include "perturb/perturb.h"
 
+#include <math.h>
+
+#include "stroke/ribbon.h"
+
 static const technique *const techniques[] = {&perturb_uncertainty, &perturb_pencil};
 
 const kind kind_perturb = {
@@ -8,3 +12,19 @@ const kind kind_perturb = {
     .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = NULL,
     .selector_key = "technique",
 };
+
+void hand_draw(stroke_style *style, const hand *h)
+{
+    enum { COPIES_MOST = 3 };
+    static const float taper_share = 8; /* how many widths a sketched line takes to thin out */
+    style->wobble = h->sway;
+    style->wobble_length = fmaxf(h->length, 4);
+    style->pressure = fminf(h->pressure, 1);
+    if (h->copies > 1) {
+        style->repeats = h->copies < COPIES_MOST ? h->copies : COPIES_MOST;
+        style->repeat_apart = h->jitter + 0.5f;
+        style->brush = BRUSH_PENCIL;
+    }
+    if (style->wobble > 0)
+        style->taper = style->width * taper_share;
+}

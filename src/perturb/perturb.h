@@ -8,4 +8,13 @@ extern const kind kind_perturb;
 
 extern const technique perturb_uncertainty, perturb_pencil;
 
+/* A hand that sways, restates lines and presses unevenly, as strokes are drawn by it. Lengths are pixels. */
+typedef struct hand {
+    float   sway, length; /* how far lines leave their way; of its waves */
+    float   pressure;     /* 0 … 1: how much the weight varies */
+    int32_t copies;       /* of each line */
+    float   jitter;       /* how far they lie apart */
+} hand;
+void hand_draw(struct stroke_style *style, const hand *h);
+
 #endif

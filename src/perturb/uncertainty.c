@@ -155,10 +155,17 @@ static const pass passes[] = {
      .when = "lock=object"},
 };
 
+static void uncertainty_hand(struct stroke_style *style, const void *values)
+{
+    static const float sway_share = 0.4f; /* most places move by much less than the most */
+    const uncertainty *v = values;
+    hand_draw(style, &(hand){.sway = v->amount * sway_share, .length = v->scale, .pressure = v->pressure, .copies = 1});
+}
+
 const technique perturb_uncertainty = {
     .name = "uncertainty", .doc = "Lines and fill waver apart, as drawn by hand.",
     .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty),
     .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), .targets = targets, .target_count = PARAM_COUNT(targets), .perturbs = &perturbs,
+    .passes = passes, .pass_count = PARAM_COUNT(passes), .targets = targets, .target_count = PARAM_COUNT(targets), .perturbs = &perturbs, .as_hand = uncertainty_hand,
 };

@@ -174,10 +174,8 @@ static bool has_ghosts_alone(const plan *p, const figure *f)
 static void settle_layers(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
-    const technique_use *layers = rule_use(r, KIND_LAYERS);
-    const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
     f->ghostly = has_ghosts_alone(p, f);
-    f->layer_count = !peel ? 1 : peel->count ? peel->count : LAYERS_MAX;
+    f->layer_count = f->layering.count ? f->layering.count : LAYERS_MAX;
     f->channels = channels_of(r, f->part_count > 1 || p->has_cut || has_solid(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
@@ -194,19 +192,19 @@ bool shades_with_geometry(const technique_use *surface)
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
 {
     const rule *r = f->rule;
-    const technique_use *surface = rule_use(r, KIND_SURFACE), *layers = rule_use(r, KIND_LAYERS);
+    const technique_use *surface = rule_use(r, KIND_SURFACE);
+    f->layering = layering_of(rule_use(r, KIND_LAYERS));
     f->layered = is_seen_through(r);
     if (f->layered) {
         settle_layers(f, p, as_sprites);
         return;
     }
     bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
-    const front_values *front = layers && layers->technique == &layers_front ? layers->values : NULL;
     const technique *shader = surface ? surface->technique : NULL;
     bool later = shader && shader->deferred_when && params_condition(shader->deferred_when, shader->params, shader->param_count, surface->values);
-    f->deferred = surface && ((front && front->shading == SHADING_DEFERRED) || later) && !shades_with_geometry(surface);
+    f->deferred = surface && (f->layering.deferred || later) && !shades_with_geometry(surface);
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
-    f->complement = front && front->complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
+    f->complement = f->layering.complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
     f->reflects = surface && surface->technique->reflects;
     bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
@@ -409,10 +407,10 @@ static bool add_hidden_rule(plan *p, figure *f)
 }
 
 /* The figure's parts that are its own focus become an opaque figure in front of which the layers lie. */
-static lmn_status split_focus(plan *p, size_t index, const peel_values *peel, lmn_error *error)
+static lmn_status split_focus(plan *p, size_t index, colour highlight, lmn_error *error)
 {
     figure *f = &p->figures[index];
-    figure opaque = {.box = box3_empty(), .highlight = peel->focus_colour.a > 0 ? &peel->focus_colour : NULL};
+    figure opaque = {.box = box3_empty(), .highlight = highlight};
     opaque.designated = mem_calloc(p->part_count, sizeof *opaque.designated);
     rule *r = opaque.designated ? add_rule(p, f->rule) : NULL;
     if (!r) {
@@ -420,13 +418,11 @@ static lmn_status split_focus(plan *p, size_t index, const peel_values *peel, lm
         return error_memory(error);
     }
     opaque.rule = r;
-    static const struct {
-        kind_id          id;
-        const technique *technique;
-    } replaced[] = {{KIND_LAYERS, &layers_front}, {KIND_COMPOSE, &compose_opaque}};
+    /* What shows one surface, opaque. */
+    static const kind_id replaced[] = {KIND_LAYERS, KIND_COMPOSE};
     for (size_t i = 0; i < 2; i++) {
-        technique_use *use = &r->uses[replaced[i].id][0], fresh;
-        if (!use_create(&fresh, kinds[replaced[i].id], replaced[i].technique)) {
+        technique_use *use = &r->uses[replaced[i]][0], fresh;
+        if (!use_create(&fresh, kinds[replaced[i]], kinds[replaced[i]]->standard)) {
             mem_free(opaque.designated);
             return error_memory(error);
         }
@@ -459,12 +455,11 @@ static lmn_status split_focus(plan *p, size_t index, const peel_values *peel, lm
 static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *error)
 {
     figure *f = &p->figures[index];
-    const technique_use *layers = rule_use(f->rule, KIND_LAYERS);
-    const peel_values *peel = layers && layers->technique == &layers_peel ? layers->values : NULL;
-    if (!peel || !peel->focus.text[0])
+    layering how = layering_of(rule_use(f->rule, KIND_LAYERS));
+    if (!how.focus[0])
         return LMN_OK;
     selector *wanted = NULL;
-    lmn_status status = selector_parse(&wanted, peel->focus.text, error);
+    lmn_status status = selector_parse(&wanted, how.focus, error);
     if (status != LMN_OK)
         return status;
     f->focus = mem_calloc(p->part_count, sizeof *f->focus);
@@ -478,11 +473,11 @@ static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *
     if (!f->focus)
         return error_memory(error);
     if (found == 0) {
-        warnings_add(notes, WARNING_NO_MATCH, "layers.focus '%s' selects no part that is drawn", peel->focus.text);
+        warnings_add(notes, WARNING_NO_MATCH, "layers.focus '%s' selects no part that is drawn", how.focus);
         mem_free(f->focus);
         f->focus = NULL;
     }
-    return own ? split_focus(p, index, peel, error) : LMN_OK;
+    return own ? split_focus(p, index, how.focus_colour, error) : LMN_OK;
 }
 
 /* Layered figures: what is to be uncovered, and the lines of hidden layers. */

@@ -2,6 +2,7 @@
 #ifndef LIMNER_PLAN_PLAN_H
 #define LIMNER_PLAN_PLAN_H
 
+#include "layer/layer.h"
 #include "look/look.h"
 #include "plan/camera.h"
 #include "plan/section.h"
@@ -12,7 +13,7 @@ typedef struct figure {
     const rule *rule;
     const rule *hidden;     /* layered: the rule with its lines as hidden layers have them */
     bool       *focus;      /* layered, per part: to be uncovered; NULL: nothing */
-    const colour *highlight; /* drawn in this colour instead of its own; NULL: as it is */
+    colour      highlight;  /* drawn in this colour instead of its own; alpha 0: as it is */
     bool       *designated; /* per part: drawn by this figure */
     size_t      part_count; /* designated ones */
     box3        box;        /* of the designated parts, world axes */
@@ -24,6 +25,7 @@ typedef struct figure {
     bool        layered;    /* composed layer by layer */
     bool        ghostly;    /* of ghosts alone */
     bool        unmarked;   /* marks of its surface are left out */
+    layering    layering;
     int         layer_count; /* layers at most */
     const struct figure_textures *textures; /* that who draws has made for it */
 } figure;

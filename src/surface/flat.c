@@ -11,8 +11,15 @@ static const param params[] = {
     PARAM_FLOAT_ROW(flat, model_colour, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the model's own colour."),
 };
 
+static bool flat_fill(colour *out, const void *values)
+{
+    const flat *v = values;
+    *out = v->colour;
+    return !(v->model_colour > 0);
+}
+
 const technique surface_flat = {
     .name = "flat", .doc = "One colour without light.", .example = "{\"surface\": {\"technique\": \"flat\", \"colour\": \"#eeddcc\"}}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(flat),
-    .surface = "surface/flat.glsl", .direct = true,
+    .surface = "surface/flat.glsl", .direct = true, .as_fill = flat_fill,
 };

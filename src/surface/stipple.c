@@ -34,9 +34,15 @@ static float largest(const void *values)
 
 static const mark_source source = {.point = largest, .describe = describe, .make = make, .vertex = "surface/stipple.vert", .fragment = "surface/stipple.frag"};
 
+static void stipple_by_pen(void *values)
+{
+    stipple_values *v = values;
+    v->grow = 1;
+}
+
 const technique surface_stipple = {
     .name = "stipple", .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.",
     .example = "{\"surface\": {\"technique\": \"stipple\", \"count\": 2000}, \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(stipple_values), .channels = CHANNEL_NORMAL_DEPTH,
+    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(stipple_values), .as_marks = stipple_by_pen, .channels = CHANNEL_NORMAL_DEPTH,
     .surface = "surface/marks_paper.glsl", .marks = &source,
 };

@@ -94,6 +94,10 @@ typedef struct mark_source {
     float      (*point)(const void *values); /* the largest dot's diameter, pixels: drawn as points (AS_POINTS) where the driver has such large ones, else as quads. NULL: quads */
 } mark_source;
 
+struct layering;
+struct stroke_wishes;
+struct stroke_style;
+
 typedef struct technique {
     const char  *name, *doc;  /* doc: one line that ends in a full stop */
     const char  *example;     /* JSON of a rule that shows it: test input and documentation */
@@ -129,6 +133,13 @@ typedef struct technique {
     size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
     const mark_source *marks; /* surface: what is drawn over it; NULL: nothing */
     const perturbation *perturbs; /* perturb: how lookups are moved */
+    void       (*layering)(struct layering *out, const void *values); /* layers: which surfaces are seen, src/layer/layer.h */
+    bool         lines_only;  /* compose: surfaces are not drawn */
+    /* What it is in drawings of vectors. Lengths are pixels. */
+    void       (*as_strokes)(struct stroke_wishes *wishes, struct stroke_style *style, const void *values); /* lines: which strokes and how they look; NULL: lines_as_strokes */
+    void       (*as_hand)(struct stroke_style *style, const void *values); /* perturb: what it does to strokes; NULL: nothing */
+    bool       (*as_fill)(colour *out, const void *values); /* surface: its one colour, sRGB; false: it has more. NULL: it has more */
+    void       (*as_marks)(void *values); /* surface: changes values so that one pen can draw its marks, all alike; NULL: they are */
 } technique;
 
 typedef enum kind_id {

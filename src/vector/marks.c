@@ -202,8 +202,8 @@ static float settle_pen(technique_use *surface)
     mark_style   style = {.diameter = 1};
     mark_values *common = surface->values;
     common->fade = surely_there;
-    if (surface->technique == &surface_stipple)
-        ((stipple_values *)surface->values)->grow = 1;
+    if (surface->technique->as_marks)
+        surface->technique->as_marks(surface->values);
     surface_mark_style(&style, surface);
     return style.diameter;
 }

@@ -2,6 +2,7 @@
  * across the page, by the line's width in pixels, and ink is where they come into sight: beside an outline, on nothing or on what lies farther. They move away from the body
  * they belong to, so that no flat face has ink; how much a line costs does not depend on its width. Sections and solids have no shells. */
 #include "lines/lines.h"
+#include "stroke/ribbon.h"
 
 typedef struct shell {
     lines_common common;
@@ -13,8 +14,14 @@ static const pass passes[] = {
     LINES_PASSES_CONTRAST,
 };
 
+static void shell_as_strokes(stroke_wishes *wishes, stroke_style *style, const void *values)
+{
+    lines_as_strokes(wishes, style, values);
+    wishes->creases = wishes->intersections = false;
+}
+
 const technique lines_shell = {
     .name = "shell", .doc = "Outlines outside closed bodies, wholly beside them, from their far faces moved outwards; at hard edges they are narrower and have gaps at corners.",
     .example = "{\"lines\": {\"operator\": \"shell\", \"width\": 4}, \"surface\": \"flat\"}",
-    .params_size = sizeof(shell), .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .params_size = sizeof(shell), .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS, .as_strokes = shell_as_strokes,
 };

@@ -82,11 +82,17 @@ static const pass passes[] = {
     LINES_PASSES_CONTRAST,
 };
 
+static void own_strokes(stroke_wishes *wishes, stroke_style *style, const void *values)
+{
+    *wishes = strokes_wishes_of(values);
+    *style = strokes_style_of(values);
+}
+
 const technique lines_strokes = {
     .name = "strokes", .doc = "Lines with geometry: outlines, creases and borders of the mesh itself, drawn as strokes.",
     .example = "{\"lines\": {\"operator\": \"strokes\", \"visibility\": \"exact\"}, \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(strokes_values), .passes = passes, .pass_count = PARAM_COUNT(passes),
-    .own_ink = true,
+    .own_ink = true, .as_strokes = own_strokes,
 };
 
 stroke_style strokes_style_of(const strokes_values *v)
