@@ -133,7 +133,7 @@ lmn_status lmn_strokes_get(const lmn_strokes *s, size_t index, lmn_stroke *out, 
         return missing("lmn_strokes_get", s ? "out" : "strokes", error);
     if (index >= s->list.count)
         return error_set(error, LMN_USAGE, "lmn_strokes_get: index is %zu; there are %zu strokes", index, s->list.count);
-    const stroke *t = &s->list.items[index];
+    const texture_stroke *t = &s->list.items[index];
     *out = (lmn_stroke){t->u0, t->v0, t->u1, t->v1, t->light, t->perspective, t->layer};
     return LMN_OK;
 }
@@ -162,7 +162,7 @@ lmn_status lmn_strokes_set(lmn_strokes *s, size_t index, const lmn_stroke *given
         return status;
     if (index >= LIMIT_STROKES)
         return error_set(error, LMN_LIMIT, "lmn_strokes_set: more than %d strokes", LIMIT_STROKES);
-    stroke t = {given->u0, given->v0, given->u1, given->v1, given->light, given->perspective, given->layer};
+    texture_stroke t = {given->u0, given->v0, given->u1, given->v1, given->light, given->perspective, given->layer};
     strokes one = {&t, 1, 1, 1};
     strokes_wrap(&one);
     if (index < s->list.count)

@@ -75,7 +75,7 @@ static lmn_status measure(char **out, series *all, size_t count, const lmn_look 
             if (desc->progress && !desc->progress((double)(i + WARM_UPS) / (repeat + WARM_UPS), "measuring", desc->progress_user))
                 return error_set(error, LMN_CANCELLED, "cancelled");
         }
-    const gpu_facts *facts = gpu_facts_of(r->g);
+    const gpu_capabilities *facts = gpu_capabilities_of(r->g);
     json_t *root = json_object(), *table = json_object();
     json_object_set_new(root, "plain_ms", json_real(median_of(all[0].ms, repeat)));
     json_object_set_new(root, "size", json_pack("[i, i]", desc->width, desc->height));

@@ -279,7 +279,7 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
 static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                              const session *s, const lmn_draw_desc *desc, lmn_error *error)
 {
-    const gpu_facts *facts = gpu_facts_of(r->g);
+    const gpu_capabilities *facts = gpu_capabilities_of(r->g);
     d->vendor = mem_copy_text(facts->vendor);
     d->renderer = mem_copy_text(facts->renderer);
     d->version = mem_copy_text(facts->version);

@@ -52,7 +52,7 @@ char *drawing_report_json(const lmn_drawing *d)
 
 char *renderer_json(const lmn_renderer *r)
 {
-    const gpu_facts *f = gpu_facts_of(r->g);
+    const gpu_capabilities *f = gpu_capabilities_of(r->g);
     json_t *root = json_object();
     json_object_set_new(root, "limner", json_string(LMN_VERSION));
     json_object_set_new(root, "gpu", gpu_json(f->vendor, f->renderer, f->version));

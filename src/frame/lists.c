@@ -29,7 +29,7 @@ int lists_build(frame *f, layer_stack *stack, size_t room)
 {
     stopwatch w = watch_start(&f->profile);
     size_t pixels = (size_t)stack->around[2] * (size_t)stack->around[3];
-    size_t block = (size_t)gpu_facts_of(f->g)->max_storage_mib << 20;
+    size_t block = (size_t)gpu_capabilities_of(f->g)->max_storage_mib << 20;
     room = room < block ? room : block;
     stack->node_vectors = stack->channels & (CHANNEL_SHADE | CHANNEL_ALBEDO) ? NODE_VECTORS_COLOURED : NODE_VECTORS_BARE;
     unsigned limit = (unsigned)(room / (4 * sizeof(uint32_t) * (size_t)stack->node_vectors));

@@ -51,7 +51,7 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         return;
     stopwatch w = watch_start(&f->profile);
     const mark_source *source = surface->technique->marks;
-    bool points = source->point && source->point(surface->values) <= gpu_facts_of(f->g)->max_point;
+    bool points = source->point && source->point(surface->values) <= gpu_capabilities_of(f->g)->max_point;
     mark_set_wishes wishes = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface, points};
     const mark_set *set = mark_sets_find(&f->up->marks, f->g, &wishes);
     text prelude = {0};

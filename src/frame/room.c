@@ -6,7 +6,7 @@
 
 static int limit_of(const gpu *g)
 {
-    const gpu_facts *facts = gpu_facts_of(g);
+    const gpu_capabilities *facts = gpu_capabilities_of(g);
     return facts->max_texture < LIMIT_PICTURE_SIDE ? facts->max_texture : LIMIT_PICTURE_SIDE;
 }
 

@@ -64,9 +64,9 @@ static EGLContext open_context(EGLDisplay display, bool es, bool debug)
     return context;
 }
 
-static void read_facts(gpu *g, bool debug)
+static void read_capabilities(gpu *g, bool debug)
 {
-    gpu_facts *f = &g->facts;
+    gpu_capabilities *f = &g->capabilities;
     f->vendor = (const char *)glGetString(GL_VENDOR);
     f->renderer = (const char *)glGetString(GL_RENDERER);
     f->version = (const char *)glGetString(GL_VERSION);
@@ -127,17 +127,17 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
         return no_gl(&g, error, es ? "the driver gives no OpenGL ES 3.0 context" : "the driver gives no OpenGL 3.3 core context");
     if (!eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, g->context))
         return no_gl(&g, error, "the context cannot be used without a surface");
-    read_facts(g, debug);
-    g->facts.depth_clamp = !g->facts.es || epoxy_has_gl_extension("GL_EXT_depth_clamp");
-    if (g->facts.es && !epoxy_has_gl_extension("GL_EXT_color_buffer_float") && epoxy_gl_version() < 32)
+    read_capabilities(g, debug);
+    g->capabilities.depth_clamp = !g->capabilities.es || epoxy_has_gl_extension("GL_EXT_depth_clamp");
+    if (g->capabilities.es && !epoxy_has_gl_extension("GL_EXT_color_buffer_float") && epoxy_gl_version() < 32)
         return no_gl(&g, error, "the driver cannot draw into float pictures (EXT_color_buffer_float)");
-    if (debug && (!g->facts.es || epoxy_gl_version() >= 32 || epoxy_has_gl_extension("GL_KHR_debug"))) {
+    if (debug && (!g->capabilities.es || epoxy_gl_version() >= 32 || epoxy_has_gl_extension("GL_KHR_debug"))) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
         glDebugMessageCallback(on_message, g);
     }
     glGenVertexArrays(1, &g->empty_array);
-    glGenQueries(GPU_WATCHES, g->watches);
+    glGenQueries(GPU_QUERIES, g->queries);
     glGenVertexArrays(1, &g->boxes_array);
     glGenBuffers(1, &g->boxes_buffer);
     glBindVertexArray(g->boxes_array);
@@ -154,7 +154,7 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
 
 void gpu_make_current(gpu *g)
 {
-    eglBindAPI(g->facts.es ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
+    eglBindAPI(g->capabilities.es ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
     if (!eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, g->context))
         gpu_fail(g, LMN_GL, "the OpenGL context cannot be made current on this thread");
 }
@@ -178,7 +178,7 @@ static void release_objects(gpu *g)
         mem_free(g->buffers[i]);
     }
     glDeleteVertexArrays(1, &g->empty_array);
-    glDeleteQueries(GPU_WATCHES, g->watches);
+    glDeleteQueries(GPU_QUERIES, g->queries);
     glDeleteVertexArrays(1, &g->boxes_array);
     glDeleteBuffers(1, &g->boxes_buffer);
 }

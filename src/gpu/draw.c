@@ -137,9 +137,9 @@ void gpu_use(gpu *g, gpu_program *p, gpu_state state)
         glDisable(GL_DEPTH_TEST);
     glDepthFunc(state.depth_test ? compares[state.depth_compare] : GL_ALWAYS);
     set_stencil(&state.stencil);
-    if (g->facts.depth_clamp && state.depth_clamp)
+    if (g->capabilities.depth_clamp && state.depth_clamp)
         glEnable(GL_DEPTH_CLAMP);
-    else if (g->facts.depth_clamp)
+    else if (g->capabilities.depth_clamp)
         glDisable(GL_DEPTH_CLAMP);
     glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
     if (state.blend == GPU_BLEND_NONE) {
@@ -213,7 +213,7 @@ void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count)
         int64_t pixels = 0;
         for (next = i; next < count && (next == i || pixels < g->piece_pixels); next++)
             pixels += (int64_t)boxes[next][2] * boxes[next][3];
-        if (!g->facts.software)
+        if (!g->capabilities.software)
             next = count;
         draw_some_boxes(g, &boxes[i], next - i);
     }
@@ -343,23 +343,23 @@ void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count)
     g->draws++;
 }
 
-void gpu_watch_begin(gpu *g, int watch)
+void gpu_query_begin(gpu *g, int query)
 {
     if (!g->failed)
-        glBeginQuery(GL_ANY_SAMPLES_PASSED, g->watches[watch]);
+        glBeginQuery(GL_ANY_SAMPLES_PASSED, g->queries[query]);
 }
 
-void gpu_watch_end(gpu *g)
+void gpu_query_end(gpu *g)
 {
     if (!g->failed)
         glEndQuery(GL_ANY_SAMPLES_PASSED);
 }
 
-bool gpu_watched(gpu *g, int watch)
+bool gpu_query_any(gpu *g, int query)
 {
     GLuint any = 0;
     if (!g->failed)
-        glGetQueryObjectuiv(g->watches[watch], GL_QUERY_RESULT, &any);
+        glGetQueryObjectuiv(g->queries[query], GL_QUERY_RESULT, &any);
     return any != 0;
 }
 

@@ -24,7 +24,7 @@ typedef enum gpu_format {
  * than what does not. */
 typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend;
 typedef enum gpu_cull { GPU_CULL_NONE, GPU_CULL_BACK, GPU_CULL_FRONT } gpu_cull;
-/* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where gpu_facts.lists). */
+/* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where gpu_capabilities.lists). */
 typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;
 typedef enum gpu_wrap { GPU_CLAMP, GPU_REPEAT, GPU_MIRROR } gpu_wrap;
 enum { GPU_COLOURS_MAX = 4 };
@@ -41,7 +41,7 @@ bool       gpu_failed(const gpu *g);
 /* Waits until everything is done. */
 void gpu_finish(gpu *g);
 
-typedef struct gpu_facts {
+typedef struct gpu_capabilities {
     const char *vendor, *renderer, *version, *shading; /* owned by the context */
     bool        es, debug, software; /* software: the driver runs on the CPU */
     bool        lanes_stay; /* fragments that were discarded go on computing, so that their neighbours' derivatives stay right: LANES_STAY in shaders */
@@ -50,8 +50,8 @@ typedef struct gpu_facts {
     bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
     bool        depth_clamp;
     bool        lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
-} gpu_facts;
-const gpu_facts *gpu_facts_of(const gpu *g);
+} gpu_capabilities;
+const gpu_capabilities *gpu_capabilities_of(const gpu *g);
 /* Is there storage enough to gather fragments in lists? */
 bool gpu_has_lists(const gpu *g);
 
@@ -117,12 +117,12 @@ bool      gpu_mesh_has_tensors(const gpu_mesh *m);
  * corners of its quad; which one a vertex is, is gl_VertexID & 3. Corners 0 1 2 and 2 1 3 are its triangles. NULL after an error. */
 enum { MARK_VECTORS_MAX = 8 };
 gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t count);
-/* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_facts.max_point, and the middle must lie inside of what is drawn. */
+/* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_capabilities.max_point, and the middle must lie inside of what is drawn. */
 gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 
-/* --- storage buffers (only where gpu_facts.lists) ------------------------------------------------------------------ */
+/* --- storage buffers (only where gpu_capabilities.lists) ------------------------------------------------------------------ */
 
 /* A buffer of at least this size from a pool; its content is undefined. NULL after an error. */
 gpu_buffer *gpu_buffer_acquire(gpu *g, size_t bytes);
@@ -166,7 +166,7 @@ typedef struct gpu_stencil {
 
 typedef struct gpu_state {
     bool        depth_test, depth_write;
-    bool        depth_clamp; /* where gpu_facts.depth_clamp: nothing is cut off at the near and far planes, it gets their depth */
+    bool        depth_clamp; /* where gpu_capabilities.depth_clamp: nothing is cut off at the near and far planes, it gets their depth */
     gpu_compare depth_compare;
     gpu_blend   blend;
     gpu_stencil stencil;
@@ -194,11 +194,11 @@ void gpu_draw_screen(gpu *g);
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
 /* Some of its triangles: runs of indices, first and count. */
 void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count);
-/* Was any fragment between the two calls left by the tests? The answer of one of GPU_WATCHES watches is waited for when it is asked. */
-enum { GPU_WATCHES = 64 };
-void gpu_watch_begin(gpu *g, int watch);
-void gpu_watch_end(gpu *g);
-bool gpu_watched(gpu *g, int watch);
+/* Was any fragment between the two calls left by the tests? The answer of one of GPU_QUERIES occlusion queries is waited for when it is asked. */
+enum { GPU_QUERIES = 64 };
+void gpu_query_begin(gpu *g, int query);
+void gpu_query_end(gpu *g);
+bool gpu_query_any(gpu *g, int query);
 /* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
 /* All of the marks, in their order; or the first ones alone. */

@@ -60,7 +60,7 @@ typedef struct framebuffer {
 struct gpu {
     EGLDisplay    display;
     EGLContext    context;
-    gpu_facts     facts;
+    gpu_capabilities capabilities;
     lmn_error     error;
     bool          failed;
     gpu_texture **targets;
@@ -77,7 +77,7 @@ struct gpu {
     int           piece_indices, piece_pixels; /* drawn at once, at most */
     double        finished_ms;       /* when the last finish was */
     int           box[4];            /* scissor of the pass, whole when there is none */
-    GLuint        empty_array, boxes_array, boxes_buffer, watches[GPU_WATCHES];
+    GLuint        empty_array, boxes_array, boxes_buffer, queries[GPU_QUERIES];
     gpu_program  *program; /* in use */
     int           next_unit;
 };

@@ -112,10 +112,10 @@ void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)
         gpu_draw_indices(g, (uint32_t)(INDICES * count));
         return;
     }
-    if (!g->facts.es) /* there sizes are always those of the shader */
+    if (!g->capabilities.es) /* there sizes are always those of the shader */
         glEnable(GL_PROGRAM_POINT_SIZE);
     glDrawArrays(GL_POINTS, 0, (GLsizei)count);
-    if (!g->facts.es)
+    if (!g->capabilities.es)
         glDisable(GL_PROGRAM_POINT_SIZE);
     pace_drawn(g, (uint32_t)count, 0);
     g->draws++;

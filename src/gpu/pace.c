@@ -35,7 +35,7 @@ static int clamped(int value, int least, int most)
 
 void pace_drawn(gpu *g, uint32_t indices, int64_t pixels)
 {
-    if (!g->facts.software)
+    if (!g->capabilities.software)
         return;
     g->indices_in_flight += indices;
     g->pixels_in_flight += pixels;
@@ -55,13 +55,13 @@ void pace_drawn(gpu *g, uint32_t indices, int64_t pixels)
 
 uint32_t pace_indices(const gpu *g, uint32_t count)
 {
-    return g->facts.software && count > (uint32_t)g->piece_indices ? (uint32_t)g->piece_indices / 3 * 3 : count;
+    return g->capabilities.software && count > (uint32_t)g->piece_indices ? (uint32_t)g->piece_indices / 3 * 3 : count;
 }
 
 /* Whole blocks of sixteen rows, which is what the driver works on. */
 int pace_rows(const gpu *g, int width, int height)
 {
     enum { BLOCK = 16 };
-    int rows = g->facts.software && width > 0 ? g->piece_pixels / width / BLOCK * BLOCK : height;
+    int rows = g->capabilities.software && width > 0 ? g->piece_pixels / width / BLOCK * BLOCK : height;
     return rows < BLOCK ? BLOCK : rows;
 }

@@ -155,7 +155,7 @@ static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *pat
 {
     source s = {0};
     GLuint shader = 0;
-    text_append(&s.body, "%s%s%s", dialect == GPU_FAST ? fast_head : g->facts.es ? es_head : desktop_head, g->facts.lanes_stay ? "#define LANES_STAY\n" : "",
+    text_append(&s.body, "%s%s%s", dialect == GPU_FAST ? fast_head : g->capabilities.es ? es_head : desktop_head, g->capabilities.lanes_stay ? "#define LANES_STAY\n" : "",
                 prelude);
     if (append_files(g, &s, path) && !s.body.failed) {
         shader = glCreateShader(stage);

@@ -45,14 +45,14 @@ void gpu_finish(gpu *g)
     g->finished_ms = clock_ms();
 }
 
-const gpu_facts *gpu_facts_of(const gpu *g)
+const gpu_capabilities *gpu_capabilities_of(const gpu *g)
 {
-    return &g->facts;
+    return &g->capabilities;
 }
 
 bool gpu_has_lists(const gpu *g)
 {
-    return g->facts.lists && g->facts.max_storage_mib >= 16;
+    return g->capabilities.lists && g->capabilities.max_storage_mib >= 16;
 }
 
 uint64_t gpu_draw_count(const gpu *g)

@@ -52,9 +52,9 @@ static gpu_texture *make_empty(gpu *g, GLenum target, int width, int height, gpu
 {
     if (g->failed)
         return NULL;
-    if (width > g->facts.max_texture || height > g->facts.max_texture) {
+    if (width > g->capabilities.max_texture || height > g->capabilities.max_texture) {
         gpu_fail(g, LMN_LIMIT, "a picture of %dx%d pixels is larger than the driver's limit of %d a side", width, height,
-                 g->facts.max_texture);
+                 g->capabilities.max_texture);
         return NULL;
     }
     gpu_texture *t = mem_calloc(1, sizeof *t);
@@ -175,9 +175,9 @@ void gpu_target_release(gpu *g, gpu_texture *t)
 bool gpu_target_possible(gpu *g, int width, int height, gpu_format format)
 {
     GLint got = 0;
-    if (g->failed || width > g->facts.max_texture || height > g->facts.max_texture)
+    if (g->failed || width > g->capabilities.max_texture || height > g->capabilities.max_texture)
         return false;
-    if (g->facts.es)
+    if (g->capabilities.es)
         return true; /* it cannot be asked */
     const format_row *row = &formats[format];
     glActiveTexture(SCRATCH_UNIT);
@@ -244,7 +244,7 @@ void gpu_read(gpu *g, gpu_texture *t, void *out)
     if (g->failed || !t)
         return;
     if (t->format == GPU_DEPTH32F) {
-        if (g->facts.es) {
+        if (g->capabilities.es) {
             read_depth_by_copy(g, t, out);
             return;
         }
@@ -262,7 +262,7 @@ void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out)
     gpu_pass_begin(g, &(gpu_pass){.colours = {t}, .colour_count = 1});
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     GLenum type = t->format == GPU_RGBA16F ? GL_FLOAT : formats[t->format].type;
-    if (t->format == GPU_RG32UI && g->facts.es) {
+    if (t->format == GPU_RG32UI && g->capabilities.es) {
         /* ES guarantees four-component integer reads only. */
         size_t count = (size_t)box[2] * (size_t)box[3];
         uint32_t *wide = mem_alloc(count * 16);

@@ -28,7 +28,7 @@ static const pattern_room rooms[PATTERN_COUNT] = {
 
 void generate_stroke(generator *g, place from, place to, int32_t layer)
 {
-    stroke s = {(float)from.u, (float)from.v, (float)to.u, (float)to.v, 1, 1, layer};
+    texture_stroke s = {(float)from.u, (float)from.v, (float)to.u, (float)to.v, 1, 1, layer};
     if (!g->failed && !strokes_add(g->out, s))
         g->failed = true;
 }

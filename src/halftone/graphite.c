@@ -82,7 +82,7 @@ static void fill_streaks(double *out, uint32_t seed)
     for (int i = 0; i < STREAKS; i++) {
         double u = random_unit(&r), v = random_unit(&r), length = 0.03 + 0.08 * random_unit(&r), slope = 0.85 + 0.1 * random_hand(&r);
         double along = length / sqrt(1 + slope * slope);
-        stroke s = {.u0 = (float)u, .v0 = (float)v, .u1 = (float)(u + along), .v1 = (float)(v + slope * along)};
+        texture_stroke s = {.u0 = (float)u, .v0 = (float)v, .u1 = (float)(u + along), .v1 = (float)(v + slope * along)};
         stroke_draw(&s, GRAPHITE_SIDE, &brush, darken, out);
     }
     for (size_t i = 0; i < (size_t)GRAPHITE_SIDE * GRAPHITE_SIDE; i++)

@@ -126,7 +126,7 @@ static bool grid_open(tiling *t)
     t->starts = mem_calloc(GRID * GRID + 1, sizeof *t->starts);
     bool done = fill && t->boxes && t->starts;
     for (size_t k = 0; done && k < count; k++) {
-        const stroke *s = &t->texture->items[k];
+        const texture_stroke *s = &t->texture->items[k];
         double u0 = (double)s->u0, u1 = (double)s->u1, v0 = (double)s->v0, v1 = (double)s->v1;
         const int32_t box[4] = {cell_of(fmin(u0, u1) - reach), cell_of(fmin(v0, v1) - reach), cell_of(fmax(u0, u1) + reach), cell_of(fmax(v0, v1) + reach)};
         memcpy(t->boxes[k], box, sizeof box);
@@ -149,7 +149,7 @@ static bool grid_open(tiling *t)
 /* Where this copy of a stroke lies. */
 static void copy_ends(const tiling *t, uint32_t k, const int32_t square[2], double a[2], double b[2])
 {
-    const stroke *s = &t->texture->items[k];
+    const texture_stroke *s = &t->texture->items[k];
     double shift[2] = {square[0], square[1]};
     if (t->wishes->jitter > 0) {
         random_source r = random_start(t->wishes->seed ^ (uint32_t)square[0] * 2654435761u ^ (uint32_t)square[1] * 2246822519u, k);
@@ -222,7 +222,7 @@ static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], 
     }
     const mark_surface *s = t->surface;
     const uint32_t *corner = &s->indices[3 * (size_t)triangle];
-    const stroke *source = &t->texture->items[e->stroke];
+    const texture_stroke *source = &t->texture->items[e->stroke];
     piece *p = &t->pieces[t->count++];
     *p = (piece){.square = {square[0], square[1]}, .source = e->stroke, .from = part[0], .to = part[1]};
     p->line = (mark_line){.a = lifted(s->places, corner, share[0]), .b = lifted(s->places, corner, share[1]),

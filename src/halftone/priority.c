@@ -51,7 +51,7 @@ static bool gather_lines(line_list *out, const strokes *s)
 static spread_point point_on(const strokes *s, const line *l, double share)
 {
     double wanted = share * l->length;
-    const stroke *t = &s->items[l->first];
+    const texture_stroke *t = &s->items[l->first];
     for (size_t i = 0; i < l->count; i++) {
         t = &s->items[l->first + i];
         double length = stroke_length(t);

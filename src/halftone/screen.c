@@ -48,7 +48,7 @@ typedef struct raster {
     int32_t drawn;
 } raster;
 
-static bool is_dot(const stroke *s)
+static bool is_dot(const texture_stroke *s)
 {
     return s->u0 == s->u1 && s->v0 == s->v1;
 }
@@ -82,7 +82,7 @@ static lmn_status check_wishes(const screen_wishes *w, lmn_error *error)
 
 /* The diagonal of what the chords `first` to `last` reach over: the length of a straight stroke, and how far a curve goes that wanders. Chords may lie on
  * different copies of the square, so that their ways are added. */
-static double extent_of(const stroke *items, size_t first, size_t last)
+static double extent_of(const texture_stroke *items, size_t first, size_t last)
 {
     double at[2] = {0, 0}, low[2] = {0, 0}, high[2] = {0, 0};
     for (size_t i = first; i <= last; i++) {
@@ -100,13 +100,13 @@ static double extent_of(const stroke *items, size_t first, size_t last)
 /* Marks of the chords `first` to `last`, which are one curve. */
 static void mark_curve(raster *r, size_t first, size_t last)
 {
-    const stroke *items = r->strokes->items;
+    const texture_stroke *items = r->strokes->items;
     double        length = 0, before = 0;
     float         middle[2] = {items[first].u0, items[first].v0};
     for (size_t i = first; i <= last; i++)
         length += stroke_length(&items[i]);
     for (size_t i = first; i <= last; i++) {
-        const stroke *s = &items[i];
+        const texture_stroke *s = &items[i];
         double        size = stroke_length(s), along = size > 0 ? (0.5 * length - before) / size : 0;
         if (along >= 0 && along <= 1) {
             middle[0] = (float)((double)s->u0 + along * ((double)s->u1 - (double)s->u0));
@@ -168,7 +168,7 @@ static bool has_room(const raster *r, int level)
 }
 
 /* Each level has a quarter of the texels and strokes half as long, so that half of them keep its tone. Dots stay as large, and a quarter of them does. */
-static bool is_kept(const stroke *s, int level)
+static bool is_kept(const texture_stroke *s, int level)
 {
     int shift = is_dot(s) ? 2 * level : level;
     return shift >= 24 ? s->perspective >= 1 : (double)s->perspective >= 1 - 1.0 / (double)(1 << shift);
@@ -181,9 +181,9 @@ static double ends_as_length(double width)
     return QUARTER_TURN * (width < 1 ? 1 + width * width / 3 : width + 1 / (3 * width));
 }
 
-static stroke fit_ends(const raster *r, size_t index, int level)
+static texture_stroke fit_ends(const raster *r, size_t index, int level)
 {
-    stroke      out = r->strokes->items[index];
+    texture_stroke out = r->strokes->items[index];
     const mark *m = &r->marks[index];
     double      length = stroke_length(&out);
     if (m->brush.taper > 0 || length <= 0)
@@ -220,10 +220,10 @@ static void draw_level(raster *r, int level)
     memset(r->owner, 0xff, texels * sizeof *r->owner);
     for (size_t i = 0; i < r->count && has_room(r, level); i++) {
         uint32_t      index = r->order[i].index;
-        const stroke *s = &r->strokes->items[index];
+        const texture_stroke *s = &r->strokes->items[index];
         if (!is_kept(s, level))
             continue;
-        stroke fitted = fit_ends(r, index, level);
+        texture_stroke fitted = fit_ends(r, index, level);
         r->drawn = (int32_t)index;
         r->strength = r->flat || s->light > 1 ? 1 : s->light;
         stroke_draw(&fitted, r->side, &r->marks[index].brush, own_texel, r);
@@ -342,7 +342,7 @@ lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_wishes *wi
 }
 
 /* From a place to the nearest point of a stroke's axis, whichever copy that is on. */
-static void to_axis(const stroke *s, double u, double v, double way[2])
+static void to_axis(const texture_stroke *s, double u, double v, double way[2])
 {
     double du = (double)s->u1 - (double)s->u0, dv = (double)s->v1 - (double)s->v0, size = du * du + dv * dv, best = INFINITY;
     int    reach_u = (int)ceil(fabs(du)) + 1, reach_v = (int)ceil(fabs(dv)) + 1;
@@ -369,7 +369,7 @@ static void fill_normals(const raster *r, int level, void *texels, double steep)
             int32_t owner = r->owner[(size_t)y * (size_t)r->side + (size_t)x];
             double  way[2] = {0, 0};
             if (owner != NOBODY) {
-                stroke s = fit_ends(r, (size_t)owner, r->wishes->detail == DETAIL_KEPT ? level : 0);
+                texture_stroke s = fit_ends(r, (size_t)owner, r->wishes->detail == DETAIL_KEPT ? level : 0);
                 to_axis(&s, (x + 0.5) / r->side, (y + 0.5) / r->side, way);
             }
             double distance = sqrt(way[0] * way[0] + way[1] * way[1]);

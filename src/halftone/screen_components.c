@@ -7,7 +7,7 @@
 #include "base/memory.h"
 
 enum {
-    FAINT = INK_MOST / 8, /* less ink does not join marks */
+    FAINT = INK_MOST / 8, /* less ink does not join screen_marks */
     POINT_APART = 16,     /* texels of a mark of which one tells where it is */
     NOBODY = -1
 };
@@ -39,7 +39,7 @@ static void join_texels(int32_t *parent, const uint16_t *ink, int side)
 }
 
 /* Numbers marks by their first texels, and gives each texel its mark's number. Roots come before their texels. */
-static void number_marks(marks *m, int side)
+static void number_marks(screen_marks *m, int side)
 {
     for (int i = 0; i < side * side; i++) {
         int32_t parent = m->label[i];
@@ -51,7 +51,7 @@ static void number_marks(marks *m, int side)
 }
 
 /* Every so many texels of each mark stand for it; sorted by mark. `first` is where each mark's points begin. */
-static void place_points(spread_point *points, size_t *first, const marks *m, int side)
+static void place_points(spread_point *points, size_t *first, const screen_marks *m, int side)
 {
     size_t texels = (size_t)side * (size_t)side, sum = 0;
     for (size_t i = 0; i < texels; i++)
@@ -71,7 +71,7 @@ static void place_points(spread_point *points, size_t *first, const marks *m, in
     }
 }
 
-static size_t count_points(const marks *m, size_t texels)
+static size_t count_points(const screen_marks *m, size_t texels)
 {
     size_t inked = 0;
     for (size_t i = 0; i < texels; i++)
@@ -80,7 +80,7 @@ static size_t count_points(const marks *m, size_t texels)
 }
 
 /* An order in which marks that come after each other lie apart. */
-static bool order_marks(marks *m, int side)
+static bool order_marks(screen_marks *m, int side)
 {
     size_t        texels = (size_t)side * (size_t)side, most = count_points(m, texels);
     spread_point *points = mem_calloc(most, sizeof *points);
@@ -99,9 +99,9 @@ static bool order_marks(marks *m, int side)
     return enough;
 }
 
-bool marks_find(marks *m, const uint16_t *ink, int side)
+bool screen_marks_find(screen_marks *m, const uint16_t *ink, int side)
 {
-    *m = (marks){.label = mem_alloc((size_t)side * (size_t)side * sizeof *m->label)};
+    *m = (screen_marks){.label = mem_alloc((size_t)side * (size_t)side * sizeof *m->label)};
     if (!m->label)
         return false;
     join_texels(m->label, ink, side);
@@ -113,7 +113,7 @@ bool marks_find(marks *m, const uint16_t *ink, int side)
     return order_marks(m, side);
 }
 
-void marks_release(marks *m)
+void screen_marks_release(screen_marks *m)
 {
     mem_free(m->label);
     mem_free(m->order);
@@ -121,7 +121,7 @@ void marks_release(marks *m)
     mem_free(m->gone);
 }
 
-void marks_reduce(marks *m, uint16_t *ink, const uint16_t *finer, int half)
+void screen_marks_reduce(screen_marks *m, uint16_t *ink, const uint16_t *finer, int half)
 {
     int side = 2 * half;
     for (int y = 0; y < half; y++)
@@ -142,7 +142,7 @@ void marks_reduce(marks *m, uint16_t *ink, const uint16_t *finer, int half)
 }
 
 /* Marks stay in their order as long as there is too little ink; what is gone stays away on all coarser levels. */
-void marks_thin(marks *m, uint16_t *ink, int side, double share)
+void screen_marks_thin(screen_marks *m, uint16_t *ink, int side, double share)
 {
     size_t texels = (size_t)side * (size_t)side;
     double wanted = share * INK_MOST * (double)texels, sum = 0;

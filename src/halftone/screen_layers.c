@@ -183,12 +183,12 @@ static double mean_of(const uint16_t *ink, size_t count)
 }
 
 /* A coarser level with as much ink and lines as wide: first whole marks go, and where that is not enough, texels. */
-static bool keep_detail(painting *p, marks *m, int side, double share, size_t whole)
+static bool keep_detail(painting *p, screen_marks *m, int side, double share, size_t whole)
 {
     size_t count = (size_t)side * (size_t)side;
     reduce(p->ink, side, p->mean, p->next);
-    marks_reduce(m, p->next, p->ink, side);
-    marks_thin(m, p->next, side, share);
+    screen_marks_reduce(m, p->next, p->ink, side);
+    screen_marks_thin(m, p->next, side, share);
     return mean_of(p->next, count) <= MUCH * share || thin(p->next, p->mean, side, p->up_to, whole);
 }
 
@@ -196,8 +196,8 @@ static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
 {
     size_t whole = (size_t)out->width * (size_t)out->width;
     double share = mean_of(p->ink, whole);
-    marks  m = {0};
-    bool   good = detail != DETAIL_KEPT || marks_find(&m, p->ink, out->width);
+    screen_marks m = {0};
+    bool   good = detail != DETAIL_KEPT || screen_marks_find(&m, p->ink, out->width);
     add_up(p->up_to, p->ink, whole);
     ink_encode(out->data[0], p->ink, whole);
     for (int k = 1; good && k < out->levels; k++) {
@@ -210,7 +210,7 @@ static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
         memcpy(p->ink, detail == DETAIL_AVERAGE ? p->mean : p->next, count * sizeof *p->ink);
         ink_encode(out->data[k], p->ink, count);
     }
-    marks_release(&m);
+    screen_marks_release(&m);
     return good;
 }
 

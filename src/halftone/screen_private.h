@@ -27,20 +27,20 @@ uint32_t bayer_rank(uint32_t x, uint32_t y, int side);
 
 /* --- screen_components.c: marks of painted screens, texels that hang together --- */
 
-typedef struct marks {
+typedef struct screen_marks {
     int32_t *label; /* a texel's mark on the level at hand, or −1 */
     size_t  *order; /* marks that follow each other lie apart */
     double  *ink;   /* of each mark */
     bool    *gone;
     size_t   count;
-} marks;
+} screen_marks;
 
 /* The marks of a square of a power of two texels that repeats. False: memory is gone; then, too, release. */
-bool marks_find(marks *m, const uint16_t *ink, int side);
-void marks_release(marks *m);
+bool screen_marks_find(screen_marks *m, const uint16_t *ink, int side);
+void screen_marks_release(screen_marks *m);
 /* The next coarser level: the darkest of four that belongs to a mark. `ink` may be `finer`. */
-void marks_reduce(marks *m, uint16_t *ink, const uint16_t *finer, int half);
+void screen_marks_reduce(screen_marks *m, uint16_t *ink, const uint16_t *finer, int half);
 /* Takes away whole marks until the mean ink is about `share`, 0 … 1. */
-void marks_thin(marks *m, uint16_t *ink, int side, double share);
+void screen_marks_thin(screen_marks *m, uint16_t *ink, int side, double share);
 
 #endif

@@ -63,7 +63,7 @@ double stroke_grain_mean(double grain, double texels)
 }
 
 /* A number for a stroke, by where it is: it has the same streaks wherever it is drawn. */
-static uint32_t key_of(const stroke *s)
+static uint32_t key_of(const texture_stroke *s)
 {
     const float ends[4] = {s->u0, s->v0, s->u1, s->v1};
     uint32_t bits[4], key = 0x9e3779b9;
@@ -73,7 +73,7 @@ static uint32_t key_of(const stroke *s)
     return key;
 }
 
-static capsule capsule_of(const stroke *s, int side, const stroke_brush *brush)
+static capsule capsule_of(const texture_stroke *s, int side, const stroke_brush *brush)
 {
     double scale = side;
     capsule c = {.x0 = (double)s->u0 * scale, .y0 = (double)s->v0 * scale, .width = brush->width};
@@ -191,7 +191,7 @@ static void draw_often(const capsule *c, int side, stroke_texel_fn texel, void *
         }
 }
 
-void stroke_draw(const stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user)
+void stroke_draw(const texture_stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user)
 {
     if (side <= 0 || !(brush->width > 0))
         return;

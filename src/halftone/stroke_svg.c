@@ -161,7 +161,7 @@ static bool add_chord(void *user, svg_point from, svg_point to)
         error_hint(r->error, "take away what lies far outside of the view box");
         return false;
     }
-    stroke s = {(float)a.x, (float)a.y, (float)b.x, (float)b.y, r->light, r->perspective, r->layer};
+    texture_stroke s = {(float)a.x, (float)a.y, (float)b.x, (float)b.y, r->light, r->perspective, r->layer};
     if (r->out->count >= LIMIT_STROKES)
         fail(r, LMN_LIMIT, NULL, NULL);
     else if (!strokes_add(r->out, s))
@@ -477,7 +477,7 @@ static void write_point(text *out, const char *between, double u, double v)
     stroke_write_number(out, (float)(1 - v));
 }
 
-static bool same_priorities(const stroke *a, const stroke *b)
+static bool same_priorities(const texture_stroke *a, const texture_stroke *b)
 {
     return a->light == b->light && a->perspective == b->perspective;
 }
@@ -485,7 +485,7 @@ static bool same_priorities(const stroke *a, const stroke *b)
 /* A stroke, or the curve that begins with it. Returns how many strokes that are. */
 static size_t write_line(text *out, const strokes *s, size_t first)
 {
-    const stroke *t = &s->items[first];
+    const texture_stroke *t = &s->items[first];
     size_t count = 1;
     if (t->u0 == t->u1 && t->v0 == t->v1) {
         text_append(out, "<circle");
@@ -499,7 +499,7 @@ static size_t write_line(text *out, const strokes *s, size_t first)
         write_point(out, "", (double)t->u0, (double)t->v0);
         write_point(out, " ", u, v);
         for (; first + count < s->count; count++) {
-            const stroke *next = &t[count];
+            const texture_stroke *next = &t[count];
             if (!stroke_goes_on(next - 1, next) || !same_priorities(t, next))
                 break;
             u += (double)next->u1 - (double)next->u0;

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-bool strokes_add(strokes *s, stroke item)
+bool strokes_add(strokes *s, texture_stroke item)
 {
     if (!mem_grow((void **)&s->items, &s->capacity, s->count + 1, sizeof *s->items))
         return false;
@@ -41,7 +41,7 @@ void strokes_wrap(strokes *s)
     }
 }
 
-double stroke_length(const stroke *s)
+double stroke_length(const texture_stroke *s)
 {
     return hypot((double)s->u1 - (double)s->u0, (double)s->v1 - (double)s->v0);
 }
@@ -62,7 +62,7 @@ static bool same_place(float a, float b)
     return fabsf(apart - roundf(apart)) < 2e-6f;
 }
 
-bool stroke_goes_on(const stroke *one, const stroke *next)
+bool stroke_goes_on(const texture_stroke *one, const texture_stroke *next)
 {
     bool dots = (one->u0 == one->u1 && one->v0 == one->v1) || (next->u0 == next->u1 && next->v0 == next->v1);
     return !dots && one->layer == next->layer && same_place(one->u1, next->u0) && same_place(one->v1, next->v0);

@@ -11,25 +11,25 @@
 
 /* A straight stroke. The start lies in [0, 1)²; the end may lie outside: the stroke goes on at the opposite side (EX-18). v grows upwards. A dot has
  * both ends at one place. */
-typedef struct stroke {
+typedef struct texture_stroke {
     float   u0, v0, u1, v1;
     float   light;       /* priority: drawn where light < priority; 1 stays longest, above 1 (legal, by indication) even in full light, below 0 never */
     float   perspective; /* the same for distance: drawn at mip level k when at least 1 − 2^−k */
     int32_t layer;       /* 0 is the most important one */
-} stroke;
+} texture_stroke;
 
 typedef struct strokes {
-    stroke *items;
+    texture_stroke *items;
     size_t  count, capacity;
     float   width; /* of a stroke, share of its usual width; dots: of their diameter. 1 */
 } strokes;
 
-bool strokes_add(strokes *s, stroke item); /* false: memory is gone */
+bool strokes_add(strokes *s, texture_stroke item); /* false: memory is gone */
 void strokes_release(strokes *s);
 /* Moves starts into the unit square, ends with them. Files may have any finite numbers. */
 void strokes_wrap(strokes *s);
 /* Length in the square. */
-double stroke_length(const stroke *s);
+double stroke_length(const texture_stroke *s);
 int32_t strokes_layer_count(const strokes *s); /* the largest layer + 1 */
 
 /* --- files --- */
@@ -128,7 +128,7 @@ stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush
 /* Combines one stroke into a square picture of `side` texels that repeats: calls `texel` for each texel that it touches, row 0 at the bottom, with the share
  * of the texel that it covers: min(1, width, width / 2 + 1/2 − distance to the axis), above 0. Copies around the border are included; a texel is called once at most. */
 typedef void (*stroke_texel_fn)(void *user, size_t index, float coverage);
-void stroke_draw(const stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user);
+void stroke_draw(const texture_stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user);
 
 /* Ink of all strokes with light ≥ threshold_light and perspective ≥ threshold_perspective (EX-01: both), black on white, 255 is paper: the picture
  * beside the .stx that guides the placing of texture coordinates (EX-24). `out` has side² bytes, row 0 at the bottom. */

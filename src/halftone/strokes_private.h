@@ -10,7 +10,7 @@
 void stroke_write_number(text *out, float value);
 
 /* Is `next` the chord that goes on where `one` ends? */
-bool stroke_goes_on(const stroke *one, const stroke *next);
+bool stroke_goes_on(const texture_stroke *one, const texture_stroke *next);
 
 /* What a brush's grain leaves of the ink of a stroke of this length, on the mean. */
 double stroke_grain_mean(double grain, double texels);

@@ -44,7 +44,7 @@ static lmn_status refuse_count(const reader *r, const char *how_many)
     return LMN_FORMAT;
 }
 
-static lmn_status read_field(reader *r, int field, stroke *out)
+static lmn_status read_field(reader *r, int field, texture_stroke *out)
 {
     double value = 0;
     const char *word = r->at;
@@ -72,7 +72,7 @@ static lmn_status read_field(reader *r, int field, stroke *out)
 
 static lmn_status read_line(reader *r, strokes *out)
 {
-    stroke item = {0};
+    texture_stroke item = {0};
     int field = 0;
     for (skip_blanks(r); r->at < r->end; skip_blanks(r)) {
         if (field == FIELDS)
@@ -147,7 +147,7 @@ void strokes_write(text *out, const strokes *s)
 {
     text_append(out, "# u0 v0 u1 v1 light perspective layer\n");
     for (size_t i = 0; i < s->count; i++) {
-        const stroke *t = &s->items[i];
+        const texture_stroke *t = &s->items[i];
         const float numbers[] = {t->u0, t->v0, t->u1, t->v1, t->light, t->perspective};
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
             stroke_write_number(out, numbers[k]);

@@ -55,7 +55,7 @@ static void darken(void *user, size_t index, float coverage)
 }
 
 /* The priorities that make the stroke appear in its tone and down to its level. */
-static bool keep(tam *t, stroke s, int direction)
+static bool keep(tam *t, texture_stroke s, int direction)
 {
     if (!t->kept)
         return true;
@@ -66,7 +66,7 @@ static bool keep(tam *t, stroke s, int direction)
     return strokes_add(t->kept, s);
 }
 
-bool tam_put(tam *t, stroke s, int direction)
+bool tam_put(tam *t, texture_stroke s, int direction)
 {
     for (int k = t->level; k >= 0; k--) {
         tam_level *level = &t->levels[k];
@@ -113,7 +113,7 @@ static bool queue_fill(queue *q, const strokes *s)
     return true;
 }
 
-static bool near_enough(const stroke *s, int level)
+static bool near_enough(const texture_stroke *s, int level)
 {
     return (double)s->perspective >= 1 - 1.0 / (double)(1 << level);
 }
@@ -131,7 +131,7 @@ static double whole_length(const tam *t, size_t index)
 /* Places as many as the level being filled needs, or as there are; curves as a whole. */
 static bool fill_drawn(tam *t, queue *q)
 {
-    const stroke *items = t->wishes->drawn->items;
+    const texture_stroke *items = t->wishes->drawn->items;
     size_t        left = 0, before = SIZE_MAX; /* the stroke that was placed last */
     for (size_t i = 0; i < q->count; i++) {
         size_t index = q->items[i].index;

@@ -50,7 +50,7 @@ static float end_share(float along)
     return share >= 1 ? 1 : END_LEAST + (1 - END_LEAST) * share;
 }
 
-void tam_add_crowd(tam *t, tam_level *level, const stroke *s, int direction)
+void tam_add_crowd(tam *t, tam_level *level, const texture_stroke *s, int direction)
 {
     int    side = level->side, mask = side - 1;
     double most = (double)(t->crowding_count - 1) / CROWD_STEPS, reach = fmin(most, side / 2.0 - 1);
@@ -71,7 +71,7 @@ void tam_add_crowd(tam *t, tam_level *level, const stroke *s, int direction)
 }
 
 /* Mean crowding along a stroke's axis, or anything above `best` as soon as it is certain to be worse. */
-static float crowd_along(const tam_level *level, const float *crowd, const stroke *s, float best)
+static float crowd_along(const tam_level *level, const float *crowd, const texture_stroke *s, float best)
 {
     double   side = level->side, length = stroke_length(s) * side;
     int      count = 2 + (int)(length / 1.5);
@@ -107,11 +107,11 @@ static double next_length(tam *t)
     return missing > 0.5 * tam_expected(t, t->level, length) ? length : 0;
 }
 
-static stroke stroke_at(tam *t, double u, double v, double length, int direction)
+static texture_stroke stroke_at(tam *t, double u, double v, double length, int direction)
 {
     double slope = SWAY * (double)t->wishes->uneven * random_hand(&t->random), unit = length / sqrt(1 + slope * slope);
     double along = unit, aside = unit * slope;
-    stroke s = {.u0 = (float)u, .v0 = (float)v};
+    texture_stroke s = {.u0 = (float)u, .v0 = (float)v};
     s.u1 = s.u0 + (float)(direction == TAM_ALONG ? along : aside);
     s.v1 = s.v0 + (float)(direction == TAM_ALONG ? aside : along);
     return s;
@@ -132,24 +132,24 @@ static const float *what_fills(const tam *t, const tam_level *level, int directi
 }
 
 /* The part of a stroke that is as wide as strokes are: its ends fill no gaps. */
-static stroke middle_of(const stroke *s)
+static texture_stroke middle_of(const texture_stroke *s)
 {
     float du = 0.25f * (s->u1 - s->u0), dv = 0.25f * (s->v1 - s->v0);
-    return (stroke){.u0 = s->u0 + du, .v0 = s->v0 + dv, .u1 = s->u1 - du, .v1 = s->v1 - dv};
+    return (texture_stroke){.u0 = s->u0 + du, .v0 = s->v0 + dv, .u1 = s->u1 - du, .v1 = s->v1 - dv};
 }
 
 /* Tries places in a band across strokes' direction and draws where it is least crowded. */
 static bool put_best(tam *t, double length, int direction, double band, double thickness, int candidates)
 {
     const tam_level *level = &t->levels[t->level];
-    stroke           best = {0};
+    texture_stroke best = {0};
     const float     *filled = what_fills(t, level, direction);
     float            least = INFINITY;
     for (int k = 0; k < candidates; k++) {
         double at = random_unit(&t->random), aside = band + thickness * random_unit(&t->random);
         aside -= floor(aside);
-        stroke s = stroke_at(t, direction == TAM_ALONG ? at : aside, direction == TAM_ALONG ? aside : at, length, direction);
-        stroke middle = middle_of(&s);
+        texture_stroke s = stroke_at(t, direction == TAM_ALONG ? at : aside, direction == TAM_ALONG ? aside : at, length, direction);
+        texture_stroke middle = middle_of(&s);
         float  crowd = crowd_along(level, filled, filled == level->ink ? &middle : &s, least);
         if (crowd < least) {
             least = crowd;

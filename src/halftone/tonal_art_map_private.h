@@ -36,13 +36,13 @@ double tam_missing(const tam *t);
 /* Mean ink that a stroke of this length would add to a level now, about. */
 double tam_expected(const tam *t, int level, double length);
 /* Draws a stroke into the level being filled and all finer ones, and keeps it. False: memory is gone. */
-bool tam_put(tam *t, stroke s, int direction);
+bool tam_put(tam *t, texture_stroke s, int direction);
 
 /* --- tonal_art_map_place.c --- */
 
 /* How strokes crowd each other at the tone being filled. Called once a tone. */
 bool tam_set_crowding(tam *t);
-void tam_add_crowd(tam *t, tam_level *level, const stroke *s, int direction);
+void tam_add_crowd(tam *t, tam_level *level, const texture_stroke *s, int direction);
 /* Fill the level being filled up to its tone. */
 bool tam_fill_best(tam *t);
 bool tam_fill_strips(tam *t);

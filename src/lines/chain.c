@@ -184,7 +184,7 @@ static bool remove_spurs(tracing *t, float spur)
 /* --- points ----------------------------------------------------------------------------------------------------- */
 
 /* The middle of the ink around a pixel: thin lines of an even width have theirs between two. */
-static chain_point point_of(const tracing *t, uint32_t cell)
+static trace_point point_of(const tracing *t, uint32_t cell)
 {
     const thin_grid *g = &t->grid;
     int sum_x = 0, sum_y = 0, count = 0;
@@ -197,7 +197,7 @@ static chain_point point_of(const tracing *t, uint32_t cell)
         }
     int column = (int)(cell % (uint32_t)g->stride) - 1, row = (int)(cell / (uint32_t)g->stride) - 1;
     float share = 1 / (float)(count ? count : 1);
-    return (chain_point){(float)column + (float)sum_x * share, (float)row + (float)sum_y * share, 0,
+    return (trace_point){(float)column + (float)sum_x * share, (float)row + (float)sum_y * share, 0,
                          (uint32_t)row * (uint32_t)g->width + (uint32_t)column};
 }
 
@@ -210,15 +210,15 @@ static size_t reach_at(size_t n, size_t i, bool closed, size_t reach)
 }
 
 /* Angle between the ways from and to the points at this distance, without sign. */
-static float turn_at(const chain_point *p, size_t n, size_t i, size_t reach)
+static float turn_at(const trace_point *p, size_t n, size_t i, size_t reach)
 {
-    const chain_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
+    const trace_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
     float ux = b->x - a->x, uy = b->y - a->y, vx = c->x - b->x, vy = c->y - b->y;
     return fabsf(atan2f(ux * vy - uy * vx, ux * vx + uy * vy));
 }
 
 /* Over how many points on either side is there a corner at point i? 0: there is none. */
-static size_t corner_reach_at(const chain_point *p, size_t n, size_t i, bool closed)
+static size_t corner_reach_at(const trace_point *p, size_t n, size_t i, bool closed)
 {
     size_t reach = reach_at(n, i, closed, CORNER_REACH);
     if (reach < CORNER_LEAST)
@@ -238,12 +238,12 @@ static size_t corner_reach_at(const chain_point *p, size_t n, size_t i, bool clo
 
 /* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the chord between
  * its neighbours, as a share of their distance along the line; greatest at the very corner. */
-static float sharpness_at(const chain_point *p, size_t n, size_t i, bool closed)
+static float sharpness_at(const trace_point *p, size_t n, size_t i, bool closed)
 {
     size_t reach = corner_reach_at(p, n, i, closed);
     if (reach == 0)
         return 0;
-    const chain_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
+    const trace_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
     float dx = c->x - a->x, dy = c->y - a->y, chord = hypotf(dx, dy);
     float height = chord > 0 ? fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) / chord : hypotf(b->x - a->x, b->y - a->y);
     return height / (float)reach;
@@ -265,19 +265,19 @@ static bool is_corner(const float *sharpness, size_t n, size_t i, bool closed)
 
 /* The point `k` places from `i`. Beyond an open end the line goes on as its mirror image in the end point, which keeps ends in
  * their place and straight lines straight. */
-static void place_at(const chain_point *p, long n, long i, bool closed, float out[2])
+static void place_at(const trace_point *p, long n, long i, bool closed, float out[2])
 {
     if (closed)
         i = ((i % n) + n) % n;
     long inside = i < 0 ? -i : i >= n ? 2 * (n - 1) - i : i;
-    const chain_point *end = i < 0 ? &p[0] : &p[n - 1];
+    const trace_point *end = i < 0 ? &p[0] : &p[n - 1];
     bool mirrored = inside != i;
     inside = inside < 0 ? 0 : inside >= n ? n - 1 : inside;
     out[0] = mirrored ? 2 * end->x - p[inside].x : p[inside].x;
     out[1] = mirrored ? 2 * end->y - p[inside].y : p[inside].y;
 }
 
-static void smooth_point(chain_point *to, const chain_point *from, long n, long i, bool closed)
+static void smooth_point(trace_point *to, const trace_point *from, long n, long i, bool closed)
 {
     static const float weights[SMOOTH_REACH + 1] = {0.2016f, 0.1774f, 0.1208f, 0.0637f, 0.0260f, 0.0113f};
     float x = weights[0] * from[i].x, y = weights[0] * from[i].y;
@@ -301,13 +301,13 @@ static void smooth_point(chain_point *to, const chain_point *from, long n, long 
 }
 
 /* Adds points first … first + count - 1 of `p` (around its end where it is closed) as a chain, smoothed and measured. */
-static bool add_chain(chain_set *out, chain_point *p, size_t n, size_t first, chain c)
+static bool add_chain(chain_set *out, trace_point *p, size_t n, size_t first, chain c)
 {
     if (!mem_grow((void **)&out->points, &out->point_room, out->point_count + 2 * c.count, sizeof *out->points) ||
         !mem_grow((void **)&out->chains, &out->chain_room, out->chain_count + 1, sizeof *out->chains))
         return false;
     c.first = out->point_count;
-    chain_point *to = &out->points[c.first], *from = to + c.count; /* the room behind holds the rough ones meanwhile */
+    trace_point *to = &out->points[c.first], *from = to + c.count; /* the room behind holds the rough ones meanwhile */
     for (size_t i = 0; i < c.count; i++)
         from[i] = p[(first + i) % n];
     for (size_t i = 0; i < c.count; i++)
@@ -323,7 +323,7 @@ static bool add_chain(chain_set *out, chain_point *p, size_t n, size_t first, ch
 }
 
 /* Parts a line at its corners. */
-static bool add_parted(chain_set *out, const raw_line *line, chain_point *p, float *sharpness)
+static bool add_parted(chain_set *out, const raw_line *line, trace_point *p, float *sharpness)
 {
     size_t n = line->count, start = 0, first_corner = n;
     bool joined = line->joined[0], good = true;
@@ -353,7 +353,7 @@ static bool make_chains(chain_set *out, const tracing *t)
     size_t longest = 0;
     for (size_t i = 0; i < t->line_count; i++)
         longest = t->lines[i].count > longest ? t->lines[i].count : longest;
-    chain_point *points = mem_alloc(longest * sizeof *points);
+    trace_point *points = mem_alloc(longest * sizeof *points);
     float *sharpness = mem_alloc(longest * sizeof *sharpness);
     bool good = points && sharpness;
     for (size_t i = 0; i < t->line_count && good; i++) {

@@ -8,11 +8,11 @@
 #include <stdint.h>
 
 /* A point in the middle of the line's ink, smoothed. */
-typedef struct chain_point {
+typedef struct trace_point {
     float    x, y;  /* pixels; centres are whole numbers */
     float    along; /* length of the chain up to here */
     uint32_t pixel; /* that it was found at: y · width + x */
-} chain_point;
+} trace_point;
 
 typedef struct chain {
     size_t first, count; /* of its points */
@@ -23,7 +23,7 @@ typedef struct chain {
 } chain;
 
 typedef struct chain_set {
-    chain_point *points;
+    trace_point *points;
     chain       *chains;
     size_t       point_count, chain_count;
     size_t       point_room, chain_room;

@@ -76,10 +76,10 @@ typedef struct painting {
 } painting;
 
 /* The chain's direction at a point: between its neighbours. */
-static void set_direction(source *s, const chain *c, const chain_point *points, size_t i)
+static void set_direction(source *s, const chain *c, const trace_point *points, size_t i)
 {
-    const chain_point *before = i ? &points[i - 1] : c->closed ? &points[c->count - 1] : &points[0];
-    const chain_point *behind = i + 1 < c->count ? &points[i + 1] : c->closed ? &points[0] : &points[i];
+    const trace_point *before = i ? &points[i - 1] : c->closed ? &points[c->count - 1] : &points[0];
+    const trace_point *behind = i + 1 < c->count ? &points[i + 1] : c->closed ? &points[0] : &points[i];
     float tx = behind->x - before->x, ty = behind->y - before->y, size = sqrtf(tx * tx + ty * ty);
     s->tx = size > 0 ? tx / size : 0;
     s->ty = size > 0 ? ty / size : 0;
@@ -115,7 +115,7 @@ static void place_sources(painting *p)
     uint32_t count = 0;
     for (size_t i = 0; i < p->set->chain_count; i++) {
         const chain *c = &p->set->chains[i];
-        const chain_point *points = &p->set->points[c->first];
+        const trace_point *points = &p->set->points[c->first];
         p->patterns[i] = dash_pattern_of(c, p->style);
         for (size_t k = 0; k < c->count; k++, count++) {
             source *s = &p->sources[count];

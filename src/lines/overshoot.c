@@ -34,10 +34,10 @@ static const float SAME_TURN = 0.14f, BEND_TURN = 0.37f, ARC_TURN = 0.12f;
 static const int MEETING = 3;
 static const float OFF_LINE = 1.2f;
 
-/* Lines that an arc touches must be this long, also in lengths of their strokes, since arcs look straight for a while. */
+/* Lines that an arc touches must be this long, also in lengths of their extensions, since arcs look straight for a while. */
 static const float LEAST_TANGENT = 48, TANGENT_TIMES = 4, MOST_TANGENT = 128, TANGENT_BOW = 0.3f;
 
-/* A stroke that leaves other ink later than this leaves it at a small angle. Until shortly before it is not drawn. */
+/* A extension that leaves other ink later than this leaves it at a small angle. Until shortly before it is not drawn. */
 static const float LEAVING = 8, LEAVING_SHARE = 1.5f, BEFORE_LEAVING = 6, BEFORE_END = 2.5f;
 
 typedef struct chain_end {
@@ -53,17 +53,17 @@ typedef struct finding {
     const overshoot_style *style;
     chain_end             *ends; /* joined ones, by pixel */
     size_t                 end_count;
-    stroke_set            *found;
+    extension_set            *found;
 } finding;
 
 /* The k-th point from one side of a chain. */
-static const chain_point *point_from(const finding *f, const chain *c, int side, size_t k)
+static const trace_point *point_from(const finding *f, const chain *c, int side, size_t k)
 {
     return &f->set->points[c->first + (side ? c->count - 1 - k : k)];
 }
 
 /* How far along the chain that is, from this side. */
-static float way_from(const chain *c, const chain_point *p, int side)
+static float way_from(const chain *c, const trace_point *p, int side)
 {
     return side ? c->length - p->along : p->along;
 }
@@ -72,7 +72,7 @@ static float way_from(const chain *c, const chain_point *p, int side)
 
 /* Points of a chain near its end. */
 typedef struct window {
-    const chain_point *points[WINDOW_MAX];
+    const trace_point *points[WINDOW_MAX];
     size_t             count;
     float              x, y, dx, dy; /* middle, and direction towards the end */
 } window;
@@ -81,7 +81,7 @@ static void gather(window *w, const finding *f, const chain *c, int side, float 
 {
     w->count = 0;
     for (size_t k = 0; k < c->count && w->count < WINDOW_MAX; k++) {
-        const chain_point *p = point_from(f, c, side, k);
+        const trace_point *p = point_from(f, c, side, k);
         float way = way_from(c, p, side);
         if (way > to)
             break;
@@ -108,7 +108,7 @@ static void fit(window *w)
     float angle = 0.5f * atan2f(2 * xy, xx - yy);
     w->dx = cosf(angle);
     w->dy = sinf(angle);
-    const chain_point *a = w->points[w->count - 1], *b = w->points[0]; /* the first is next to the end */
+    const trace_point *a = w->points[w->count - 1], *b = w->points[0]; /* the first is next to the end */
     if ((b->x - a->x) * w->dx + (b->y - a->y) * w->dy < 0) {
         w->dx = -w->dx;
         w->dy = -w->dy;
@@ -159,7 +159,7 @@ static bool find_line(window *w, const finding *f, const chain *c, int side)
 }
 
 /* How far a point lies beside the window's line. */
-static float beside(const window *w, const chain_point *p)
+static float beside(const window *w, const trace_point *p)
 {
     return fabsf((p->y - w->y) * w->dx - (p->x - w->x) * w->dy);
 }
@@ -206,16 +206,16 @@ static size_t first_end(const finding *f, uint32_t pixel)
 }
 
 /* The angle from a direction to the way between two points. */
-static float turn_between(float dx, float dy, const chain_point *a, const chain_point *b)
+static float turn_between(float dx, float dy, const trace_point *a, const trace_point *b)
 {
     float x = b->x - a->x, y = b->y - a->y;
     return atan2f(dx * y - dy * x, x * dx + y * dy);
 }
 
-/* Does this chain, from this point on, carry the stroke's line on, or bend it a little? An arc that touches the line does not. */
-static bool carries_on(const finding *f, const chain *c, int side, size_t first, const stroke *s)
+/* Does this chain, from this point on, carry the extension's line on, or bend it a little? An arc that touches the line does not. */
+static bool carries_on(const finding *f, const chain *c, int side, size_t first, const extension *s)
 {
-    const chain_point *start = point_from(f, c, side, first), *middle = NULL, *end = start;
+    const trace_point *start = point_from(f, c, side, first), *middle = NULL, *end = start;
     float from = way_from(c, start, side), way = fminf(c->length - from, fminf(64, fmaxf(3 * s->length, 24)));
     if (way < 5)
         return false;
@@ -230,7 +230,7 @@ static bool carries_on(const finding *f, const chain *c, int side, size_t first,
     return turn < SAME_TURN || fabsf(turn_between(middle->x - start->x, middle->y - start->y, middle, end)) < ARC_TURN;
 }
 
-static bool is_carried_on(const finding *f, const chain_end *own, const stroke *s)
+static bool is_carried_on(const finding *f, const chain_end *own, const extension *s)
 {
     int x = (int)(own->pixel % (uint32_t)f->in->width), y = (int)(own->pixel / (uint32_t)f->in->width);
     for (int row = y > MEETING ? y - MEETING : 0; row <= y + MEETING && row < f->in->height; row++) {
@@ -243,8 +243,8 @@ static bool is_carried_on(const finding *f, const chain_end *own, const stroke *
     return false;
 }
 
-/* Is there ink within a pixel of a place on the stroke's line? */
-static bool has_ink(const finding *f, const stroke *s, float along)
+/* Is there ink within a pixel of a place on the extension's line? */
+static bool has_ink(const finding *f, const extension *s, float along)
 {
     int x = (int)lroundf(s->x + along * s->dx), y = (int)lroundf(s->y + along * s->dy);
     for (int k = 0; k < 9; k++) {
@@ -255,8 +255,8 @@ static bool has_ink(const finding *f, const stroke *s, float along)
     return false;
 }
 
-/* Lets the stroke begin where it leaves the ink that is there; false when that goes on, or its outer part would lie on other ink. */
-static bool leave_ink(const finding *f, stroke *s)
+/* Lets the extension begin where it leaves the ink that is there; false when that goes on, or its outer part would lie on other ink. */
+static bool leave_ink(const finding *f, extension *s)
 {
     float most = LEAVING_SHARE * s->length + LEAVING;
     s->start = 0;
@@ -272,8 +272,8 @@ static bool leave_ink(const finding *f, stroke *s)
     return 5 * inked <= 3 * all;
 }
 
-/* How long the line before the stroke is, across junctions; not counted beyond `most`. */
-static float length_before(const finding *f, const stroke *s, float most)
+/* How long the line before the extension is, across junctions; not counted beyond `most`. */
+static float length_before(const finding *f, const extension *s, float most)
 {
     float last = 0;
     for (float along = 1; along <= most && along < last + 4; along += 1)
@@ -295,9 +295,9 @@ static float hash_of(int x, int y)
     return (float)(h >> 8) / 16777216.0f;
 }
 
-/* What a stroke's length is multiplied by: it goes with place and direction and changes slowly with both, so that lines which move do
+/* What a extension's length is multiplied by: it goes with place and direction and changes slowly with both, so that lines which move do
  * not flicker, and with the length asked for, so that it is the same at every resolution. */
-static float variation_at(const finding *f, const stroke *s)
+static float variation_at(const finding *f, const extension *s)
 {
     float cell = 2 * f->style->length + 1;
     float x = (s->x + (float)f->in->x) / cell + 5 * s->dx, y = (s->y + (float)f->in->y) / cell + 5 * s->dy;
@@ -338,7 +338,7 @@ static float median_of(float *values, size_t count)
     return values[count / 2];
 }
 
-static float depth_along(const finding *f, const stroke *s, float along)
+static float depth_along(const finding *f, const extension *s, float along)
 {
     float value = s->depth + along * s->slope;
     return f->in->perspective ? value > 0 ? 1 / value : INFINITY : value;
@@ -346,12 +346,12 @@ static float depth_along(const finding *f, const stroke *s, float along)
 
 /* The line's depth, which is straight in space and so (in perspective its inverse) on the picture. Medians: other lines' surfaces come
  * near some of its points. */
-static void find_depth(const finding *f, const window *w, stroke *s)
+static void find_depth(const finding *f, const window *w, extension *s)
 {
     float along[WINDOW_MAX], depth[WINDOW_MAX], values[WINDOW_MAX];
     size_t n = 0;
     for (size_t i = 0; i < w->count && f->in->values[1]; i++) {
-        const chain_point *p = w->points[i];
+        const trace_point *p = w->points[i];
         float surface = surface_at(f, (int)lroundf(p->x), (int)lroundf(p->y), 1);
         if (surface <= 0)
             continue;
@@ -369,9 +369,9 @@ static void find_depth(const finding *f, const window *w, stroke *s)
     s->depth = median_of(values, n);
 }
 
-/* Ends the stroke where a surface of its figure is in front of it: a line that is hidden does not come out again. Surfaces that it touches,
+/* Ends the extension where a surface of its figure is in front of it: a line that is hidden does not come out again. Surfaces that it touches,
  * or hardly dives into, as it does in a concave corner, do not count. */
-static void end_where_hidden(const finding *f, stroke *s)
+static void end_where_hidden(const finding *f, extension *s)
 {
     for (float along = 2; along <= s->length && s->depth > 0; along += 1) {
         int x = (int)lroundf(s->x + along * s->dx), y = (int)lroundf(s->y + along * s->dy);
@@ -382,10 +382,10 @@ static void end_where_hidden(const finding *f, stroke *s)
     }
 }
 
-/* --- strokes -------------------------------------------------------------------------------------------------------- */
+/* --- extensions -------------------------------------------------------------------------------------------------------- */
 
 /* The line's ink: its classes, each as strong as it is on average. */
-static void find_classes(const finding *f, const window *w, stroke *s)
+static void find_classes(const finding *f, const window *w, extension *s)
 {
     static const int channels[OVERSHOOT_CLASSES] = {0, 1, 3};
     for (int k = 0; k < OVERSHOOT_CLASSES; k++) {
@@ -420,7 +420,7 @@ typedef struct line_end {
     const chain_end *meets; /* the chain's end, or NULL where an arc of the same chain touches the line */
 } line_end;
 
-static bool is_needed(const finding *f, const line_end *e, stroke *s)
+static bool is_needed(const finding *f, const line_end *e, extension *s)
 {
     if (s->length < LEAST_STROKE * f->in->scale)
         return false;
@@ -432,12 +432,12 @@ static bool is_needed(const finding *f, const line_end *e, stroke *s)
     return true;
 }
 
-/* Adds the stroke by which a line runs on, unless it should not. False when memory is gone. */
+/* Adds the extension by which a line runs on, unless it should not. False when memory is gone. */
 static bool add_stroke(const finding *f, const window *w, const line_end *e)
 {
-    const chain_point *end = point_from(f, e->chain, e->side, e->place);
+    const trace_point *end = point_from(f, e->chain, e->side, e->place);
     float along = (end->x - w->x) * w->dx + (end->y - w->y) * w->dy;
-    stroke s = {.x = w->x + along * w->dx, .y = w->y + along * w->dy, .dx = w->dx, .dy = w->dy, .length = f->style->length};
+    extension s = {.x = w->x + along * w->dx, .y = w->y + along * w->dy, .dx = w->dx, .dy = w->dy, .length = f->style->length};
     s.length *= variation_at(f, &s);
     float line = length_before(f, &s, s.length / OWN_SHARE);
     s.length = fminf(s.length, OWN_SHARE * fmaxf(e->meets ? e->chain->length : 0, line));
@@ -449,9 +449,9 @@ static bool add_stroke(const finding *f, const window *w, const line_end *e)
     find_classes(f, w, &s);
     if (s.length - s.start < LEAST_STROKE * f->in->scale)
         return true;
-    if (!mem_grow((void **)&f->found->strokes, &f->found->room, f->found->count + 1, sizeof *f->found->strokes))
+    if (!mem_grow((void **)&f->found->extensions, &f->found->room, f->found->count + 1, sizeof *f->found->extensions))
         return false;
-    f->found->strokes[f->found->count++] = s;
+    f->found->extensions[f->found->count++] = s;
     return true;
 }
 
@@ -465,7 +465,7 @@ static size_t place_on_line(const finding *f, const window *w, const chain *c, i
     return place;
 }
 
-/* The stroke at an end of a chain, where the line meets others. */
+/* The extension at an end of a chain, where the line meets others. */
 static bool add_at_end(const finding *f, const chain_end *e)
 {
     const chain *c = &f->set->chains[e->chain];
@@ -478,12 +478,12 @@ static bool add_at_end(const finding *f, const chain_end *e)
 /* Is the chain straight from this point, which lies at this way, to `span` behind it? Asks its middle first, which is quick. */
 static bool is_straight(window *w, const finding *f, const chain *c, int side, size_t place, float span)
 {
-    const chain_point *a = point_from(f, c, side, place);
+    const trace_point *a = point_from(f, c, side, place);
     float way = way_from(c, a, side);
     size_t last = place + (size_t)(0.7f * span); /* at least as many points on any slope */
     if (last >= c->count)
         return false;
-    const chain_point *b = point_from(f, c, side, (place + last) / 2), *d = point_from(f, c, side, last);
+    const trace_point *b = point_from(f, c, side, (place + last) / 2), *d = point_from(f, c, side, last);
     float dx = d->x - a->x, dy = d->y - a->y;
     if (fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) > 1.2f * hypotf(dx, dy))
         return false;
@@ -498,7 +498,7 @@ static bool add_tangents(const finding *f, const chain *c, int side)
     float span = fminf(fmaxf(LEAST_TANGENT, TANGENT_TIMES * f->style->length), MOST_TANGENT);
     bool was_straight = false, good = true;
     for (size_t k = 0; k < c->count && good && !c->broad;) {
-        const chain_point *p = point_from(f, c, side, k);
+        const trace_point *p = point_from(f, c, side, k);
         if (way_from(c, p, side) + span > c->length)
             break;
         window w;
@@ -514,10 +514,10 @@ static bool add_tangents(const finding *f, const chain *c, int side)
     return good;
 }
 
-bool overshoot_find(stroke_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink, const overshoot_style *style)
+bool overshoot_find(extension_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink, const overshoot_style *style)
 {
     finding f = {.set = set, .in = in, .ink = ink, .style = style, .found = out};
-    *out = (stroke_set){0};
+    *out = (extension_set){0};
     bool good = gather_ends(&f);
     for (size_t i = 0; i < f.end_count && good; i++)
         good = add_at_end(&f, &f.ends[i]);
@@ -529,23 +529,23 @@ bool overshoot_find(stroke_set *out, const chain_set *set, const pass_pixels *in
     return good;
 }
 
-void overshoot_release(stroke_set *s)
+void overshoot_release(extension_set *s)
 {
-    mem_free(s->strokes);
-    *s = (stroke_set){0};
+    mem_free(s->extensions);
+    *s = (extension_set){0};
 }
 
 /* --- painting ------------------------------------------------------------------------------------------------------- */
 
-/* The pencil's pressure along a stroke: it is lifted towards the tip. Broad pens end bluntly. */
-static float pressure_at(const stroke *s, const overshoot_style *style, float along)
+/* The pencil's pressure along a extension: it is lifted towards the tip. Broad pens end bluntly. */
+static float pressure_at(const extension *s, const overshoot_style *style, float along)
 {
     float t = (along - s->start) / (s->length - s->start);
     t = fminf(1, fmaxf(0, (t - 0.35f) / 0.65f));
     return 1 - style->fade * t * t;
 }
 
-static uint32_t with_ink(uint32_t packed, const stroke *s, float share)
+static uint32_t with_ink(uint32_t packed, const extension *s, float share)
 {
     for (int k = 0; k < OVERSHOOT_CLASSES; k++) {
         uint32_t shift = 8 * (uint32_t)k, ink = (uint32_t)(share * s->ink[k] * 255 + 0.5f);
@@ -564,14 +564,14 @@ static uint32_t with_depth(uint32_t before, float depth)
 }
 
 typedef struct painter {
-    const stroke          *stroke;
+    const extension          *extension;
     const overshoot_style *style;
     bool                   perspective;
 } painter;
 
 static void paint_pixel(const painter *p, uint32_t *out, float x, float y)
 {
-    const stroke *s = p->stroke;
+    const extension *s = p->extension;
     float along = (x - s->x) * s->dx + (y - s->y) * s->dy, off = fabsf((y - s->y) * s->dx - (x - s->x) * s->dy);
     if (off > p->style->spread || along < -p->style->spread || along > s->length + p->style->spread)
         return;
@@ -586,8 +586,8 @@ static void paint_pixel(const painter *p, uint32_t *out, float x, float y)
     }
 }
 
-/* Pixels of a row that a stroke reaches, at most. */
-static void span_of(const stroke *s, float spread, float y, float out[2])
+/* Pixels of a row that a extension reaches, at most. */
+static void span_of(const extension *s, float spread, float y, float out[2])
 {
     float low = fminf(0, s->length * s->dx), high = fmaxf(0, s->length * s->dx);
     out[0] = s->x + low - spread;
@@ -599,10 +599,10 @@ static void span_of(const stroke *s, float spread, float y, float out[2])
     out[1] = fminf(out[1], middle + half);
 }
 
-void overshoot_paint(uint32_t *out, const pass_pixels *in, const stroke_set *set, const overshoot_style *style)
+void overshoot_paint(uint32_t *out, const pass_pixels *in, const extension_set *set, const overshoot_style *style)
 {
     for (size_t i = 0; i < set->count; i++) {
-        const stroke *s = &set->strokes[i];
+        const extension *s = &set->extensions[i];
         painter p = {s, style, in->perspective};
         float low = s->y + fminf(0, s->length * s->dy) - style->spread, high = s->y + fmaxf(0, s->length * s->dy) + style->spread;
         for (int y = low > 0 ? (int)low : 0; y <= (int)high && y < in->height; y++) {
@@ -632,14 +632,14 @@ bool overshoot_process(const pass_pixels *in, void *out, const void *values)
     for (size_t i = 0; i < count; i++) /* other techniques' ink is drawn already; how deep it lies must be known to the end */
         words[2 * i] = 0;
     chain_set chains = {0};
-    stroke_set strokes = {0};
+    extension_set extensions = {0};
     uint8_t *ink = mem_alloc(count);
     if (ink)
         lines_find_ink(ink, in->values[0], count, lines);
-    bool good = ink && chains_trace(&chains, ink, in->width, in->height, LINES_SPUR) && overshoot_find(&strokes, &chains, in, ink, &style);
+    bool good = ink && chains_trace(&chains, ink, in->width, in->height, LINES_SPUR) && overshoot_find(&extensions, &chains, in, ink, &style);
     if (good)
-        overshoot_paint(words, in, &strokes, &style);
-    overshoot_release(&strokes);
+        overshoot_paint(words, in, &extensions, &style);
+    overshoot_release(&extensions);
     chains_release(&chains);
     mem_free(ink);
     return good;

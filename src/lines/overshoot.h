@@ -20,26 +20,26 @@ typedef struct overshoot_style {
 enum { OVERSHOOT_CLASSES = 3 }; /* profile, inner, id */
 
 /* An extension: a straight line from a chain's end. */
-typedef struct stroke {
+typedef struct extension {
     float x, y;   /* the end of the chain; pixels, centres are whole numbers */
     float dx, dy; /* unit vector */
     float start;  /* how far from there it leaves the ink that is drawn already; 0 at corners */
     float length; /* from the chain's end to the tip */
     float ink[OVERSHOOT_CLASSES]; /* of the line that runs on */
     float depth, slope; /* eye depth, or in perspective its inverse, there and its growth a pixel; depth 0: unknown */
-} stroke;
+} extension;
 
-typedef struct stroke_set {
-    stroke *strokes;
+typedef struct extension_set {
+    extension *extensions;
     size_t  count, room;
-} stroke_set;
+} extension_set;
 
 /* What the chains of an edge map run on by. `in` has the edge map and, where it is known, normals with eye depth; `ink` is what was
  * traced. False when memory is gone; then there are none. */
-bool overshoot_find(stroke_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink, const overshoot_style *style);
-void overshoot_release(stroke_set *s);
+bool overshoot_find(extension_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink, const overshoot_style *style);
+void overshoot_release(extension_set *s);
 
-/* Draws strokes into a picture as TARGET_OVERSHOOT is one: two words a pixel. */
-void overshoot_paint(uint32_t *out, const pass_pixels *in, const stroke_set *set, const overshoot_style *style);
+/* Draws extensions into a picture as TARGET_OVERSHOOT is one: two words a pixel. */
+void overshoot_paint(uint32_t *out, const pass_pixels *in, const extension_set *set, const overshoot_style *style);
 
 #endif

@@ -275,22 +275,22 @@ static void take_away(convex_job *job, int batch, int level, bool again)
     size_t count = choose_level(job, batch, level, again);
     draw_chosen(job, count, FACES_FRONT, "csg/depth.frag", mark);
     if (again)
-        gpu_watch_begin(job->v->g, level % GPU_WATCHES);
+        gpu_query_begin(job->v->g, level % GPU_QUERIES);
     draw_chosen(job, count, FACES_BACK, "csg/depth.frag", move);
     if (again)
-        gpu_watch_end(job->v->g);
+        gpu_query_end(job->v->g);
 }
 
 /* Once more, for those that meet others. Did anything move? */
 static bool take_away_again(convex_job *job, int batch, int levels)
 {
     bool moved = false;
-    for (int first = 0; first < levels; first += GPU_WATCHES) {
-        int end = first + GPU_WATCHES < levels ? first + GPU_WATCHES : levels;
+    for (int first = 0; first < levels; first += GPU_QUERIES) {
+        int end = first + GPU_QUERIES < levels ? first + GPU_QUERIES : levels;
         for (int level = first; level < end; level++)
             take_away(job, batch, level, true);
         for (int level = first; level < end; level++)
-            moved = gpu_watched(job->v->g, level % GPU_WATCHES) || moved;
+            moved = gpu_query_any(job->v->g, level % GPU_QUERIES) || moved;
     }
     return moved;
 }

@@ -70,7 +70,7 @@ static void open_planes(const solid_view *v, solid_layers *s, const bool *wanted
 static bool find_box(const solid_view *v, const bool *wanted, int box[4])
 {
     const upload *u = v->up;
-    const gpu_facts *facts = gpu_facts_of(v->g);
+    const gpu_capabilities *facts = gpu_capabilities_of(v->g);
     bool any = false, inside = false;
     for (size_t i = 0; i < u->item_count; i++) {
         if (!wanted[i])
@@ -277,7 +277,7 @@ static void evaluate(const solid_view *v, solid_layers *s, const bool *wanted, b
 static void open_lists(const solid_view *v, solid_layers *s, const bool *wanted, bool inside)
 {
     enum { ROOM = 128 << 20 };
-    size_t block = (size_t)gpu_facts_of(v->g)->max_storage_mib << 20, pixels = (size_t)s->box[2] * (size_t)s->box[3];
+    size_t block = (size_t)gpu_capabilities_of(v->g)->max_storage_mib << 20, pixels = (size_t)s->box[2] * (size_t)s->box[3];
     size_t room = block < ROOM ? block : ROOM;
     unsigned limit = (unsigned)(room / NODE_BYTES);
     s->heads = gpu_buffer_acquire(v->g, pixels * sizeof(uint32_t));

@@ -168,15 +168,15 @@ static bool draw_next(sweep *s)
     gpu_set_texture(v->g, "t_state", s->now[0], false);
     gpu_set_texture(v->g, "t_found", s->now[3], false);
     gpu_set_float(v->g, "u_solid_range", (float)(v->camera->far - s->solids->near));
-    gpu_watch_begin(v->g, 0);
+    gpu_query_begin(v->g, 0);
     /* Of what lies at the same depth the first that is drawn stays. */
     for (size_t c = 0; c < sizeof classes / sizeof *classes; c++)
         for (size_t i = 0; i < v->up->item_count && !gpu_failed(v->g); i++)
             if (s->wanted[i])
                 draw_class(s, i, c);
-    gpu_watch_end(v->g);
+    gpu_query_end(v->g);
     gpu_cull_faces(v->g, GPU_CULL_NONE);
-    return gpu_watched(v->g, 0);
+    return gpu_query_any(v->g, 0);
 }
 
 static void take_fragment(sweep *s)
@@ -224,10 +224,10 @@ static bool put_among(sweep *s, gpu_texture *surfaces, gpu_texture *into, gpu_te
     gpu_use(v->g, p, (gpu_state){.depth_test = into != NULL, .depth_write = into != NULL, .depth_compare = GPU_LESS});
     gpu_set_texture(v->g, "t_surfaces", surfaces, false);
     solids_set_depth(v, s->solids);
-    gpu_watch_begin(v->g, 0);
+    gpu_query_begin(v->g, 0);
     gpu_draw_screen(v->g);
-    gpu_watch_end(v->g);
-    return gpu_watched(v->g, 0);
+    gpu_query_end(v->g);
+    return gpu_query_any(v->g, 0);
 }
 
 /* --- layers --------------------------------------------------------------------------------------------------------- */

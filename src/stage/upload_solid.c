@@ -427,7 +427,7 @@ static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene
 {
     s->ghost = scene->parts[part_index].ghost;
     primitive half_space;
-    baker b = {.scene = scene, .crease_angle = u->crease_angle, .shapes = u->shapes, .has_lists = gpu_facts_of(g)->lists};
+    baker b = {.scene = scene, .crease_angle = u->crease_angle, .shapes = u->shapes, .has_lists = gpu_capabilities_of(g)->lists};
     make_half_space(&b.half_space, &half_space);
     lmn_status status = solid_form_create(&s->form, &scene->solids[s->source], true, error);
     if (status == LMN_OK)
@@ -514,7 +514,7 @@ lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error)
         memcpy(links, u->program.operands, count * sizeof *u->program.operands);
         if (terms)
             memcpy(links + 2 * count, u->program.terms, terms * sizeof *u->program.terms);
-        if (gpu_facts_of(g)->lists) {
+        if (gpu_capabilities_of(g)->lists) {
             size_t bytes = (count + terms) * sizeof *u->program.operands;
             u->program_buffer = gpu_buffer_acquire(g, bytes);
             gpu_buffer_write(g, u->program_buffer, links, bytes);

@@ -335,7 +335,7 @@ static void check_chains(const chain_set *set, int width)
         const chain *c = &set->chains[i];
         assert_true(c->count > 0 && c->first + c->count <= set->point_count);
         for (size_t k = 1; k < c->count; k++) {
-            const chain_point *p = &set->points[c->first + k], *q = p - 1;
+            const trace_point *p = &set->points[c->first + k], *q = p - 1;
             int dx = (int)(p->pixel % (uint32_t)width) - (int)(q->pixel % (uint32_t)width);
             int dy = (int)(p->pixel / (uint32_t)width) - (int)(q->pixel / (uint32_t)width);
             assert_true(abs(dx) <= 1 && abs(dy) <= 1 && (dx || dy));

@@ -230,7 +230,7 @@ static void test_odd_surfaces(void **state)
     uint32_t indices[3] = {0, 1, 2};
     mark_surface flat = {places, normals, uvs, indices, 3, 1}, empty = {places, normals, uvs, indices, 3, 0};
     strokes texture = {NULL, 0, 0, 1};
-    strokes_add(&texture, (stroke){0, 0, 1, 1, 1, 1, 0});
+    strokes_add(&texture, (texture_stroke){0, 0, 1, 1, 1, 1, 0});
     marks m;
     lmn_error error;
     const mark_surface *both[] = {&flat, &empty};
@@ -265,7 +265,7 @@ static strokes some_strokes(int count)
     random_source r = random_start(9, 1);
     for (int i = 0; i < count; i++) {
         float u = (float)random_unit(&r), v = (float)random_unit(&r);
-        strokes_add(&s, (stroke){u, v, u + (float)(0.3 * random_signed(&r)), v + (float)(0.3 * random_signed(&r)), 1 - (float)i / (float)count, (float)random_unit(&r), 0});
+        strokes_add(&s, (texture_stroke){u, v, u + (float)(0.3 * random_signed(&r)), v + (float)(0.3 * random_signed(&r)), 1 - (float)i / (float)count, (float)random_unit(&r), 0});
     }
     return s;
 }
@@ -277,7 +277,7 @@ static double wanted_length(const strokes *s, double repeat, double side)
     for (size_t i = 0; i < s->count; i++)
         for (int y = -2; y < repeat + 2; y++)
             for (int x = -2; x < repeat + 2; x++) {
-                const stroke *k = &s->items[i];
+                const texture_stroke *k = &s->items[i];
                 double a[2] = {(double)k->u0 + x, (double)k->v0 + y}, d[2] = {(double)k->u1 - (double)k->u0, (double)k->v1 - (double)k->v0}, low = 0, high = 1;
                 for (int c = 0; c < 2; c++) {
                     double from = -a[c] / d[c], to = (repeat - a[c]) / d[c];
@@ -342,8 +342,8 @@ static void test_along_an_edge(void **state)
 {
     (void)state;
     strokes texture = {NULL, 0, 0, 1};
-    strokes_add(&texture, (stroke){0.25f, 0.25f, 0.75f, 0.75f, 1, 1, 0});
-    strokes_add(&texture, (stroke){0.5f, 0.1f, 0.5f, 0.9f, 1, 1, 0});
+    strokes_add(&texture, (texture_stroke){0.25f, 0.25f, 0.75f, 0.75f, 1, 1, 0});
+    strokes_add(&texture, (texture_stroke){0.5f, 0.1f, 0.5f, 0.9f, 1, 1, 0});
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         sheet s = make_sheet(2, 1, 1, 1, false);
         for (int i = 0; mirrored && i < 9; i++)

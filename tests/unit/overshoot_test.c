@@ -73,17 +73,17 @@ static pass_pixels input(bool with_surfaces)
     return (pass_pixels){.values = {edges, with_surfaces ? surfaces : NULL}, .width = SIDE, .height = SIDE, .pixel = 1, .scale = 1};
 }
 
-static stroke_set find(float width, float length, bool with_surfaces)
+static extension_set find(float width, float length, bool with_surfaces)
 {
-    stroke_set strokes;
+    extension_set extensions;
     chain_set chains;
     lines_common lines = lines_of(width, length);
     pass_pixels in = input(with_surfaces);
     lines_find_ink(ink, edges, SIDE * SIDE, &lines);
     assert_true(chains_trace(&chains, ink, SIDE, SIDE, LINES_SPUR));
-    assert_true(overshoot_find(&strokes, &chains, &in, ink, &(overshoot_style){length, width, 4, 0.75f}));
+    assert_true(overshoot_find(&extensions, &chains, &in, ink, &(overshoot_style){length, width, 4, 0.75f}));
     chains_release(&chains);
-    return strokes;
+    return extensions;
 }
 
 static double degrees_between(double ax, double ay, double bx, double by)
@@ -91,11 +91,11 @@ static double degrees_between(double ax, double ay, double bx, double by)
     return fabs(atan2(ax * by - ay * bx, ax * bx + ay * by)) * 180 / pi;
 }
 
-/* The stroke that goes on where the line from `from` to `to` ends; NULL when there is none. */
-static const stroke *stroke_of(const stroke_set *set, const double from[2], const double to[2])
+/* The extension that goes on where the line from `from` to `to` ends; NULL when there is none. */
+static const extension *stroke_of(const extension_set *set, const double from[2], const double to[2])
 {
     for (size_t i = 0; i < set->count; i++) {
-        const stroke *s = &set->strokes[i];
+        const extension *s = &set->extensions[i];
         if (hypot((double)s->x - to[0], (double)s->y - to[1]) < 5 &&
             degrees_between((double)s->dx, (double)s->dy, to[0] - from[0], to[1] - from[1]) < 20)
             return s;
@@ -108,11 +108,11 @@ typedef struct worst {
 } worst;
 
 /* The line runs on from its end, about as far as was asked for, in its own direction. */
-static void judge(const stroke_set *set, const double from[2], const double to[2], double length, worst *w, const char *what)
+static void judge(const extension_set *set, const double from[2], const double to[2], double length, worst *w, const char *what)
 {
-    const stroke *s = stroke_of(set, from, to);
+    const extension *s = stroke_of(set, from, to);
     if (!s) {
-        fail_msg("%s: no stroke at %.0f, %.0f", what, to[0], to[1]);
+        fail_msg("%s: no extension at %.0f, %.0f", what, to[0], to[1]);
         return;
     }
     double size = hypot(to[0] - from[0], to[1] - from[1]), ux = (to[0] - from[0]) / size, uy = (to[1] - from[1]) / size;
@@ -146,9 +146,9 @@ static void squares_of_every_slope(void **state)
                     draw_line(corners[k], corners[(k + 1) % 4], width, 0);
                     draw_dot(corners[k]);
                 }
-                stroke_set set = find((float)width, 14, false);
+                extension_set set = find((float)width, 14, false);
                 if (set.count != 8)
-                    fail_msg("%s: %zu strokes instead of 8", what, set.count);
+                    fail_msg("%s: %zu extensions instead of 8", what, set.count);
                 for (int k = 0; k < 4; k++) {
                     judge(&set, corners[k], corners[(k + 1) % 4], 14, &w, what);
                     judge(&set, corners[(k + 1) % 4], corners[k], 14, &w, what);
@@ -166,10 +166,10 @@ static void legs_and_stems(void **state)
         double angle = degrees * pi / 180, c = cos(angle), s = sin(angle), middle[2] = {SIDE / 2, SIDE / 2};
         double one[2] = {middle[0] + 100 * c, middle[1] + 100 * s}, two[2] = {middle[0] - 80 * s, middle[1] + 80 * c};
         double other[2] = {middle[0] - 100 * c, middle[1] - 100 * s};
-        clear(); /* an L: two strokes at its corner, none where it just ends */
+        clear(); /* an L: two extensions at its corner, none where it just ends */
         draw_line(middle, one, 2, 0);
         draw_line(middle, two, 2, 0);
-        stroke_set set = find(2, 20, false);
+        extension_set set = find(2, 20, false);
         assert_int_equal(set.count, 2);
         judge(&set, one, middle, 20, &w, "L");
         judge(&set, two, middle, 20, &w, "L");
@@ -188,15 +188,15 @@ static void curves_and_bends_do_not(void **state)
     for (int radius = 12; radius <= 150; radius += 6) {
         clear();
         draw_circle(SIDE / 2, SIDE / 2, radius, 2);
-        stroke_set set = find(2, 14, false);
+        extension_set set = find(2, 14, false);
         if (set.count)
-            fail_msg("radius %d: %zu strokes", radius, set.count);
+            fail_msg("radius %d: %zu extensions", radius, set.count);
         overshoot_release(&set);
     }
     clear(); /* two circles that cross: their arcs have ends */
     draw_circle(130, 160, 70, 2);
     draw_circle(190, 160, 70, 2);
-    stroke_set set = find(2, 14, false);
+    extension_set set = find(2, 14, false);
     assert_int_equal(set.count, 0);
     overshoot_release(&set);
     for (int bend = 4; bend <= 20; bend += 4) { /* a line that bends a little */
@@ -206,7 +206,7 @@ static void curves_and_bends_do_not(void **state)
         draw_line(b, d, 2, 0);
         set = find(2, 14, false);
         if (set.count)
-            fail_msg("bend of %d degrees: %zu strokes", bend, set.count);
+            fail_msg("bend of %d degrees: %zu extensions", bend, set.count);
         overshoot_release(&set);
     }
 }
@@ -223,11 +223,11 @@ static void tangents(void **state)
             for (int x = 0; x < SIDE; x++)
                 if (fabs(hypot(x - 160, y - 120) - radius) <= 1)
                     edges[4 * (y * SIDE + x)] = 0;
-        stroke_set set = find(2, 14, false);
+        extension_set set = find(2, 14, false);
         if (set.count != 2)
-            fail_msg("radius %d: %zu strokes", radius, set.count);
+            fail_msg("radius %d: %zu extensions", radius, set.count);
         for (size_t i = 0; i < set.count; i++) {
-            const stroke *s = &set.strokes[i];
+            const extension *s = &set.extensions[i];
             assert_true(degrees_between((double)s->dx, (double)s->dy, 0, -1) < 3);
             assert_true(fabs(fabs((double)s->x - 160) - radius) < 1 && fabsf(s->y - 120) < 16);
             assert_true(s->start > 0 && s->length - s->start > 9 && s->length - s->start < 19);
@@ -244,13 +244,13 @@ static void short_lines_less(void **state)
         clear(); /* a tick on a long line */
         draw_line((double[]){40, 150}, (double[]){280, 150}, 2, 0);
         draw_line(foot, tick, 2, 0);
-        stroke_set set = find(2, 24, false);
+        extension_set set = find(2, 24, false);
         if (size < 14)
             assert_int_equal(set.count, 0);
         else if (size > 24)
             assert_int_equal(set.count, 1);
         for (size_t i = 0; i < set.count; i++)
-            assert_true(set.strokes[i].length <= 0.4f * (float)(size + 2));
+            assert_true(set.extensions[i].length <= 0.4f * (float)(size + 2));
         overshoot_release(&set);
     }
 }

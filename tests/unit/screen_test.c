@@ -43,7 +43,7 @@ static strokes random_strokes(size_t count, double length, double slope)
     random_source r = random_start(11, 2);
     for (size_t i = 0; i < count; i++) {
         double long_ = length * (0.5 + random_unit(&r));
-        stroke one = {.u0 = (float)random_unit(&r), .v0 = (float)random_unit(&r), .light = (float)(((double)i + 0.5) / (double)count)};
+        texture_stroke one = {.u0 = (float)random_unit(&r), .v0 = (float)random_unit(&r), .light = (float)(((double)i + 0.5) / (double)count)};
         one.u1 = one.u0 + (float)long_;
         one.v1 = one.v0 + (float)(slope * long_ * random_signed(&r));
         one.perspective = (float)(((double)(i * 7919 % count) + 0.5) / (double)count);
@@ -148,7 +148,7 @@ static void strokes_stay_at_their_place(void **state)
     (void)state;
     strokes s = {.width = 1};
     for (int i = 0; i < 8; i++) /* apart from each other on all levels down to 64 */
-        assert_true(strokes_add(&s, (stroke){0.2f, 0.0625f + 0.125f * (float)i, 0.8f, 0.0625f + 0.125f * (float)i, 0.3f + 0.1f * (float)(i % 7), (float)i / 8, 0}));
+        assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.0625f + 0.125f * (float)i, 0.8f, 0.0625f + 0.125f * (float)i, 0.3f + 0.1f * (float)(i % 7), (float)i / 8, 0}));
     screen_wishes w = wishes_of(256, 1.5, false);
     mip_chain     m, ink;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
@@ -378,7 +378,7 @@ static void warp_refers_to_one_point_a_stroke(void **state)
             assert_true(t[2 * i] == 0 && t[2 * i + 1] == 0);
             continue;
         }
-        const stroke *o = &s.items[owners[i]];
+        const texture_stroke *o = &s.items[owners[i]];
         double        du = u - 0.5 * (double)(o->u0 + o->u1), dv = v - 0.5 * (double)(o->v0 + o->v1);
         assert_true(fabs(du - rint(du)) < 1e-5 && fabs(dv - rint(dv)) < 1e-5);
     }
@@ -391,8 +391,8 @@ static void whole_strokes_under_steep_light(void **state)
 {
     (void)state;
     strokes s = {.width = 1};
-    assert_true(strokes_add(&s, (stroke){0.1f, 0.3f, 0.7f, 0.3f, 0.5f, 1, 0}));
-    assert_true(strokes_add(&s, (stroke){0.35f, 0.7f, 0.95f, 0.7f, 0.5f, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.1f, 0.3f, 0.7f, 0.3f, 0.5f, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.35f, 0.7f, 0.95f, 0.7f, 0.5f, 1, 0}));
     screen_wishes w = wishes_of(128, 3, false);
     mip_chain     m, warp;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
@@ -422,8 +422,8 @@ static void of_equal_strokes_the_first_is_on_top(void **state)
 {
     (void)state;
     strokes s = {.width = 1};
-    assert_true(strokes_add(&s, (stroke){0.2f, 0.5f, 0.8f, 0.5f, 0.7f, 1, 0}));
-    assert_true(strokes_add(&s, (stroke){0.6f, 0.3f, 0.6f, 0.8f, 0.7f, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.5f, 0.8f, 0.5f, 0.7f, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.6f, 0.3f, 0.6f, 0.8f, 0.7f, 1, 0}));
     screen_wishes w = wishes_of(64, 4, false);
     mip_chain     m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
@@ -439,9 +439,9 @@ static void curves_have_one_reference(void **state)
 {
     (void)state;
     strokes s = {.width = 1};
-    assert_true(strokes_add(&s, (stroke){0.2f, 0.2f, 0.5f, 0.2f, 1, 1, 0}));
-    assert_true(strokes_add(&s, (stroke){0.5f, 0.2f, 0.5f, 0.4f, 1, 1, 0}));
-    assert_true(strokes_add(&s, (stroke){0.5f, 0.4f, 0.6f, 0.4f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.2f, 0.5f, 0.2f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.2f, 0.5f, 0.4f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.4f, 0.6f, 0.4f, 1, 1, 0}));
     screen_wishes w = wishes_of(64, 2, false);
     mip_chain     m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
@@ -462,7 +462,7 @@ static void normals_lean_to_the_axis(void **state)
 {
     (void)state;
     strokes s = {.width = 1};
-    assert_true(strokes_add(&s, (stroke){0.5f, 0.25f, 0.5f, 0.75f, 1, 1, 0}));
+    assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.25f, 0.5f, 0.75f, 1, 1, 0}));
     screen_wishes w = wishes_of(64, 8, false);
     mip_chain     m;
     assert_int_equal(screen_normals(&m, &s, &w, 1, NULL), LMN_OK);

@@ -13,7 +13,7 @@ static strokes read_svg(const char *svg)
 static bool has_stroke(const strokes *s, double u0, double v0, double u1, double v1, int32_t layer)
 {
     for (size_t i = 0; i < s->count; i++) {
-        const stroke *t = &s->items[i];
+        const texture_stroke *t = &s->items[i];
         if (fabs((double)t->u0 - u0) + fabs((double)t->v0 - v0) + fabs((double)t->u1 - u1) + fabs((double)t->v1 - v1) < 1e-5 &&
             t->layer == layer)
             return true;
@@ -69,7 +69,7 @@ static double length_of(const strokes *s)
 static void assert_on_circle(const strokes *s, double u, double v, double radius)
 {
     for (size_t i = 0; i < s->count; i++) {
-        const stroke *t = &s->items[i];
+        const texture_stroke *t = &s->items[i];
         assert_near(hypot((double)t->u0 - u, (double)t->v0 - v), radius, 1e-3);
         assert_near(hypot(((double)t->u0 + (double)t->u1) / 2 - u, ((double)t->v0 + (double)t->v1) / 2 - v), radius, 1.5e-3);
     }
@@ -154,7 +154,7 @@ static void test_svg_round_trip(void **state)
         assert_int_equal(strokes_read_svg(&back, "t.svg", out.data, out.size, &error), LMN_OK);
         assert_int_equal(back.count, s.count);
         for (size_t i = 0; i < s.count; i++) {
-            const stroke *a = &s.items[i], *b = &back.items[i];
+            const texture_stroke *a = &s.items[i], *b = &back.items[i];
             assert_true(same_bits(a->light, b->light) && same_bits(a->perspective, b->perspective));
             assert_int_equal(a->layer, b->layer);
             double du = (double)a->u0 - (double)b->u0, dv = (double)a->v0 - (double)b->v0;

@@ -20,7 +20,7 @@ static void assert_same_strokes(const strokes *a, const strokes *b)
 {
     assert_int_equal(a->count, b->count);
     for (size_t i = 0; i < a->count; i++) {
-        const stroke *x = &a->items[i], *y = &b->items[i];
+        const texture_stroke *x = &a->items[i], *y = &b->items[i];
         assert_true(same_bits(x->u0, y->u0) && same_bits(x->v0, y->v0) && same_bits(x->u1, y->u1) && same_bits(x->v1, y->v1));
         assert_true(same_bits(x->light, y->light) && same_bits(x->perspective, y->perspective));
         assert_int_equal(x->layer, y->layer);
@@ -59,9 +59,9 @@ static void test_stx_round_trip(void **state)
                 uint32_t mixed = bits ^ (bits >> 13) * 2654435761u;
                 memcpy(&f[k], &mixed, 4);
             } while (!isfinite(f[k]) || (k < 4 && fabsf(f[k]) > 16));
-        assert_true(strokes_add(&s, (stroke){f[0], f[1], f[2], f[3], f[4], f[5], i % 7}));
+        assert_true(strokes_add(&s, (texture_stroke){f[0], f[1], f[2], f[3], f[4], f[5], i % 7}));
     }
-    assert_true(strokes_add(&s, (stroke){-0.0f, 0x1p-149f, 16, -16, 1.5f, -3, 65535}));
+    assert_true(strokes_add(&s, (texture_stroke){-0.0f, 0x1p-149f, 16, -16, 1.5f, -3, 65535}));
     round_trip(&s);
     strokes_release(&s);
     round_trip(&s); /* no strokes */
@@ -170,7 +170,7 @@ static void record(void *user, size_t index, float coverage)
 }
 
 /* The same, by looking at all copies of the stroke from every texel. */
-static float expected_ink(const stroke *s, int x, int y, double width)
+static float expected_ink(const texture_stroke *s, int x, int y, double width)
 {
     double best = 0, length = stroke_length(s) * SIDE;
     for (int j = -4; j <= 4; j++)
@@ -186,7 +186,7 @@ static float expected_ink(const stroke *s, int x, int y, double width)
 
 static void test_draw_exact(void **state)
 {
-    static const stroke rows[] = {
+    static const texture_stroke rows[] = {
         {0.2f, 0.3f, 0.7f, 0.5f, 1, 1, 0},    {0.9f, 0.9f, 1.2f, 1.1f, 1, 1, 0},   {0.5f, 0.5f, 0.5f, 0.5f, 1, 1, 0},
         {0, 0, 0, 0, 1, 1, 0},                {0.1f, 0.5f, 1.1f, 0.5f, 1, 1, 0},   {0.3f, 0.2f, 0.3f, -0.9f, 1, 1, 0},
         {0.1f, 0.1f, 2.4f, 1.3f, 1, 1, 0},    {0.99f, 0.01f, 0.01f, 0.99f, 1, 1, 0}, {0.5f, 0.25f, -1.7f, 0.2f, 1, 1, 0},
@@ -209,7 +209,7 @@ static void test_draw_exact(void **state)
     stroke_draw(&rows[0], 0, &(stroke_brush){.width = 1}, record, &c);
 }
 
-static double ink_of(const stroke *s, stroke_brush brush)
+static double ink_of(const texture_stroke *s, stroke_brush brush)
 {
     static canvas c;
     double sum = 0;
@@ -222,7 +222,7 @@ static double ink_of(const stroke *s, stroke_brush brush)
 
 static void test_draw_taper(void **state)
 {
-    stroke whole = {0.1f, 0.5f, 0.9f, 0.53f, 1, 1, 0};
+    texture_stroke whole = {0.1f, 0.5f, 0.9f, 0.53f, 1, 1, 0};
     double plain = ink_of(&whole, (stroke_brush){.width = 6}), length = stroke_length(&whole) * SIDE;
     (void)state;
     assert_near(plain, 6 * length + 3.14159 * 9, 3);
@@ -280,7 +280,7 @@ static void test_pattern_repeats(void **state)
         float places[401];
         size_t count = 0;
         for (size_t i = 0; i < s.count; i++) {
-            const stroke *t = &s.items[i];
+            const texture_stroke *t = &s.items[i];
             double across[] = {(double)t->v0, (double)t->u0, (double)t->v0 - (double)t->u0, (double)t->v0 + (double)t->u0};
             if (t->layer == layer)
                 places[count++] = (float)(across[layer] - floor(across[layer] + 1e-6));
@@ -367,7 +367,7 @@ static double worst_quadrants(const strokes *s, const size_t *order, size_t leas
     double worst = 0, counts[4] = {0}, all[4] = {0};
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < s->count; i++) {
-            const stroke *t = &s->items[order[i]];
+            const texture_stroke *t = &s->items[order[i]];
             double u = ((double)t->u0 + (double)t->u1) / 2, v = ((double)t->v0 + (double)t->v1) / 2;
             int quadrant = 2 * (v - floor(v) >= 0.5) + (u - floor(u) >= 0.5);
             (pass ? counts : all)[quadrant]++;
@@ -389,7 +389,7 @@ static void test_spread(void **state)
     (void)state;
     strokes s = {.width = 1};
     for (int i = 0; i < 400; i++)
-        assert_true(strokes_add(&s, (stroke){(float)(i % 20) / 20, (float)(i / 20) / 20, (float)(i % 20) / 20 + 0.03f, (float)(i / 20) / 20, 0, 0, 0}));
+        assert_true(strokes_add(&s, (texture_stroke){(float)(i % 20) / 20, (float)(i / 20) / 20, (float)(i % 20) / 20 + 0.03f, (float)(i / 20) / 20, 0, 0, 0}));
     set_light(&s, ORDER_DRAWN, SHARE_COUNT, 0, 0);
     size_t *order = sorted(&s, compare_light);
     assert_true(worst_quadrants(&s, order, 8) > 50);
@@ -571,7 +571,7 @@ static void test_priority_corners(void **state)
     assert_near(dots.items[1].light, 0.5, 1e-6);
     /* All in one place. */
     for (int i = 0; i < 500; i++)
-        assert_true(strokes_add(&dots, (stroke){0.5f, 0.5f, 0.5f, 0.5f, 0, 0, 0}));
+        assert_true(strokes_add(&dots, (texture_stroke){0.5f, 0.5f, 0.5f, 0.5f, 0, 0, 0}));
     set_light(&dots, ORDER_EVEN, SHARE_AREA, 0.01, 0);
     for (size_t i = 0; i < dots.count; i++)
         assert_true(dots.items[i].light > 0 && dots.items[i].light <= 1);

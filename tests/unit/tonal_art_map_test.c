@@ -98,7 +98,7 @@ static void check_strokes(const mip_chain *m, const strokes *kept, const tam_wis
             picture p = {ink, w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1, (float)w->opacity};
             memset(ink, 0, sizeof ink);
             for (size_t i = 0; i < kept->count; i++) {
-                const stroke *s = &kept->items[i];
+                const texture_stroke *s = &kept->items[i];
                 if (s->light > 1 - ((float)tone + 0.5f) / (float)w->tones && (double)s->perspective >= 1 - exp2(-k))
                     stroke_draw(s, side, &brush, darken, &p);
             }
@@ -162,7 +162,7 @@ static void strokes_are_as_wide_on_all_levels(void **state)
         const uint8_t *t = mip_layer(&m, k, 0);
         double         sum = 0;
         for (size_t i = 0; i < kept.count; i++) {
-            const stroke *s = &kept.items[i];
+            const texture_stroke *s = &kept.items[i];
             double        length = stroke_length(s);
             assert_true(length < 0.4001 && length > 0.3 * 0.4 - 1e-4);
             if (s->light < 1 || (double)s->perspective < 1 - exp2(-k))
@@ -229,7 +229,7 @@ static void ends_in_maps_are_alike(void **state)
         double sums[2][3] = {{0}};
         int    counts[2] = {0}, side = w.side >> k;
         for (size_t i = 0; i < kept.count; i++) {
-            const stroke *s = &kept.items[i];
+            const texture_stroke *s = &kept.items[i];
             if (s->light < 1 || (double)s->perspective < 1 - exp2(-k))
                 continue;
             bool long_one = stroke_length(s) > 0.65 * w.length;
@@ -365,7 +365,7 @@ static void strokes_are_evenly_spread(void **state)
             for (int again = 0; again < 4; again++) {
                 memset(ink, 0, sizeof ink);
                 for (size_t i = 0; i < kept.count; i++) {
-                    stroke s = kept.items[i];
+                    texture_stroke s = kept.items[i];
                     float  du = s.u1 - s.u0, dv = s.v1 - s.v0;
                     if (s.light < 1 - ((float)tone + 0.5f) / TONES)
                         continue;
@@ -442,7 +442,7 @@ static void crosses_from_the_middle(void **state)
     assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
     double length[2] = {0, 0};
     for (size_t i = 0; i < kept.count; i++) {
-        const stroke *s = &kept.items[i];
+        const texture_stroke *s = &kept.items[i];
         bool          across = fabsf(s->v1 - s->v0) > fabsf(s->u1 - s->u0);
         assert_int_equal(across, s->layer);
         assert_true(!across || s->light <= 0.51f);
@@ -461,7 +461,7 @@ static void overlaps_darken_less_and_less(void **state)
     for (int count = 1; count <= 12; count++) {
         strokes s = {.width = 1};
         for (int i = 0; i < count; i++)
-            assert_true(strokes_add(&s, (stroke){0.2f, 0.5f, 0.8f, 0.5f, 1, 1, 0}));
+            assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.5f, 0.8f, 0.5f, 1, 1, 0}));
         tam_wishes w = {.side = 32, .tones = 2, .darkest = 0.8, .width = 4, .length = 0.5, .opacity = 0.3, .drawn = &s};
         mip_chain  m;
         assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
@@ -497,8 +497,8 @@ static void drawn_shapes_are_placed(void **state)
     strokes_release(&dots);
 
     strokes house = {.width = 1};
-    assert_true(strokes_add(&house, (stroke){0, 0.1f, 0.99f, 0.1f, 1, 1, 0}));         /* the eaves, seen from afar */
-    assert_true(strokes_add(&house, (stroke){0.3f, 0.5f, 0.7f, 0.5f, 0.9f, 0.2f, 1})); /* a window, only from near */
+    assert_true(strokes_add(&house, (texture_stroke){0, 0.1f, 0.99f, 0.1f, 1, 1, 0}));         /* the eaves, seen from afar */
+    assert_true(strokes_add(&house, (texture_stroke){0.3f, 0.5f, 0.7f, 0.5f, 0.9f, 0.2f, 1})); /* a window, only from near */
     w.drawn = &house;
     assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
     for (int k = 0; k < 4; k++) {
@@ -583,7 +583,7 @@ static void failing_memory_is_reported(void **state)
     (void)state;
     strokes drawn = {.width = 1};
     for (int i = 0; i < 5; i++)
-        assert_true(strokes_add(&drawn, (stroke){0.1f, 0.2f * (float)i, 0.9f, 0.2f * (float)i, 1, 1, 0}));
+        assert_true(strokes_add(&drawn, (texture_stroke){0.1f, 0.2f * (float)i, 0.9f, 0.2f * (float)i, 1, 1, 0}));
     for (int i = 0; i < 3; i++) {
         tam_wishes w = usual((tam_placement)(i % 2));
         w.side = 16;
