@@ -192,7 +192,7 @@ static void ends_are_as_long_at_any_length(void **state)
     double       first[PLACES];
     for (int length = 100; length <= 240; length += 20) {
         picture p = {ink, 1, 1};
-        stroke  s = {8.0f / SIDE, 100.5f / SIDE, (float)(8 + length) / SIDE, 100.5f / SIDE, 1, 1, 0};
+        texture_stroke  s = {8.0f / SIDE, 100.5f / SIDE, (float)(8 + length) / SIDE, 100.5f / SIDE, 1, 1, 0};
         memset(ink, 0, sizeof ink);
         stroke_draw(&s, SIDE, &brush, darken, &p);
         for (int i = 0; i < PLACES; i++) {
@@ -299,7 +299,7 @@ static void strokes_have_grain(void **state)
         double       sum = 0, squares = 0, half[2] = {0};
         for (int n = 0; n < 40; n++) {
             picture p = {ink, 1, 1};
-            stroke  s = {0.1f, (float)(20 + n) / 128, 0.9f, (float)(20 + n) / 128, 1, 1, 0};
+            texture_stroke  s = {0.1f, (float)(20 + n) / 128, 0.9f, (float)(20 + n) / 128, 1, 1, 0};
             memset(ink, 0, sizeof ink);
             stroke_draw(&s, SIDE, &brush, darken, &p);
             for (int y = 40 + 2 * n - 1; y < 40 + 2 * n + 1; y++)
