@@ -33,9 +33,9 @@ enum { LINES_GROW_FROM = 2 };
 /* What contrast-aware lines look at. */
 #define LINES_PASSES_CONTRAST                                                                                         \
     {.name = "ground", .shader = "lines/ground.frag", .reads = {TARGET_SHADE, TARGET_PAGE},                           \
-     .writes = TARGET_GROUND, .when = "contrast>1"},                                                                  \
+     .writes = TARGET_GROUND, .when = "contrast=adaptive,directed"},                                                  \
     {.name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,           \
-     .repeat = 2, .when = "contrast>1"}
+     .repeat = 2, .when = "contrast=adaptive,directed"}
 
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they grow: thin ones are
  * traced best, and dashes know where lines end. */
