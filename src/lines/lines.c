@@ -31,7 +31,7 @@ static const param common[] = {
     PARAM_ENUM_ROW(lines_common, contrast, .names = contrasts, .variant = true,
                    .doc = "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
                           "the dark colour by the ground; directed puts the second line towards the outside."),
-    PARAM_COLOUR_ROW(lines_common, light_colour, .def_colour = {1, 1, 1, 1}, .only_if = "contrast>0",
+    PARAM_COLOUR_ROW(lines_common, light_colour, .def_colour = {1, 1, 1, 1}, .only_if = "contrast",
                      .doc = "The second or the light colour of contrast-aware lines."),
     PARAM_FLOAT_ROW(lines_common, offset_x, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4, .unit = UNIT_PX,
                     .only_if = "contrast=double", .doc = "How far the second line lies to the right."),

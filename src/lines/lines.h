@@ -33,9 +33,9 @@ enum { LINES_GROW_FROM = 2 };
 /* What contrast-aware lines look at. */
 #define LINES_PASSES_CONTRAST                                                                                         \
     {.name = "ground", .shader = "lines/ground.frag", .reads = {TARGET_SHADE, TARGET_PAGE},                           \
-     .writes = TARGET_GROUND, .when = "contrast>1"},                                                                  \
+     .writes = TARGET_GROUND, .when = "contrast=adaptive,directed"},                                                  \
     {.name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,           \
-     .repeat = 2, .when = "contrast>1"}
+     .repeat = 2, .when = "contrast=adaptive,directed"}
 
 /* Pictures that line techniques keep for themselves, rows of lines_targets. */
 #define LINES_OUTLINES TARGET_OWN(0)   /* r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */

@@ -6,7 +6,18 @@
 
 #include "base/text.h"
 
-enum { NUMBER_SIZE = 32, RANGE_SIZE = 2 * NUMBER_SIZE + 32 };
+enum { NUMBER_SIZE = 32, RANGE_SIZE = 2 * NUMBER_SIZE + 32, CONDITION_SIZE = 128 };
+
+/* A field of any type. */
+typedef union param_value {
+    int32_t     whole;
+    float       number;
+    bool        flag;
+    colour      tint;
+    direction   axis;
+    palette     list;
+    param_words words;
+} param_value;
 
 const char *param_type_text(param_type type)
 {
@@ -373,15 +384,7 @@ void param_print(const param *p, const void *values, char *out, size_t size)
 /* Compared as printed: colours count as equal when no file could tell them apart. */
 bool param_is_default(const param *p, const void *values)
 {
-    union {
-        int32_t whole;
-        float number;
-        bool flag;
-        colour tint;
-        direction axis;
-        palette list;
-        param_words words;
-    } standard;
+    param_value standard;
     param alone = *p;
     char is[128], was[128];
     alone.offset = 0;
@@ -417,39 +420,77 @@ static bool is_set(const param *p, const void *values)
     return false;
 }
 
-static double number_of(const param *p, const void *values)
+/* One term of a condition: [!]KEY, or [!]KEY, a sign and what it is held against. */
+typedef struct condition_term {
+    const char *key, *sign, *end; /* sign == end: there is none */
+    bool        negated;
+} condition_term;
+
+static condition_term term_at(const char *at)
 {
-    const void *field = param_field(p, values);
-    if (p->type == PARAM_FLOAT)
-        return (double)*(const float *)field;
-    if (p->type == PARAM_INT || p->type == PARAM_ENUM)
-        return *(const int32_t *)field;
-    return is_set(p, values) ? 1 : 0;
+    condition_term term = {.negated = *at == '!', .end = at + strcspn(at, "&")};
+    term.key = at + term.negated;
+    term.sign = term.key;
+    while (term.sign < term.end && !strchr("=<>", *term.sign))
+        term.sign++;
+    return term;
 }
 
-/* One term of a condition, without the '&' behind it. */
-static bool term_holds(const char *term, size_t length, const param *params, size_t count, const void *values)
+static const param *term_row(condition_term term, const param *params, size_t count)
 {
-    const char *end = term + length;
-    bool negated = length && *term == '!';
-    const char *key = term + negated, *sign = key;
-    while (sign < end && !strchr("=<>", *sign))
-        sign++;
-    const param *p = find_row(params, count, key, (size_t)(sign - key));
+    return find_row(params, count, term.key, (size_t)(term.sign - term.key));
+}
+
+static bool is_number(const param *p)
+{
+    return p->type == PARAM_INT || p->type == PARAM_FLOAT;
+}
+
+static bool number_holds(condition_term term, const param *p, const void *values)
+{
+    double bound;
+    if (!is_number(p) || text_parse_double(term.sign + 1, term.end, &bound) != term.end)
+        return false;
+    const void *field = param_field(p, values);
+    double      number = p->type == PARAM_INT ? *(const int32_t *)field : (double)*(const float *)field;
+    return *term.sign == '>' ? number > bound : number < bound;
+}
+
+/* The next of the words behind '=', and its length; NULL behind the last. */
+static const char *next_word(condition_term term, const char *word, size_t *length)
+{
+    word = word ? word + *length + 1 : term.sign + 1;
+    if (word > term.end)
+        return NULL;
+    const char *comma = memchr(word, ',', (size_t)(term.end - word));
+    *length = (size_t)((comma ? comma : term.end) - word);
+    return word;
+}
+
+static bool prints_as_a_word(condition_term term, const param *p, const void *values)
+{
+    char   is[CONDITION_SIZE];
+    size_t length = 0;
+    param_print(p, values, is, sizeof is);
+    for (const char *word = NULL; (word = next_word(term, word, &length));)
+        if (strlen(is) == length && memcmp(is, word, length) == 0)
+            return true;
+    return false;
+}
+
+static bool term_holds(condition_term term, const param *params, size_t count, const void *values)
+{
+    const param *p = term_row(term, params, count);
     if (!p)
         return false;
     bool holds;
-    if (sign == end) {
+    if (term.sign == term.end)
         holds = is_set(p, values);
-    } else if (*sign == '=') {
-        char is[128];
-        param_print(p, values, is, sizeof is);
-        holds = strlen(is) == (size_t)(end - sign) - 1 && strncmp(is, sign + 1, strlen(is)) == 0;
-    } else {
-        double bound, number = number_of(p, values);
-        holds = text_parse_double(sign + 1, end, &bound) == end && (*sign == '>' ? number > bound : number < bound);
-    }
-    return holds != negated;
+    else if (*term.sign == '=')
+        holds = prints_as_a_word(term, p, values);
+    else
+        holds = number_holds(term, p, values);
+    return holds != term.negated;
 }
 
 bool params_condition(const char *condition, const param *params, size_t count, const void *values)
@@ -457,11 +498,65 @@ bool params_condition(const char *condition, const param *params, size_t count, 
     if (!condition)
         return true;
     for (const char *at = condition;; at++) {
-        size_t length = strcspn(at, "&");
-        if (!term_holds(at, length, params, count, values))
+        condition_term term = term_at(at);
+        if (!term_holds(term, params, count, values))
             return false;
-        at += length;
+        at = term.end;
         if (!*at)
             return true;
     }
+}
+
+/* A word is a value when it is what the value prints as: "0.50" never equals anything. */
+static bool is_value(const param *p, const char *word, size_t length)
+{
+    param        alone = *p;
+    param_value  value;
+    char         text[CONDITION_SIZE], is[CONDITION_SIZE];
+    if (length >= sizeof text)
+        return false;
+    snprintf(text, sizeof text, "%.*s", (int)length, word);
+    alone.offset = 0;
+    memset(&value, 0, sizeof value);
+    if (param_set_text(&alone, &value, text, NULL) != LMN_OK)
+        return false;
+    param_print(&alone, &value, is, sizeof is);
+    return strcmp(is, text) == 0;
+}
+
+static lmn_status check_words(condition_term term, const param *p, const char *condition, lmn_error *error)
+{
+    size_t length = 0;
+    for (const char *word = NULL; (word = next_word(term, word, &length));)
+        if (!is_value(p, word, length))
+            return error_set(error, LMN_USAGE, "condition '%.200s': '%.*s' is no value of %s", condition, (int)length, word, p->key);
+    return LMN_OK;
+}
+
+static lmn_status check_number(condition_term term, const param *p, const char *condition, lmn_error *error)
+{
+    double bound;
+    if (!is_number(p))
+        return error_set(error, LMN_USAGE, "condition '%.200s': %s is no number but %s; name its values: %s=…", condition, p->key,
+                         param_type_text(p->type), p->key);
+    if (text_parse_double(term.sign + 1, term.end, &bound) != term.end)
+        return error_set(error, LMN_USAGE, "condition '%.200s': %s is compared with no number", condition, p->key);
+    return LMN_OK;
+}
+
+lmn_status params_condition_check(const char *condition, const param *params, size_t count, lmn_error *error)
+{
+    for (const char *at = condition; at; at++) {
+        condition_term term = term_at(at);
+        const param   *p = term_row(term, params, count);
+        if (!p)
+            return error_set(error, LMN_USAGE, "condition '%.200s': there is no parameter '%.*s'", condition, (int)(term.sign - term.key), term.key);
+        lmn_status status = LMN_OK;
+        if (term.sign < term.end)
+            status = *term.sign == '=' ? check_words(term, p, condition, error) : check_number(term, p, condition, error);
+        at = term.end;
+        if (status != LMN_OK || !*at)
+            return status;
+    }
+    return LMN_OK;
 }

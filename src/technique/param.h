@@ -63,7 +63,7 @@ typedef struct param {
     bool               a_second;    /* a float: above 0 the picture changes so many times a second of its time */
     bool               along;       /* a length along lines, which makes them no wider */
     float              reach;       /* lengths: how many times as far they can reach; 0 is once */
-    const char        *only_if;     /* key of a bool parameter (or "key=name" of an enum) that makes this one matter */
+    const char        *only_if;     /* condition (params_condition) on the same technique's parameters under which this one matters; NULL: always */
     const char        *example;     /* PARAM_TEXT: a value that does something, for tests */
     bool               is_selector; /* PARAM_TEXT: selects parts; src/look checks it */
     bool               is_file;     /* PARAM_TEXT: may be the path of a file; in look files beside the look */
@@ -110,9 +110,19 @@ bool param_is_auto(const param *p, const void *values);
 /* Reads as numbers whatever the type: the field's address. */
 const void *param_field(const param *p, const void *values);
 
-/* Does the condition hold for these values? NULL always holds, an unknown key never does. "key" (not 0, not transparent, not
- * auto), "!key", "key=text" (prints as this text), "key>number", "key<number" (of an enum its index); several joined by '&'
- * must all hold. */
+/* Conditions on parameters: passes, textures and rows have them, and whole techniques. Terms joined by '&', all of which must
+ * hold:
+ *   key               is set: not 0, false, the first word of an enum, transparent, empty or auto
+ *   key=word,word     prints as one of these words (param_print)
+ *   key>number, key<number   of a PARAM_INT or PARAM_FLOAT; never of an enum, whose words may get another order
+ * A '!' before the key turns a term round.
+ *
+ * Does it hold for these values? NULL always holds. A term that is wrong never does; tests/unit/conditions_test.c holds what
+ * every technique says against params_condition_check. */
 bool params_condition(const char *condition, const param *params, size_t count, const void *values);
+
+/* Is this a condition on these parameters? Errors: LMN_USAGE, an unknown key, a word that is no value, a comparison of
+ * what is no number. NULL is one. */
+lmn_status params_condition_check(const char *condition, const param *params, size_t count, lmn_error *error);
 
 #endif

@@ -202,7 +202,7 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
     return count;
 }
 
-/* Makes one term of a condition hold: "key", "key=name", "key>number", "key<number". */
+/* Makes one term of a condition hold: "key", "key=word,word", "key>number", "key<number". */
 static void make_term_hold(lmn_look *look, const kind *k, const technique *t, const char *term)
 {
     char key[TEXT_SIZE], path[TEXT_SIZE * 2], value[TEXT_SIZE];
@@ -211,15 +211,14 @@ static void make_term_hold(lmn_look *look, const kind *k, const technique *t, co
     const param *p = kind_find_param(k, t, key);
     if (!p)
         fail_msg("%s.%s: only_if names the unknown '%s'", k->name, t->name, key);
-    double bound = term[length] == '>' || term[length] == '<' ? atof(term + length + 1) : 0;
     if (term[length] == '=')
-        snprintf(value, sizeof value, "%s", term + length + 1);
+        snprintf(value, sizeof value, "%.*s", (int)strcspn(term + length + 1, ","), term + length + 1);
     else if (p->type == PARAM_BOOL)
         snprintf(value, sizeof value, "true");
     else if (p->type == PARAM_TEXT)
         snprintf(value, sizeof value, "%s", p->example);
     else if (p->type == PARAM_ENUM)
-        snprintf(value, sizeof value, "%s", p->names[term[length] == '<' ? 0 : (size_t)bound + 1]);
+        snprintf(value, sizeof value, "%s", p->names[1]);
     else
         snprintf(value, sizeof value, "%.6g", term[length] == '<' ? p->min : p->soft_max != 0 ? p->soft_max : p->max);
     snprintf(path, sizeof path, "%s%s.%s", k->look_wide ? "" : "0:", k->name, key);

@@ -142,11 +142,35 @@ static void test_conditions(void **state)
         {"width>1", true},     {"width<1.5", false},   {"bands=3", true},     {"bands>2&width>2", false},
         {"bands>2&soft", true}, {"bias", false},       {"bias>0", false},     {"light", false},
         {"ink", true},         {"unknown", false},     {"!unknown", false},   {"width>", false},
-        {"mode=non", false},   {"", false},
+        {"mode=non", false},   {"", false},           {"mode=double,none", true}, {"mode=double,adaptive", false},
+        {"!mode=double,adaptive", true}, {"soft&mode=none,double", true}, {"mode<2", false}, {"!mode<2", true}, {"soft>0", false},
+        {"mode=none,", true},  {"mode=,none", true},  {"mode=double,", false}, {"soft&", false},
     };
     for (size_t i = 0; i < PARAM_COUNT(cases); i++)
         if (params_condition(cases[i].condition, rows, PARAM_COUNT(rows), &v) != cases[i].holds)
             fail_msg("condition '%s'", cases[i].condition);
+}
+
+static void test_wrong_conditions(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *condition, *message; /* NULL: it is right */
+    } cases[] = {
+        {NULL, NULL},           {"soft", NULL},         {"!soft&mode=none,double", NULL}, {"width>1.5&bands<4", NULL},
+        {"bands=3", NULL},      {"soft=true", NULL},    {"bias=auto", NULL},              {"mode", NULL},
+        {"sofft", "'sofft'"},   {"soft&sofft", "'sofft'"}, {"", "''"},                    {"soft&", "''"},
+        {"mode>0", "mode is no number but enum"},       {"ink<1", "ink is no number"},    {"width>", "compared with no number"},
+        {"width<1px", "no number"}, {"mode=dubble", "'dubble' is no value of mode"},      {"mode=none,dubble", "'dubble'"},
+        {"mode=none,", "''"},   {"mode=1", "'1'"},      {"bands=65", "'65'"},             {"width=0.50", "'0.50'"},
+        {"mode=none|double", "'none|double'"},
+    };
+    for (size_t i = 0; i < PARAM_COUNT(cases); i++) {
+        lmn_error  error = {0};
+        lmn_status status = params_condition_check(cases[i].condition, rows, PARAM_COUNT(rows), &error);
+        if (status != (cases[i].message ? LMN_USAGE : LMN_OK) || (cases[i].message && !strstr(error.message, cases[i].message)))
+            fail_msg("condition '%s' gives '%s'", cases[i].condition, error.message);
+    }
 }
 
 int main(void)
@@ -156,6 +180,7 @@ int main(void)
         cmocka_unit_test(test_set_and_print),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_conditions),
+        cmocka_unit_test(test_wrong_conditions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@ typedef enum halftone_coordinates {
     /* And this only afterwards. */
     COORDINATES_FORM       /* the same by the picture's normals and depth */
 } halftone_coordinates;
-#define HALFTONE_FORWARD_WHEN "coordinates>2&coordinates<7"
+#define HALFTONE_FORWARD_WHEN "coordinates=uv,curvature,lapped,form-mesh"
 #define HALFTONE_DEFERRED_WHEN "coordinates=form"
 extern const char *const halftone_coordinate_names[];
 
@@ -51,7 +51,7 @@ mesh_wishes halftone_wishes(const void *values);
     PARAM_FLOAT_ROW(halftone_values, patch, .def = 0.1, .min = 0.01, .max = 1, .soft_min = 0.03, .soft_max = 0.3, .unit = UNIT_SHARE, .cpu_only = true, \
                     .only_if = "coordinates=lapped", .doc = "Radius of patches, share of a mesh's diagonal."),                                        \
     PARAM_INT_ROW(halftone_values, ways_on_page, .def = 12, .min = 2, .max = 64, .soft_max = 24, .unit = UNIT_COUNT, .variant = true,                \
-                  .only_if = "coordinates>5", .doc = "How many ways strokes of form and form-mesh can lie on the page."),                            \
+                  .only_if = "coordinates=form-mesh,form", .doc = "How many ways strokes of form and form-mesh can lie on the page."),               \
     PARAM_FLOAT_ROW(halftone_values, angle, .def = 0, .min = -360, .max = 360, .soft_min = -90, .soft_max = 90, .unit = UNIT_DEGREES, .as_turn = true, \
                     .doc = "Turns the strokes on the surface."),                                                                                     \
     PARAM_FLOAT_ROW(halftone_values, shadow, .def = 0.05, .min = -1, .max = 1, .soft_min = 0, .unit = UNIT_SHARE,                                     \
@@ -75,7 +75,7 @@ mesh_wishes halftone_wishes(const void *values);
                    .doc = "one ink; two: the second one for the lighter half of all tones; cmyk: four inks that mix to the model's colours, each "    \
                           "at an angle of its own."),                                                                                                \
     PARAM_COLOUR_ROW(halftone_values, second_ink, .def_colour = {0.72f, 0.36f, 0.22f, 1}, .only_if = "inks=two", .doc = "Colour of the second ink."), \
-    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "inks<2",                                \
+    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "inks=one,two",                          \
                     .doc = "Share of the model's own colour in the ink.")
 
 #endif
