@@ -22,8 +22,6 @@ static const pass passes[] = {
 };
 
 const technique compose_blueprint = {
-    .name = "blueprint", .doc = "Lines of all layers over a tint that grows with depth complexity.",
-    .example = "{\"compose\": \"blueprint\", \"layers\": \"peel\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(blueprint),
-    .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS, .merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true,
+    .name = "blueprint", .doc = "Lines of all layers over a tint that grows with depth complexity.", .example = "{\"compose\": \"blueprint\", \"layers\": \"peel\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(blueprint), .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS,
+    .compose = &(const compose_row){.merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true},
 };

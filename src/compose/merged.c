@@ -8,7 +8,6 @@ static const pass passes[] = {
 };
 
 const technique compose_merged = {
-    .name = "merged", .doc = "Detects edges while shading, on visible fragments only.",
-    .example = "{\"compose\": \"merged\", \"lines\": \"four-tap\"}",
-    .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes), .merges_when = "contrast=none",
+    .name = "merged", .doc = "Detects edges while shading, on visible fragments only.", .example = "{\"compose\": \"merged\", \"lines\": \"four-tap\"}", .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .compose = &(const compose_row){.merges_when = "contrast=none"},
 };

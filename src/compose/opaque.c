@@ -10,8 +10,7 @@ static const pass passes[] = {
 };
 
 const technique compose_opaque = {
-    .name = "opaque", .doc = "Colour with true depth, lines on top.", .example = "{\"compose\": \"opaque\", \"lines\": \"four-tap\"}",
-    .channels = CHANNEL_SHADE, .passes = passes,
+    .name = "opaque", .doc = "Colour with true depth, lines on top.", .example = "{\"compose\": \"opaque\", \"lines\": \"four-tap\"}", .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes),
     /* Detecting here saves writing and reading the map, a tenth of a frame. */
-    .merges_when = "contrast=none", .pass_count = PARAM_COUNT(passes), .perturbable = true,
+    .compose = &(const compose_row){.merges_when = "contrast=none", .perturbable = true},
 };

@@ -8,7 +8,6 @@ static const pass passes[] = {
 };
 
 const technique compose_superimpose = {
-    .name = "superimpose", .doc = "Draws the parts again with the lines on them; outlines end at the boundary.",
-    .example = "{\"compose\": \"superimpose\", \"lines\": \"four-tap\"}",
-    .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .name = "superimpose", .doc = "Draws the parts again with the lines on them; outlines end at the boundary.", .example = "{\"compose\": \"superimpose\", \"lines\": \"four-tap\"}", .channels = CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .compose = &(const compose_row){.merges_when = NULL},
 };

@@ -20,8 +20,6 @@ static const pass passes[] = {
 };
 
 const technique compose_wire = {
-    .name = "wire", .doc = "Lines of all layers alone, the ground between them.",
-    .example = "{\"compose\": \"wire\", \"layers\": \"peel\", \"lines\": \"four-tap\", \"surface\": \"lit\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(wire),
-    .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS, .merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true, .lines_only = true,
+    .name = "wire", .doc = "Lines of all layers alone, the ground between them.", .example = "{\"compose\": \"wire\", \"layers\": \"peel\", \"lines\": \"four-tap\", \"surface\": \"lit\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(wire), .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS,
+    .compose = &(const compose_row){.merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true, .lines_only = true},
 };

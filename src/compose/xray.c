@@ -21,8 +21,6 @@ static const pass passes[] = {
 };
 
 const technique compose_xray = {
-    .name = "xray", .doc = "Transparent layers with lines, in exact order.",
-    .example = "{\"compose\": \"xray\", \"layers\": \"peel\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(xray), .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_SHADE,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS, .merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true,
+    .name = "xray", .doc = "Transparent layers with lines, in exact order.", .example = "{\"compose\": \"xray\", \"layers\": \"peel\", \"lines\": \"discontinuity\", \"surface\": \"lit\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(xray), .channels = CHANNEL_NORMAL_DEPTH | CHANNEL_SHADE, .passes = passes, .pass_count = PARAM_COUNT(passes), LAYER_TARGETS,
+    .compose = &(const compose_row){.merges_when = "contrast=none", .map_when = "once", .layered = true, .perturbable = true},
 };

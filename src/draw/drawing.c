@@ -229,7 +229,7 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
-        if (!surface || !surface->technique->marks || fig->unmarked || !has_solids(&s->plan, fig))
+        if (!surface || !surface->technique->surface->marks || fig->unmarked || !has_solids(&s->plan, fig))
             continue;
         lmn_status status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, "'dots' and 'hatch' are worked out on any surface (--set surface.technique=hatch)",
                                    "surface '%s' lies on meshes: solids have none", surface->technique->name);
@@ -244,7 +244,7 @@ static void note_marks(const session *s, warnings *notes)
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = rule_shades_again(fig->rule);
-        if (!surface || !surface->technique->marks || fig->unmarked)
+        if (!surface || !surface->technique->surface->marks || fig->unmarked)
             continue;
         if (compose)
             warnings_add(notes, WARNING_UNUSED, "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them", compose->technique->name, surface->technique->name);

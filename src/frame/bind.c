@@ -273,7 +273,7 @@ static bool use_condition(const technique_use *use, const char *condition)
 static bool needs_map(const technique_use *compose)
 {
     const technique *t = compose->technique;
-    if (t->map_when && use_condition(compose, t->map_when))
+    if (t->compose->map_when && use_condition(compose, t->compose->map_when))
         return true;
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
@@ -289,9 +289,9 @@ static bool needs_map(const technique_use *compose)
 const pass *rule_merged_detection(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
-    if (!compose || !compose->technique->merges_when || needs_map(compose) || rule_use(r, KIND_PERTURB) ||
-        r->use_counts[KIND_LINES] != 1 || !lines->technique->detect ||
-        !params_condition(compose->technique->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
+    if (!compose || !compose->technique->compose->merges_when || needs_map(compose) || rule_use(r, KIND_PERTURB) ||
+        r->use_counts[KIND_LINES] != 1 || !lines->technique->lines->detect ||
+        !params_condition(compose->technique->compose->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
         return NULL;
     const pass *only = NULL;
     for (size_t i = 0; i < lines->technique->pass_count; i++) {

@@ -41,7 +41,7 @@ static size_t count_to_draw(const frame *f, const figure *fig, const mark_set *s
 bool figure_has_marks(const figure *fig)
 {
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
-    return surface && surface->technique->marks && !fig->unmarked;
+    return surface && surface->technique->surface->marks && !fig->unmarked;
 }
 
 void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
@@ -50,7 +50,7 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
     if (!figure_has_marks(s->figure) || gpu_failed(f->g))
         return;
     stopwatch w = watch_start(&f->profile);
-    const mark_source *source = surface->technique->marks;
+    const mark_source *source = surface->technique->surface->marks;
     bool points = source->point && source->point(surface->values) <= gpu_capabilities_of(f->g)->max_point;
     mark_set_wishes wishes = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface, points};
     const mark_set *set = mark_sets_find(&f->up->marks, f->g, &wishes);

@@ -38,7 +38,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     snprintf(path, sizeof path, "%s", p->shader);
     if (params->merged) {
         text_append(&prelude, "#define MERGED\n");
-        snprintf(path, sizeof path, "%s+%s", rule_inked_lines(s->figure->rule)->technique->detect, p->shader);
+        snprintf(path, sizeof path, "%s+%s", rule_inked_lines(s->figure->rule)->technique->lines->detect, p->shader);
     }
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
@@ -238,7 +238,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
     if (id == KIND_COMPOSE && lines) {
         params.sets[params.count++] = use_common_set(KIND_LINES, lines);
         params.merged = rule_merged_detection(s->figure->rule);
-        if (params.merged || lines->technique->own_ink)
+        if (params.merged || lines->technique->lines->own_ink)
             params.sets[params.count++] = use_own_set(KIND_LINES, lines);
     }
     const technique_use *perturb = rule_use(s->figure->rule, KIND_PERTURB);
@@ -267,7 +267,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
 static void fold_lines(frame *f, figure_state *s, kind_id id, const technique_use *use)
 {
     pass_params params = {.sets = {use_common_set(id, use)}, .count = 1};
-    if (use->technique->own_ink)
+    if (use->technique->lines->own_ink)
         params.sets[params.count++] = use_own_set(id, use);
     run_pass(f, s, kinds[id]->fold, &params, kinds[id]->name, 0);
 }

@@ -140,11 +140,11 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     const pass *merged = rule_merged_detection(s->figure->rule);
     uniforms_declare(prelude, use_common_set(KIND_LINES, lines));
     text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
-    if (merged || lines->technique->own_ink)
+    if (merged || lines->technique->lines->own_ink)
         uniforms_declare(prelude, use_own_set(KIND_LINES, lines));
     reads_declare(prelude, f, s, inking, merged);
     char joined[320];
-    snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->detect : "", merged ? "+" : "", inking->shader, path);
+    snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->lines->detect : "", merged ? "+" : "", inking->shader, path);
     snprintf(path, size, "%s", joined);
 }
 
@@ -168,7 +168,7 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const char *
         lights_declare(&prelude, f);
         uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
         used_textures_declare(&prelude, surface, &s->figure->textures->surface);
-        snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface);
+        snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface->shader);
     }
     if (job->inking)
         declare_ink(&prelude, path, sizeof path, f, s, job->inking);
@@ -234,22 +234,22 @@ static gpu_state state_of(const raster_job *job)
 static bool uses_field(const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return surface && surface->technique->wishes && surface->technique->wishes(surface->values).field && gpu_mesh_has_tensors(item->mesh);
+    return surface && surface->technique->surface->wishes && surface->technique->surface->wishes(surface->values).field && gpu_mesh_has_tensors(item->mesh);
 }
 
 /* Or on patches? Layers and enlarged figures draw each triangle once. */
 static bool uses_patches(const raster_job *job, const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->wishes && surface->technique->wishes(surface->values).patch > 0;
+    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->surface->wishes && surface->technique->surface->wishes(surface->values).patch > 0;
 }
 
 /* Does the surface look light up in a map of the item's? */
 static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->light_map_when &&
-           params_condition(surface->technique->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
+    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->surface->light_map_when &&
+           params_condition(surface->technique->surface->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
 }
 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
@@ -337,7 +337,7 @@ static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_i
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     used_textures_declare(&prelude, surface, made_for(s->figure, item->material));
     char path[320];
-    snprintf(path, sizeof path, "%s+layer/light_map.frag", surface->technique->surface);
+    snprintf(path, sizeof path, "%s+layer/light_map.frag", surface->technique->surface->shader);
     gpu_program *lit = program_of(f, GPU_FLOOR, "layer/raster.vert", path, &prelude);
     gpu_pass_begin(f->g, &(gpu_pass){.colours = {map}, .colour_count = 1, .clear = true});
     gpu_use(f->g, lit, (gpu_state){0});
@@ -585,7 +585,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
     text_append(&prelude, "#define SHADED_LATER\n");
     reads_declare(&prelude, f, s, &shading, NULL);
     char path[160];
-    snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface);
+    snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface->shader);
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {

@@ -29,7 +29,6 @@ static void front_layering(layering *out, const void *values)
 }
 
 const technique layers_front = {
-    .name = "front", .doc = "The visible surface.", .example = "{\"layers\": \"front\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(front_values),
-    .layering = front_layering,
+    .name = "front", .doc = "The visible surface.", .example = "{\"layers\": \"front\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(front_values),
+    .layers = &(const layers_row){.layering = front_layering},
 };

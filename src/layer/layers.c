@@ -15,6 +15,6 @@ layering layering_of(const technique_use *layers)
 {
     layering out = {.count = 1, .evaluation = EVALUATION_AUTO, .focus = ""};
     if (layers)
-        layers->technique->layering(&out, layers->values);
+        layers->technique->layers->layering(&out, layers->values);
     return out;
 }

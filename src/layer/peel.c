@@ -44,7 +44,6 @@ static void peel_layering(layering *out, const void *values)
 }
 
 const technique layers_peel = {
-    .name = "peel", .doc = "Several surfaces behind each pixel.",
-    .example = "{\"layers\": {\"technique\": \"peel\", \"count\": 3}, \"compose\": \"xray\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(peel_values), .layered = true, .layering = peel_layering,
+    .name = "peel", .doc = "Several surfaces behind each pixel.", .example = "{\"layers\": {\"technique\": \"peel\", \"count\": 3}, \"compose\": \"xray\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(peel_values),
+    .layers = &(const layers_row){.layering = peel_layering},
 };

@@ -119,19 +119,19 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
 
 static const texture_source textures[] = {{.name = "graphite", .describe = describe, .make = make}};
 
-static const perturbation perturbs = {
-    .places = "perturb/pencil.glsl", .active = is_active, .reach = reach_of, .seed = seed_of,
-};
-
 static void pencil_hand(struct stroke_style *style, const void *values)
 {
     const pencil *v = values;
     hand_draw(style, &(hand){.sway = v->dark_sway, .length = 90, .pressure = v->pressure, .copies = v->dark, .jitter = v->jitter});
 }
 
+static const perturbation perturbs = {
+    .places = "perturb/pencil.glsl", .active = is_active, .reach = reach_of, .seed = seed_of, .as_hand = pencil_hand,
+};
+
 const technique perturb_pencil = {
     .name = "pencil", .doc = "Lines restated several times, over a faint first sketch.",
     .example = "{\"perturb\": {\"technique\": \"pencil\", \"texture\": 0.3}, \"lines\": \"discontinuity\", \"surface\": \"flat\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(pencil),
-    .perturbs = &perturbs, .numbers = numbers_of, .textures = textures, .texture_count = PARAM_COUNT(textures), .as_hand = pencil_hand,
+    .perturbs = &perturbs, .numbers = numbers_of, .textures = textures, .texture_count = PARAM_COUNT(textures),
 };

@@ -129,8 +129,15 @@ static const pass map = {
     .name = "map", .shader = "perturb/map.frag", .reads = {TARGET_UNCERTAINTY}, .writes = TARGET_FIELD,
 };
 
+static void uncertainty_hand(struct stroke_style *style, const void *values)
+{
+    static const float sway_share = 0.4f; /* most places move by much less than the most */
+    const uncertainty *v = values;
+    hand_draw(style, &(hand){.sway = v->amount * sway_share, .length = v->scale, .pressure = v->pressure, .copies = 1});
+}
+
 static const perturbation perturbs = {
-    .places = "perturb/uncertainty.glsl", .active = is_active, .reach = reach_of, .cell = cell_of, .seed = seed_of, .map = &map,
+    .places = "perturb/uncertainty.glsl", .active = is_active, .reach = reach_of, .cell = cell_of, .seed = seed_of, .map = &map, .as_hand = uncertainty_hand,
 };
 
 /* The figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty). */
@@ -155,17 +162,10 @@ static const pass passes[] = {
      .when = "lock=object"},
 };
 
-static void uncertainty_hand(struct stroke_style *style, const void *values)
-{
-    static const float sway_share = 0.4f; /* most places move by much less than the most */
-    const uncertainty *v = values;
-    hand_draw(style, &(hand){.sway = v->amount * sway_share, .length = v->scale, .pressure = v->pressure, .copies = 1});
-}
-
 const technique perturb_uncertainty = {
     .name = "uncertainty", .doc = "Lines and fill waver apart, as drawn by hand.",
     .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
     .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty),
     .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), .targets = targets, .target_count = PARAM_COUNT(targets), .perturbs = &perturbs, .as_hand = uncertainty_hand,
+    .passes = passes, .pass_count = PARAM_COUNT(passes), .targets = targets, .target_count = PARAM_COUNT(targets), .perturbs = &perturbs,
 };

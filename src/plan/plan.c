@@ -62,7 +62,7 @@ static void settle_perturbation(rule *r, warnings *notes)
     technique_use *perturb = r->use_counts[KIND_PERTURB] ? &r->uses[KIND_PERTURB][0] : NULL;
     if (!perturb)
         return;
-    bool active = perturb->technique->perturbs->active(perturb->values), able = !compose || compose->technique->perturbable;
+    bool active = perturb->technique->perturbs->active(perturb->values), able = !compose || compose->technique->compose->perturbable;
     if (active && able)
         return;
     if (!able)
@@ -150,7 +150,7 @@ static bool has_active_pass(const technique_use *use)
 static bool is_seen_through(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
-    return compose && compose->technique->layered;
+    return compose && compose->technique->compose->layered;
 }
 
 static void find_opaque_parts(plan *p)
@@ -186,7 +186,7 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
 bool shades_with_geometry(const technique_use *surface)
 {
     const technique *t = surface->technique;
-    return t->forward || (t->forward_when && params_condition(t->forward_when, t->params, t->param_count, surface->values));
+    return t->surface->forward || (t->surface->forward_when && params_condition(t->surface->forward_when, t->params, t->param_count, surface->values));
 }
 
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
@@ -201,12 +201,12 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     }
     bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
     const technique *shader = surface ? surface->technique : NULL;
-    bool later = shader && shader->deferred_when && params_condition(shader->deferred_when, shader->params, shader->param_count, surface->values);
+    bool later = shader && shader->surface->deferred_when && params_condition(shader->surface->deferred_when, shader->params, shader->param_count, surface->values);
     f->deferred = surface && (f->layering.deferred || later) && !shades_with_geometry(surface);
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
     f->complement = f->layering.complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
-    f->reflects = surface && surface->technique->reflects;
-    bool plain_surface = !surface || (surface->technique->direct && !has_active_pass(surface));
+    f->reflects = surface && surface->technique->surface->reflects;
+    bool plain_surface = !surface || (surface->technique->surface->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
     f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut || has_solid(p, f)) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
@@ -357,7 +357,7 @@ static lmn_status split_mirrors(plan *p, lmn_error *error)
     p->figures = grown;
     for (size_t i = 0; i < before; i++) {
         const technique_use *surface = rule_use(p->figures[i].rule, KIND_SURFACE);
-        if (!surface || !surface->technique->reflects || is_seen_through(p->figures[i].rule))
+        if (!surface || !surface->technique->surface->reflects || is_seen_through(p->figures[i].rule))
             continue;
         for (size_t part = 0; part < p->part_count && p->figures[i].part_count > 1; part++) {
             if (!p->figures[i].designated[part])
@@ -501,9 +501,9 @@ static mesh_wishes wishes_of(const lmn_look *look)
     mesh_wishes all = {false, 0};
     for (size_t i = 0; i < look->rule_count; i++) {
         const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
-        if (!surface || !surface->technique->wishes)
+        if (!surface || !surface->technique->surface->wishes)
             continue;
-        mesh_wishes own = surface->technique->wishes(surface->values);
+        mesh_wishes own = surface->technique->surface->wishes(surface->values);
         all.field = all.field || own.field;
         all.patch = own.patch > 0 ? own.patch : all.patch;
     }

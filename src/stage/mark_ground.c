@@ -167,7 +167,7 @@ lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *pa
 
 lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error)
 {
-    lmn_status status = surface->technique->marks->make(out, &g->surface, g->extent, surface->values, error);
+    lmn_status status = surface->technique->surface->marks->make(out, &g->surface, g->extent, surface->values, error);
     for (size_t i = 0; status == LMN_OK && i < out->dot_count; i++) {
         mark_dot *d = &out->dots[i];
         const float *b = &g->brightness[3 * (size_t)d->triangle];

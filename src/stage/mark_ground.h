@@ -28,7 +28,7 @@ void       mark_ground_release(mark_ground *g);
 lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error);
 
 /* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the look's lights (no shadows) and the technique's ink. `surface` must have marks
- * (technique->marks), its lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs no GPU. Errors: LMN_MEMORY, those of the technique. */
+ * (technique->surface->marks), its lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs no GPU. Errors: LMN_MEMORY, those of the technique. */
 typedef struct mark_page_wishes {
     const pose          *pose;
     const lmn_look      *look;

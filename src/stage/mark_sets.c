@@ -35,7 +35,7 @@ void mark_sets_release(mark_sets **all, gpu *g)
 static uint64_t key_of(gpu *g, const mark_set_wishes *w)
 {
     text t = {0};
-    w->surface->technique->marks->describe(&t, w->surface->values);
+    w->surface->technique->surface->marks->describe(&t, w->surface->values);
     text_append(&t, " %.17g %d ", w->crease_angle, w->points);
     for (size_t i = 0; i < w->part_count; i++)
         text_append(&t, "%c", w->parts[i] ? 'x' : '.');

@@ -13,7 +13,7 @@ static lmn_status make_by_material(struct figure_textures *out, made_textures *a
     for (size_t i = 0; i < scene->material_count && status == LMN_OK; i++) {
         int32_t index = scene->materials[i].base_texture.image;
         memcpy(values, surface->values, surface->technique->params_size);
-        surface->technique->by_material(values, index >= 0 ? scene->images[index].strokes : NULL);
+        surface->technique->surface->by_material(values, index >= 0 ? scene->images[index].strokes : NULL);
         status = made_textures_find(all, g, &(technique_use){surface->technique, values}, &out->by_material[i], error);
     }
     mem_free(values);
@@ -37,8 +37,8 @@ static lmn_status make_of_figure(struct figure_textures *out, made_textures *all
 {
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
     technique_use        plain = {surface ? surface->technique : NULL, NULL};
-    bool differ = surface && surface->technique->by_material && (plain.values = mem_copy(surface->values, surface->technique->params_size)) &&
-                  surface->technique->by_material(plain.values, NULL);
+    bool differ = surface && surface->technique->surface->by_material && (plain.values = mem_copy(surface->values, surface->technique->params_size)) &&
+                  surface->technique->surface->by_material(plain.values, NULL);
     lmn_status status = made_textures_find(all, g, differ ? &plain : surface, &out->surface, error);
     if (status == LMN_OK && differ)
         status = make_by_material(out, all, g, surface, p->scene, error);

@@ -19,7 +19,6 @@ static bool flat_fill(colour *out, const void *values)
 }
 
 const technique surface_flat = {
-    .name = "flat", .doc = "One colour without light.", .example = "{\"surface\": {\"technique\": \"flat\", \"colour\": \"#eeddcc\"}}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(flat),
-    .surface = "surface/flat.glsl", .direct = true, .as_fill = flat_fill,
+    .name = "flat", .doc = "One colour without light.", .example = "{\"surface\": {\"technique\": \"flat\", \"colour\": \"#eeddcc\"}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(flat),
+    .surface = &(const surface_row){.shader = "surface/flat.glsl", .direct = true, .as_fill = flat_fill},
 };

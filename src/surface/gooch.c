@@ -18,7 +18,6 @@ static const param params[] = {
 };
 
 const technique surface_gooch = {
-    .name = "gooch", .doc = "Cool-to-warm tones for technical illustration.", .example = "{\"surface\": \"gooch\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(gooch),
-    .surface = "surface/gooch.glsl", .direct = true,
+    .name = "gooch", .doc = "Cool-to-warm tones for technical illustration.", .example = "{\"surface\": \"gooch\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(gooch),
+    .surface = &(const surface_row){.shader = "surface/gooch.glsl", .direct = true},
 };

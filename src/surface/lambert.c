@@ -10,7 +10,6 @@ static const param params[] = {
 };
 
 const technique surface_lambert = {
-    .name = "lambert", .doc = "One diffuse term of all lights.", .example = "{\"surface\": \"lambert\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(lambert),
-    .surface = "surface/lambert.glsl", .direct = true,
+    .name = "lambert", .doc = "One diffuse term of all lights.", .example = "{\"surface\": \"lambert\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(lambert),
+    .surface = &(const surface_row){.shader = "surface/lambert.glsl", .direct = true},
 };

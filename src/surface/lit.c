@@ -18,7 +18,6 @@ static const param params[] = {
 };
 
 const technique surface_lit = {
-    .name = "lit", .doc = "Phong shading with a small highlight.", .example = "{\"surface\": {\"technique\": \"lit\", \"specular\": 0.5}}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(lit),
-    .surface = "surface/lit.glsl", .direct = true,
+    .name = "lit", .doc = "Phong shading with a small highlight.", .example = "{\"surface\": {\"technique\": \"lit\", \"specular\": 0.5}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(lit),
+    .surface = &(const surface_row){.shader = "surface/lit.glsl", .direct = true},
 };

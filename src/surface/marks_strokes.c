@@ -179,10 +179,8 @@ static lmn_status make(marks *out, const mark_surface *surface, double extent, c
 static const mark_source source = {.describe = describe, .make = make, .vertex = "surface/marks_strokes.vert", .fragment = "surface/marks_strokes.frag"};
 
 const technique surface_strokes = {
-    .name = "strokes", .doc = "Pen strokes that lie on the surface as lines of their own, whose number makes the tone.",
-    .example = "{\"surface\": {\"technique\": \"strokes\"}, \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(surface_strokes_values), .channels = CHANNEL_NORMAL_DEPTH,
-    .surface = "surface/marks_paper.glsl", .marks = &source,
+    .name = "strokes", .doc = "Pen strokes that lie on the surface as lines of their own, whose number makes the tone.", .example = "{\"surface\": {\"technique\": \"strokes\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(surface_strokes_values), .channels = CHANNEL_NORMAL_DEPTH,
+    .surface = &(const surface_row){.shader = "surface/marks_paper.glsl", .marks = &source},
 };
 
 static float luminance_of(colour c)
@@ -192,7 +190,7 @@ static float luminance_of(colour c)
 
 bool surface_mark_style(mark_style *out, const technique_use *use)
 {
-    if (!use || !use->technique->marks)
+    if (!use || !use->technique->surface->marks)
         return false;
     const mark_values *v = use->values;
     *out = (mark_style){.fade = v->fade, .most = 1, .shadow = v->shadow, .light = v->light, .contrast = v->contrast, .texture = v->texture,

@@ -12,7 +12,6 @@ static const param params[] = {
 };
 
 const technique surface_mirror = {
-    .name = "mirror", .doc = "A planar mirror.", .example = "{\"surface\": \"mirror\", \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(mirror),
-    .surface = "surface/mirror.glsl", .forward = true, .reflects = true,
+    .name = "mirror", .doc = "A planar mirror.", .example = "{\"surface\": \"mirror\", \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(mirror),
+    .surface = &(const surface_row){.shader = "surface/mirror.glsl", .forward = true, .reflects = true},
 };

@@ -81,10 +81,6 @@ static const texture_source textures[] = {{.name = "tones", .describe = describe
 static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_pencil = {
-    .name = "pencil", .doc = "Pencil strokes along the form, gone over several times.",
-    .example = "{\"surface\": {\"technique\": \"pencil\", \"gloss\": 0.2}, \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(pencil_values),
-    .surface = "surface/pencil.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures),
-    .numbers = numbers_of,
+    .name = "pencil", .doc = "Pencil strokes along the form, gone over several times.", .example = "{\"surface\": {\"technique\": \"pencil\", \"gloss\": 0.2}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(pencil_values), .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures), .numbers = numbers_of,
+    .surface = &(const surface_row){.shader = "surface/pencil.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes},
 };

@@ -41,8 +41,6 @@ static void stipple_by_pen(void *values)
 }
 
 const technique surface_stipple = {
-    .name = "stipple", .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.",
-    .example = "{\"surface\": {\"technique\": \"stipple\", \"count\": 2000}, \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(stipple_values), .as_marks = stipple_by_pen, .channels = CHANNEL_NORMAL_DEPTH,
-    .surface = "surface/marks_paper.glsl", .marks = &source,
+    .name = "stipple", .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.", .example = "{\"surface\": {\"technique\": \"stipple\", \"count\": 2000}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(stipple_values), .channels = CHANNEL_NORMAL_DEPTH,
+    .surface = &(const surface_row){.as_marks = stipple_by_pen, .shader = "surface/marks_paper.glsl", .marks = &source},
 };

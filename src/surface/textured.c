@@ -10,7 +10,6 @@ static const param params[] = {
 };
 
 const technique surface_textured = {
-    .name = "textured", .doc = "The model's own colours and textures.", .example = "{\"surface\": {\"technique\": \"textured\", \"light\": 0}}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(textured),
-    .surface = "surface/textured.glsl", .direct = true,
+    .name = "textured", .doc = "The model's own colours and textures.", .example = "{\"surface\": {\"technique\": \"textured\", \"light\": 0}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(textured),
+    .surface = &(const surface_row){.shader = "surface/textured.glsl", .direct = true},
 };

@@ -105,9 +105,6 @@ static const texture_source textures[] = {{.name = "tones", .describe = describe
 static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_tonal_art_map = {
-    .name = "tonal-art-map", .doc = "Hatched tones that hold each other's strokes, made once and laid on the surface.",
-    .example = "{\"surface\": {\"technique\": \"tonal-art-map\"}, \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(tonal_art_map_values),
-    .surface = "surface/tonal_art_map.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .passes = passes, .pass_count = PARAM_COUNT(passes), .wishes = halftone_wishes,
-    .textures = textures, .texture_count = PARAM_COUNT(textures),
+    .name = "tonal-art-map", .doc = "Hatched tones that hold each other's strokes, made once and laid on the surface.", .example = "{\"surface\": {\"technique\": \"tonal-art-map\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(tonal_art_map_values), .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures),
+    .surface = &(const surface_row){.shader = "surface/tonal_art_map.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes},
 };

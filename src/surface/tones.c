@@ -16,8 +16,6 @@ static const param params[] = {
 };
 
 const technique surface_tones = {
-    .name = "tones", .doc = "A few flat colours chosen by the light.",
-    .example = "{\"surface\": {\"technique\": \"tones\", \"palette\": [\"#203040\", \"#8090a0\", \"#f0f0e8\"]}}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(tones),
-    .surface = "surface/tones.glsl", .direct = true,
+    .name = "tones", .doc = "A few flat colours chosen by the light.", .example = "{\"surface\": {\"technique\": \"tones\", \"palette\": [\"#203040\", \"#8090a0\", \"#f0f0e8\"]}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(tones),
+    .surface = &(const surface_row){.shader = "surface/tones.glsl", .direct = true},
 };

@@ -27,9 +27,7 @@ static const pass passes[] = {
 };
 
 const technique surface_toon = {
-    .name = "toon", .doc = "Flat tones with antialiased borders, from the sum of all lights.",
-    .example = "{\"surface\": {\"technique\": \"toon\", \"bands\": 4}, \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(toon), .channels = CHANNEL_ID,
+    .name = "toon", .doc = "Flat tones with antialiased borders, from the sum of all lights.", .example = "{\"surface\": {\"technique\": \"toon\", \"bands\": 4}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(toon), .channels = CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
     /* Borders are measured by derivatives, which a G-buffer does not have where two surfaces meet. */
-    .surface = "surface/toon.glsl", .forward = true, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .surface = &(const surface_row){.shader = "surface/toon.glsl", .forward = true},
 };

@@ -59,6 +59,8 @@ typedef struct mesh_wishes {
 
 struct pass;
 
+struct stroke_style;
+
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
     /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl. With BROAD_LINES also
@@ -69,6 +71,7 @@ typedef struct perturbation {
     float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
     uint32_t  (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
     const struct pass *map; /* writes TARGET_FIELD; NULL: there is none */
+    void      (*as_hand)(struct stroke_style *style, const void *values); /* as vectors: what it does to strokes, lengths in pixels; NULL: nothing */
 } perturbation;
 
 /* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its longer side, layers, levels
@@ -96,8 +99,50 @@ typedef struct mark_source {
 
 struct layering;
 struct stroke_wishes;
-struct stroke_style;
 
+/* What a surface technique is beside its passes. */
+typedef struct surface_row {
+    const char  *shader;   /* GLSL file with `vec4 surface_colour(surface_point p)` */
+    bool         direct;   /* may be drawn straight onto the page when the rule has no lines */
+    bool         forward;  /* always shaded while the geometry is drawn, whatever the layers ask for */
+    bool         reflects; /* wants TARGET_REFLECTION */
+    const char  *light_map_when; /* condition under which it wants t_light_map, the light (its function light_of) laid out by texture coordinates */
+    const char  *forward_when;   /* the same as `forward` under this condition on its parameters; NULL: never */
+    const char  *deferred_when;  /* condition under which it is shaded from the G-buffer wherever that can be; NULL: as the layers say */
+    mesh_wishes (*wishes)(const void *values); /* NULL: nothing */
+    /* Changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all materials are alike. NULL:
+     * always so. */
+    bool       (*by_material)(void *values, const char *strokes);
+    const mark_source *marks; /* what is drawn over it; NULL: nothing */
+    /* As vectors. */
+    bool       (*as_fill)(colour *out, const void *values); /* its one colour, sRGB; false: it has more. NULL: it has more */
+    void       (*as_marks)(void *values); /* changes values so that one pen can draw its marks, all alike; NULL: they are */
+} surface_row;
+
+/* What a line technique is. */
+typedef struct lines_row {
+    const char *detect;  /* of one pass: GLSL file with `void detect_edges()`; NULL: others */
+    bool        own_ink; /* compositions get its own parameters too, with which it is inked */
+    /* As vectors, lengths in pixels: which strokes and how they look; NULL: lines_as_strokes. */
+    void      (*as_strokes)(struct stroke_wishes *wishes, struct stroke_style *style, const void *values);
+} lines_row;
+
+/* What a composition is. */
+typedef struct compose_row {
+    const char *merges_when; /* condition on the lines' common parameters under which it runs a single line technique's `detect` itself instead of reading its
+                              * map; NULL: never */
+    const char *map_when;    /* condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */
+    bool        layered;     /* takes layers, one by one */
+    bool        perturbable; /* its passes onto the page look maps up where compose/places.glsl says */
+    bool        lines_only;  /* surfaces are not drawn */
+} compose_row;
+
+/* What a technique of layers is: which surfaces are seen, src/layer/layer.h. */
+typedef struct layers_row {
+    void (*layering)(struct layering *out, const void *values);
+} layers_row;
+
+/* What all techniques have, and a row of their kind. */
 typedef struct technique {
     const char  *name, *doc;  /* doc: one line that ends in a full stop */
     const char  *example;     /* JSON of a rule that shows it: test input and documentation */
@@ -105,41 +150,20 @@ typedef struct technique {
     size_t       param_count, params_size;
     unsigned     channels;    /* of channel, that its passes read */
     unsigned     part_channels; /* the same, needed only when the figure has several parts */
-    const char  *surface;     /* surface techniques: GLSL file with `vec4 surface_colour(surface_point p)` */
-    const char  *detect;      /* line techniques of one pass: GLSL file with `void detect_edges()` */
     const pass  *passes;
     size_t       pass_count;
     const target_row *targets; /* pictures that these passes alone write and read: TARGET_OWN(0) and up */
     size_t       target_count; /* at most OWN_TARGETS_MAX */
-    const char  *merges_when; /* compose: condition on the lines' common parameters under which the composition runs a single line
-                               * technique's `detect` itself instead of reading its map; NULL: never */
-    const char  *map_when;    /* compose: condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */
-    bool         own_ink;     /* lines: compositions get its own parameters too, with which it is inked */
-    bool         layered;     /* layers: gives several, nearest first; compose: takes them one by one */
-    bool         perturbable; /* compose: its passes onto the page look maps up where compose/places.glsl says */
-    bool         direct;      /* surface: may be drawn straight onto the page when the rule has no lines */
-    bool         forward;     /* surface: always shaded while the geometry is drawn, whatever the layers ask for */
-    bool         reflects;    /* surface: wants TARGET_REFLECTION */
-    const char  *light_map_when; /* surface: condition under which it wants t_light_map, the light (its function light_of) laid out by texture coordinates */
-    const char  *forward_when; /* surface: the same under this condition on its parameters; NULL: never */
-    const char  *deferred_when; /* surface: condition under which it is shaded from the G-buffer wherever that can be; NULL: as the layers say */
-    mesh_wishes (*wishes)(const void *values); /* surface; NULL: nothing */
-    /* surface: changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all
-     * materials are alike. NULL: always so. */
-    bool       (*by_material)(void *values, const char *strokes);
     const texture_source *textures; /* surface, finish: what it makes on the CPU */
     size_t       texture_count;
     /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how many, at most NUMBERS_MAX. NULL: nothing. */
     size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
-    const mark_source *marks; /* surface: what is drawn over it; NULL: nothing */
-    const perturbation *perturbs; /* perturb: how lookups are moved */
-    void       (*layering)(struct layering *out, const void *values); /* layers: which surfaces are seen, src/layer/layer.h */
-    bool         lines_only;  /* compose: surfaces are not drawn */
-    /* What it is in drawings of vectors. Lengths are pixels. */
-    void       (*as_strokes)(struct stroke_wishes *wishes, struct stroke_style *style, const void *values); /* lines: which strokes and how they look; NULL: lines_as_strokes */
-    void       (*as_hand)(struct stroke_style *style, const void *values); /* perturb: what it does to strokes; NULL: nothing */
-    bool       (*as_fill)(colour *out, const void *values); /* surface: its one colour, sRGB; false: it has more. NULL: it has more */
-    void       (*as_marks)(void *values); /* surface: changes values so that one pen can draw its marks, all alike; NULL: they are */
+    /* That of its kind; scene and finish have none. */
+    const surface_row  *surface;
+    const lines_row    *lines;
+    const compose_row  *compose;
+    const layers_row   *layers;
+    const perturbation *perturbs; /* how lookups are moved */
 } technique;
 
 typedef enum kind_id {

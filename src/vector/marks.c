@@ -36,7 +36,7 @@ typedef struct mark_writer {
 const technique_use *vector_rule_marks(const rule *r)
 {
     const technique_use *surface = rule_use(r, KIND_SURFACE);
-    return surface && surface->technique->marks && !rule_shades_again(r) ? surface : NULL;
+    return surface && surface->technique->surface->marks && !rule_shades_again(r) ? surface : NULL;
 }
 
 static int compare_placed(const void *a, const void *b)
@@ -202,8 +202,8 @@ static float settle_pen(technique_use *surface)
     mark_style   style = {.diameter = 1};
     mark_values *common = surface->values;
     common->fade = surely_there;
-    if (surface->technique->as_marks)
-        surface->technique->as_marks(surface->values);
+    if (surface->technique->surface->as_marks)
+        surface->technique->surface->as_marks(surface->values);
     surface_mark_style(&style, surface);
     return style.diameter;
 }

@@ -23,7 +23,7 @@ static colour or_else(colour c, colour otherwise)
 static void take_layers(stroke_wishes *wishes, stroke_style *style, const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
-    if (!compose || !compose->technique->layered) {
+    if (!compose || !compose->technique->compose->layered) {
         style->hidden = HIDDEN_NONE;
         return;
     }
@@ -47,8 +47,8 @@ static void take_layers(stroke_wishes *wishes, stroke_style *style, const rule *
 static void take_hand(stroke_style *style, const rule *r)
 {
     const technique_use *hand = rule_use(r, KIND_PERTURB);
-    if (hand && hand->technique->as_hand)
-        hand->technique->as_hand(style, hand->values);
+    if (hand && hand->technique->perturbs->as_hand)
+        hand->technique->perturbs->as_hand(style, hand->values);
 }
 
 static bool draws_strokes(const technique *t)
@@ -75,7 +75,7 @@ bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *sty
     *style = (stroke_style){.width = 2, .crease_width = 1, .wobble_length = 60, .repeats = 1, .gap = 4, .hidden = HIDDEN_NONE, .hidden_fade = 1, .hidden_gap = 4};
     if (!lines)
         return false;
-    (lines->technique->as_strokes ? lines->technique->as_strokes : lines_as_strokes)(wishes, style, lines->values);
+    (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(wishes, style, lines->values);
     if (draws_strokes(lines->technique)) {
         if (!(style->wobble > 0))
             take_hand(style, r);
@@ -96,7 +96,7 @@ static bool same_colour(colour a, colour b)
 /* The one colour of a surface; false when it has more. */
 static bool only_colour(const technique_use *surface, colour *out)
 {
-    return surface->technique->as_fill && surface->technique->as_fill(out, surface->values);
+    return surface->technique->surface->as_fill && surface->technique->surface->as_fill(out, surface->values);
 }
 
 /* Marks on paper that is nothing but the page. */
@@ -112,7 +112,7 @@ bool vector_rule_needs_pixels(const rule *r, colour ground)
     const technique_use *surface = rule_use(r, KIND_SURFACE);
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
     colour               only;
-    if (!surface || (compose && compose->technique->lines_only))
+    if (!surface || (compose && compose->technique->compose->lines_only))
         return false; /* nothing but lines */
     return !marks_on_ground(r, ground) && !(only_colour(surface, &only) && (!(only.a > 0) || same_colour(only, ground)));
 }

@@ -565,7 +565,7 @@ static void note_marks(vector_job *j)
     for (size_t i = 0; i < j->look->rule_count; i++) {
         const technique_use *surface = rule_use(&j->look->rules[i], KIND_SURFACE);
         any = any || vector_rule_marks(&j->look->rules[i]);
-        again = again || (surface && surface->technique->marks && rule_shades_again(&j->look->rules[i]));
+        again = again || (surface && surface->technique->surface->marks && rule_shades_again(&j->look->rules[i]));
     }
     if (again)
         warnings_add(&j->out->warnings, WARNING_UNUSED, "a composition that shades again leaves out the marks of surfaces; 'opaque' draws them");

@@ -68,11 +68,15 @@ static void check_technique(walk *w)
         check_own(w, t->textures[i].name, t->textures[i].when);
     if (t->perturbs && t->perturbs->map)
         check_unconditional(w, t->perturbs->map);
-    check(w, "merges_when", t->merges_when, lines->common, lines->common_count);
-    check_own(w, "map_when", t->map_when);
-    check_own(w, "light_map_when", t->light_map_when);
-    check_own(w, "forward_when", t->forward_when);
-    check_own(w, "deferred_when", t->deferred_when);
+    if (t->compose) {
+        check(w, "merges_when", t->compose->merges_when, lines->common, lines->common_count);
+        check_own(w, "map_when", t->compose->map_when);
+    }
+    if (t->surface) {
+        check_own(w, "light_map_when", t->surface->light_map_when);
+        check_own(w, "forward_when", t->surface->forward_when);
+        check_own(w, "deferred_when", t->surface->deferred_when);
+    }
 }
 
 static void test_every_condition(void **state)
@@ -95,8 +99,24 @@ static void test_every_condition(void **state)
     assert_int_equal(w.mistakes, 0);
 }
 
+/* Whoever draws follows the pointer of the technique's kind without asking. */
+static void test_every_technique_has_the_row_of_its_kind(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < KIND_COUNT; i++)
+        for (size_t n = 0; n < kinds[i]->technique_count; n++) {
+            const technique *t = kinds[i]->techniques[n];
+            const kind_id    id = kinds[i]->id;
+            if (!t->surface != (id != KIND_SURFACE) || !t->lines != (id != KIND_LINES) || !t->compose != (id != KIND_COMPOSE) || !t->layers != (id != KIND_LAYERS) ||
+                !t->perturbs != (id != KIND_PERTURB))
+                fail_msg("%s '%s' lacks the row of its kind, or has another's", kinds[i]->name, t->name);
+            assert_true(id != KIND_SURFACE || t->surface->shader);
+            assert_true(id != KIND_LAYERS || t->layers->layering);
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_condition)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_condition), cmocka_unit_test(test_every_technique_has_the_row_of_its_kind)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

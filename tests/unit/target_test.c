@@ -182,8 +182,8 @@ static void see_channels(const kind *k, const technique *t)
 /* What a composition may do itself has nothing but what all know. */
 static void see_merging(const kind *k, const technique *t)
 {
-    for (size_t i = 0; i < t->pass_count && t->detect; i++)
-        for (int n = 0; n < PASS_READS_MAX && t->passes[i].shader && strstr(t->passes[i].shader, t->detect) && t->passes[i].reads[n]; n++)
+    for (size_t i = 0; i < t->pass_count && t->lines && t->lines->detect; i++)
+        for (int n = 0; n < PASS_READS_MAX && t->passes[i].shader && strstr(t->passes[i].shader, t->lines->detect) && t->passes[i].reads[n]; n++)
             if (t->passes[i].reads[n] >= TARGET_COUNT)
                 fail_msg("%s.%s detects from a picture of its own, which compositions do not have", k->name, t->name);
 }

@@ -17,8 +17,6 @@ static const pass passes[] = {
 };
 
 const technique lines_colour = {
-    .name = "colour", .doc = "Sobel gradient of the unlit colour.",
-    .example = "{\"lines\": {\"operator\": \"colour\"}, \"surface\": \"textured\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(colour_edges),
-    .channels = CHANNEL_ALBEDO, .detect = "lines/edge/colour.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "colour", .doc = "Sobel gradient of the unlit colour.", .example = "{\"lines\": {\"operator\": \"colour\"}, \"surface\": \"textured\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(colour_edges), .channels = CHANNEL_ALBEDO, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = "lines/edge/colour.glsl"},
 };

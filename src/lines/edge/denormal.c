@@ -22,8 +22,6 @@ static const pass passes[] = {
 };
 
 const technique lines_denormal = {
-    .name = "denormal", .doc = "One filtered sample of the normals: where it is short, normals differ.",
-    .example = "{\"lines\": {\"operator\": \"denormal\"}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(denormal),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "denormal", .doc = "One filtered sample of the normals: where it is short, normals differ.", .example = "{\"lines\": {\"operator\": \"denormal\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(denormal), .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = NULL},
 };

@@ -35,8 +35,6 @@ static const pass passes[] = {
 };
 
 const technique lines_discontinuity = {
-    .name = "discontinuity", .doc = "Steps of depth that no slope explains, creases by angle, and part borders.",
-    .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(discontinuity),
-    .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID, .detect = "lines/edge/discontinuity.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "discontinuity", .doc = "Steps of depth that no slope explains, creases by angle, and part borders.", .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(discontinuity), .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = "lines/edge/discontinuity.glsl"},
 };

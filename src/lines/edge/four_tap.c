@@ -18,8 +18,6 @@ static const pass passes[] = {
 };
 
 const technique lines_four_tap = {
-    .name = "four-tap", .doc = "Depth and normal differences of two diagonal sample pairs.",
-    .example = "{\"lines\": {\"operator\": \"four-tap\"}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(four_tap),
-    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/four_tap.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "four-tap", .doc = "Depth and normal differences of two diagonal sample pairs.", .example = "{\"lines\": {\"operator\": \"four-tap\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(four_tap), .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = "lines/edge/four_tap.glsl"},
 };

@@ -19,8 +19,6 @@ static const pass passes[] = {
 };
 
 const technique lines_id = {
-    .name = "id", .doc = "Lines wherever the part changes, whatever its depth.",
-    .example = "{\"lines\": {\"operator\": \"id\"}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(id_edges),
-    .channels = CHANNEL_ID, .detect = "lines/edge/id.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "id", .doc = "Lines wherever the part changes, whatever its depth.", .example = "{\"lines\": {\"operator\": \"id\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(id_edges), .channels = CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = "lines/edge/id.glsl"},
 };

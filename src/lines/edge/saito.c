@@ -21,10 +21,8 @@ static const pass plain_passes[] = {
 };
 
 const technique lines_saito = {
-    .name = "saito", .doc = "First-order profiles and second-order inner lines of the depth buffer.",
-    .example = "{\"lines\": {\"operator\": \"saito\", \"gain\": 8}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(saito),
-    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/saito.glsl", .passes = plain_passes, .pass_count = PARAM_COUNT(plain_passes), LINES_TARGETS,
+    .name = "saito", .doc = "First-order profiles and second-order inner lines of the depth buffer.", .example = "{\"lines\": {\"operator\": \"saito\", \"gain\": 8}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(saito), .channels = CHANNEL_NORMAL_DEPTH, .passes = plain_passes, .pass_count = PARAM_COUNT(plain_passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = "lines/edge/saito.glsl"},
 };
 
 typedef struct saito_normalised {
@@ -47,8 +45,6 @@ static const pass normalised_passes[] = {
 };
 
 const technique lines_saito_normalised = {
-    .name = "saito-normalised", .doc = "Gradients normalised by their neighbourhood's extremes, against large jumps and double lines.",
-    .example = "{\"lines\": {\"operator\": \"saito-normalised\"}, \"surface\": \"flat\"}",
-    .params = normalised_params, .param_count = PARAM_COUNT(normalised_params), .params_size = sizeof(saito_normalised),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = normalised_passes, .pass_count = PARAM_COUNT(normalised_passes), LINES_TARGETS,
+    .name = "saito-normalised", .doc = "Gradients normalised by their neighbourhood's extremes, against large jumps and double lines.", .example = "{\"lines\": {\"operator\": \"saito-normalised\"}, \"surface\": \"flat\"}", .params = normalised_params, .param_count = PARAM_COUNT(normalised_params), .params_size = sizeof(saito_normalised), .channels = CHANNEL_NORMAL_DEPTH, .passes = normalised_passes, .pass_count = PARAM_COUNT(normalised_passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = NULL},
 };

@@ -11,8 +11,6 @@ static const pass passes[] = {
 };
 
 const technique lines_shadow = {
-    .name = "shadow", .doc = "Lines where a shadow ends on a surface that faces the light, whether or not shadows are drawn; the light must shine from one direction.",
-    .example = "{\"lines\": {\"operator\": \"shadow\"}, \"surface\": \"flat\"}",
-    .params_size = sizeof(shadow_edges),
-    .channels = CHANNEL_NORMAL_DEPTH, .detect = "lines/edge/shadow.glsl", .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "shadow", .doc = "Lines where a shadow ends on a surface that faces the light, whether or not shadows are drawn; the light must shine from one direction.", .example = "{\"lines\": {\"operator\": \"shadow\"}, \"surface\": \"flat\"}", .params_size = sizeof(shadow_edges), .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = "lines/edge/shadow.glsl"},
 };

@@ -21,7 +21,6 @@ static void shell_as_strokes(stroke_wishes *wishes, stroke_style *style, const v
 }
 
 const technique lines_shell = {
-    .name = "shell", .doc = "Outlines outside closed bodies, wholly beside them, from their far faces moved outwards; at hard edges they are narrower and have gaps at corners.",
-    .example = "{\"lines\": {\"operator\": \"shell\", \"width\": 4}, \"surface\": \"flat\"}",
-    .params_size = sizeof(shell), .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS, .as_strokes = shell_as_strokes,
+    .name = "shell", .doc = "Outlines outside closed bodies, wholly beside them, from their far faces moved outwards; at hard edges they are narrower and have gaps at corners.", .example = "{\"lines\": {\"operator\": \"shell\", \"width\": 4}, \"surface\": \"flat\"}", .params_size = sizeof(shell), .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.as_strokes = shell_as_strokes},
 };

@@ -22,8 +22,6 @@ static const pass passes[] = {
 };
 
 const technique lines_sobel = {
-    .name = "sobel", .doc = "Sobel gradient of depth and normals from bilinear samples.",
-    .example = "{\"lines\": {\"operator\": \"sobel\"}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(sobel),
-    .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "sobel", .doc = "Sobel gradient of depth and normals from bilinear samples.", .example = "{\"lines\": {\"operator\": \"sobel\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(sobel), .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .lines = &(const lines_row){.detect = NULL},
 };

@@ -89,10 +89,8 @@ static void own_strokes(stroke_wishes *wishes, stroke_style *style, const void *
 }
 
 const technique lines_strokes = {
-    .name = "strokes", .doc = "Lines with geometry: outlines, creases and borders of the mesh itself, drawn as strokes.",
-    .example = "{\"lines\": {\"operator\": \"strokes\", \"visibility\": \"exact\"}, \"surface\": \"flat\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(strokes_values), .passes = passes, .pass_count = PARAM_COUNT(passes),
-    .own_ink = true, .as_strokes = own_strokes,
+    .name = "strokes", .doc = "Lines with geometry: outlines, creases and borders of the mesh itself, drawn as strokes.", .example = "{\"lines\": {\"operator\": \"strokes\", \"visibility\": \"exact\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(strokes_values), .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .lines = &(const lines_row){.own_ink = true, .as_strokes = own_strokes},
 };
 
 stroke_style strokes_style_of(const strokes_values *v)
