@@ -1,5 +1,7 @@
 /* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some value:
- * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly]
+ * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly] [KIND[.TECHNIQUE]…]
+ *
+ * Only the kinds and techniques that are named are drawn; none: all. Of one technique alone, parameters of the whole kind are drawn but need not mean anything.
  *
  * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, not with both of its extremes. What decides which shaders
  * are built is still drawn with all. For the paths of drawing that share most of their code with the usual one, which is not drawn briefly. */
@@ -10,10 +12,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "hold.h"
 #include "limner/limner.h"
 #include "look/look.h"
 
@@ -35,6 +39,8 @@ typedef struct fixture {
     lmn_renderer *renderer;
     const char   *examples;
     bool          brief;
+    char        **wanted; /* "KIND" or "KIND.TECHNIQUE"; none: all */
+    int           wanted_count;
     int           mistakes, drawn;
     plain_picture plain[PLAIN_MAX];
     size_t        plain_count;
@@ -202,51 +208,18 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
     return count;
 }
 
-/* Makes one term of a condition hold: "key", "key=word,word", "key>number", "key<number". */
-static void make_term_hold(lmn_look *look, const kind *k, const technique *t, const char *term)
-{
-    char key[TEXT_SIZE], path[TEXT_SIZE * 2], value[TEXT_SIZE];
-    size_t length = strcspn(term, "=<>");
-    snprintf(key, sizeof key, "%.*s", (int)length, term);
-    const param *p = kind_find_param(k, t, key);
-    if (!p)
-        fail_msg("%s.%s: only_if names the unknown '%s'", k->name, t->name, key);
-    if (term[length] == '=')
-        snprintf(value, sizeof value, "%.*s", (int)strcspn(term + length + 1, ","), term + length + 1);
-    else if (p->type == PARAM_BOOL)
-        snprintf(value, sizeof value, "true");
-    else if (p->type == PARAM_TEXT)
-        snprintf(value, sizeof value, "%s", p->example);
-    else if (p->type == PARAM_ENUM)
-        snprintf(value, sizeof value, "%s", p->names[1]);
-    else
-        snprintf(value, sizeof value, "%.6g", term[length] == '<' ? p->min : p->soft_max != 0 ? p->soft_max : p->max);
-    snprintf(path, sizeof path, "%s%s.%s", k->look_wide ? "" : "0:", k->name, key);
-    lmn_look_set(look, path, value, NULL);
-}
-
-static void make_condition_hold(lmn_look *look, const kind *k, const technique *t, const char *condition)
-{
-    for (const char *at = condition; at;) {
-        char term[TEXT_SIZE];
-        snprintf(term, sizeof term, "%.*s", (int)strcspn(at, "&"), at);
-        make_term_hold(look, k, t, term);
-        at = strchr(at, '&');
-        at = at ? at + 1 : NULL;
-    }
-}
-
 /* Does the parameter change the picture? */
 static bool check_param(fixture *f, const kind *k, const technique *t, const param *p)
 {
-    char json[2048], path[TEXT_SIZE * 2], what[TEXT_SIZE * 3], values[VALUES_MAX][TEXT_SIZE];
+    char json[2048], path[HOLD_KEY_SIZE], what[TEXT_SIZE * 3], values[VALUES_MAX][TEXT_SIZE];
     lmn_look *look = look_of(t, json, sizeof json);
-    snprintf(path, sizeof path, "%s%s.%s", k->look_wide ? "" : "0:", k->name, p->key);
+    hold_key(path, k, p->key);
     if (k->id == KIND_LAYERS)
         lmn_look_set(look, "0:lines.operator", "discontinuity", NULL);
     if (k->id == KIND_LINES) /* white lines show only on something darker */
         lmn_look_set(look, "0:surface.technique", "lit", NULL);
-    make_condition_hold(look, k, t, p->only_if);
+    hold_lighter(look, k, t, p->key);
+    hold_condition(look, k, t, p->only_if);
     const lmn_scene *scene = is_of_solids(k, p) ? f->solid : f->scene;
     const uint8_t *before = plain_of(f, scene, t, p, look, path);
     size_t count = values_of(p, values);
@@ -275,28 +248,51 @@ static void complain(fixture *f, const kind *k, const char *technique_name, cons
     f->mistakes++;
 }
 
-/* A parameter of the whole kind may mean nothing to some of its techniques, but it must to one. */
-static void check_kind(fixture *f, const kind *k)
+/* Is this technique to be drawn; of NULL, all of the kind? */
+static bool is_wanted(const fixture *f, const kind *k, const technique *t)
 {
-    for (size_t i = 0; i < k->common_count; i++) {
-        bool changed = false;
-        for (size_t n = 0; n < k->technique_count; n++)
-            changed = check_param(f, k, k->techniques[n], &k->common[i]) || changed;
-        if (!changed)
-            complain(f, k, "all techniques", &k->common[i]);
-    }
+    char both[TEXT_SIZE];
+    snprintf(both, sizeof both, "%s.%s", k->name, t ? t->name : "");
+    for (int i = 0; i < f->wanted_count; i++)
+        if (strcmp(f->wanted[i], k->name) == 0 || strcmp(f->wanted[i], both) == 0)
+            return true;
+    return f->wanted_count == 0;
+}
+
+/* A parameter of the whole kind may mean nothing to some of its techniques, but it must to one. */
+static void check_common(fixture *f, const kind *k, const param *p)
+{
+    bool changed = false;
     for (size_t n = 0; n < k->technique_count; n++)
-        for (size_t i = 0; i < k->techniques[n]->param_count; i++)
-            if (!check_param(f, k, k->techniques[n], &k->techniques[n]->params[i]))
-                complain(f, k, k->techniques[n]->name, &k->techniques[n]->params[i]);
+        if (is_wanted(f, k, k->techniques[n]))
+            changed = check_param(f, k, k->techniques[n], p) || changed;
+    if (!changed && is_wanted(f, k, NULL))
+        complain(f, k, "all techniques", p);
+}
+
+static void check_technique(fixture *f, const kind *k, const technique *t)
+{
+    int     drawn = f->drawn;
+    clock_t begin = clock();
+    for (size_t i = 0; i < t->param_count; i++)
+        if (!check_param(f, k, t, &t->params[i]))
+            complain(f, k, t->name, &t->params[i]);
+    print_message("%s.%s: %d pictures, %.1f s of work\n", k->name, t->name, f->drawn - drawn, (double)(clock() - begin) / CLOCKS_PER_SEC);
 }
 
 static void test_every_parameter(void **state)
 {
     fixture *f = *state;
-    for (size_t i = 0; i < KIND_COUNT; i++)
-        check_kind(f, kinds[i]);
+    for (size_t i = 0; i < KIND_COUNT; i++) {
+        const kind *k = kinds[i];
+        for (size_t c = 0; c < k->common_count; c++)
+            check_common(f, k, &k->common[c]);
+        for (size_t n = 0; n < k->technique_count; n++)
+            if (is_wanted(f, k, k->techniques[n]))
+                check_technique(f, k, k->techniques[n]);
+    }
     print_message("%d pictures\n", f->drawn);
+    assert_true(f->drawn > 0);
     assert_int_equal(f->mistakes, 0);
 }
 
@@ -369,6 +365,8 @@ int main(int count, char **arguments)
     static fixture f;
     f.examples = count > 1 ? arguments[1] : "examples";
     f.brief = count > 2 && strcmp(arguments[2], "briefly") == 0;
+    f.wanted_count = count > 2 + f.brief ? count - 2 - f.brief : 0;
+    f.wanted = arguments + count - f.wanted_count;
     const struct CMUnitTest tests[] = {cmocka_unit_test_prestate_setup_teardown(test_every_parameter, make_fixture, end_fixture, &f)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
