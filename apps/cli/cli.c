@@ -23,7 +23,7 @@ static bool is_program(const char *path)
     return length >= 5 && strcasecmp(path + length - 5, ".scad") == 0;
 }
 
-int check_programs(const word_list *inputs, const program_wishes *programs)
+int check_programs(const word_list *inputs, const program_options *programs)
 {
     bool any = false;
     for (size_t i = 0; i < inputs->count; i++)
@@ -36,10 +36,10 @@ int check_programs(const word_list *inputs, const program_wishes *programs)
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p)
 {
     const word_list none = {0};
-    return scene_of_programs(out, paths, count, up, &(program_wishes){&none, false}, p);
+    return scene_of_programs(out, paths, count, up, &(program_options){&none, false}, p);
 }
 
-int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_wishes *programs, progress *p)
+int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_options *programs, progress *p)
 {
     lmn_error error = {0};
     lmn_load_desc desc = LMN_LOAD_DESC_INIT;

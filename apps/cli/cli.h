@@ -18,12 +18,12 @@ lmn_up_axis up_axis_of(int choice);
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p);
 
 /* The same; definitions and strictness are for OpenSCAD programs (.scad) among them, and refused when there is none. */
-typedef struct program_wishes {
+typedef struct program_options {
     const word_list *defines; /* NAME=VALUE */
     bool             strict;
-} program_wishes;
-int check_programs(const word_list *inputs, const program_wishes *programs);
-int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_wishes *programs, progress *p);
+} program_options;
+int check_programs(const word_list *inputs, const program_options *programs);
+int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_options *programs, progress *p);
 
 /* Writes text into a file, whole or not at all; "-" is standard output. Prints what goes wrong; exit status. */
 int store_text(const char *path, const char *text);

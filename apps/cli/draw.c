@@ -557,7 +557,7 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
 {
     lmn_scene *scene = NULL;
     double start = now_ms();
-    const program_wishes programs = {&s->values->defines, s->values->strict};
+    const program_options programs = {&s->values->defines, s->values->strict};
     int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
         return status;
@@ -603,7 +603,7 @@ static int run(const word_list *inputs, const void *values)
     if (status == EXIT_DONE)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
-        status = check_programs(inputs, &(program_wishes){&v->defines, v->strict});
+        status = check_programs(inputs, &(program_options){&v->defines, v->strict});
     if (status == EXIT_DONE)
         status = load_look(&s);
     if (status == EXIT_DONE && v->samples.given && s.format.vectors && !lmn_look_needs_pixels(s.look))

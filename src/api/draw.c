@@ -108,7 +108,7 @@ lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *
     work_begin(&w, desc->progress, desc->progress_user);
     status = check_pixels(desc, error);
     if (status == LMN_OK)
-        status = renderer_draw(out, renderer, scene, look, &(draw_wishes){.desc = desc}, error);
+        status = renderer_draw(out, renderer, scene, look, &(draw_options){.desc = desc}, error);
     status = work_end(&w, status, error);
     if (status != LMN_OK)
         drawing_destroy(out);

@@ -77,11 +77,11 @@ lmn_status lmn_strokes_create(lmn_strokes **out, const lmn_pattern_desc *desc, l
     lmn_strokes *made = allocate();
     if (!made)
         return error_memory(error);
-    pattern_wishes wishes = {(stroke_pattern)full.pattern, full.count, (float)full.length, (float)full.uneven, full.seed};
+    pattern_options options = {(stroke_pattern)full.pattern, full.count, (float)full.length, (float)full.uneven, full.seed};
     work w;
     work_begin(&w, NULL, NULL);
     if (desc)
-        status = strokes_generate(&made->list, &wishes, error);
+        status = strokes_generate(&made->list, &options, error);
     status = work_end(&w, status, error);
     if (status == LMN_OK)
         *out = made;

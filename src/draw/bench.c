@@ -99,7 +99,7 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
     warnings notes = {0};
     for (size_t k = 0; k <= count && status == LMN_OK; k++) {
         all[k].ms = mem_calloc((size_t)repeat, sizeof(double));
-        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain, &(draw_wishes){.desc = desc}, &notes, error)
+        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain, &(draw_options){.desc = desc}, &notes, error)
                            : error_memory(error);
     }
     if (status == LMN_OK)

@@ -56,15 +56,15 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, lmn_error 
 static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_desc *desc, lmn_error *error)
 {
     const lmn_scene *scene = p->scene;
-    upload_desc wanted = {.crease_angle = p->crease_angle, .removed = p->has_removed, .wishes = p->meshes, .section = &p->section};
-    bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.wishes.field || !p->meshes.field) && (r->up.wishes.patch == p->meshes.patch || p->meshes.patch == 0);
+    upload_desc wanted = {.crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
+    bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) && (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene && r->up.revision == scene->revision && same_meshes;
     if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
         return LMN_OK;
     upload earlier = r->up;
     bool related = r->up_valid && earlier.identity == scene->identity && same_meshes;
     if (related)
-        wanted.wishes = earlier.wishes; /* what is taken over has them */
+        wanted.needs = earlier.needs; /* what is taken over has them */
     else
         upload_release(&earlier, r->g); /* at once: two scenes may not fit */
     lmn_status status = upload_create(&r->up, r->g, &r->pose, &wanted, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
@@ -100,22 +100,22 @@ static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *
 }
 
 /* The plan, and on the GPU what it needs. */
-static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_wishes *w, int side, warnings *notes, lmn_error *error)
+static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side, warnings *notes, lmn_error *error)
 {
     lmn_renderer *r = s->renderer;
     const lmn_draw_desc *desc = w->desc;
-    plan_wishes wishes = {.select = desc->select, .background = desc->background, .pixel_scale = side, .as_sprites = w->maps, .surfaces_only = w->surfaces_only};
+    plan_options options = {.select = desc->select, .background = desc->background, .pixel_scale = side, .as_sprites = w->maps, .surfaces_only = w->surfaces_only};
     lmn_status status = room_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
         status = bring_pose(r, scene, error);
     if (status == LMN_OK)
-        status = plan_create(&s->plan, &r->pose, look, &wishes, notes, error);
+        status = plan_create(&s->plan, &r->pose, look, &options, notes, error);
     if (status == LMN_OK)
         status = bring_stage(r, &s->plan, desc, error);
     if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
         gpu_targets_trim(r->g);
     if (status == LMN_OK)
-        status = room_check(r->g, &s->plan, &(room_wishes){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)}, error);
+        status = room_check(r->g, &s->plan, &(room_options){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)}, error);
     if (status == LMN_OK)
         note_lights(scene, look, notes);
     if (status == LMN_OK)
@@ -123,15 +123,15 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
     return status;
 }
 
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, warnings *notes, lmn_error *error)
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, warnings *notes, lmn_error *error)
 {
-    const lmn_draw_desc *desc = wishes->desc;
-    int side = wishes->maps ? 1 : square_root(desc->samples);
+    const lmn_draw_desc *desc = options->desc;
+    int side = options->maps ? 1 : square_root(desc->samples);
     frame *f = &s->frame;
     memset(s, 0, sizeof *s);
     s->renderer = r;
     gpu_make_current(r->g);
-    lmn_status status = prepare(s, scene, look, wishes, side, notes, error);
+    lmn_status status = prepare(s, scene, look, options, side, notes, error);
     if (status == LMN_OK)
         status = camera_place(&f->camera, desc, &r->pose, s->plan.box, error);
     if (status != LMN_OK)
@@ -151,7 +151,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->ground = s->plan.ground;
     f->seed = desc->seed;
     f->time_s = desc->time_s;
-    if (!wishes->maps)
+    if (!options->maps)
         s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);
     return gpu_check(r->g, error);
 }
@@ -311,7 +311,7 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
     warnings ignored = {0};
     if ((int64_t)desc->width * desc->height >= LARGE)
         gpu_targets_trim(r->g);
-    lmn_status status = session_open(&s, r, scene, look, &(draw_wishes){.desc = desc, .maps = true}, &ignored, error);
+    lmn_status status = session_open(&s, r, scene, look, &(draw_options){.desc = desc, .maps = true}, &ignored, error);
     if (status == LMN_OK)
         status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
     if (status == LMN_OK) {
@@ -362,9 +362,9 @@ static bool cancelled(const lmn_draw_desc *desc, double fraction, const char *st
     return desc->progress && !desc->progress(fraction, stage, desc->progress_user);
 }
 
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, lmn_error *error)
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, lmn_error *error)
 {
-    const lmn_draw_desc *desc = wishes->desc;
+    const lmn_draw_desc *desc = options->desc;
     *out = NULL;
     lmn_drawing *d = mem_calloc(1, sizeof *d);
     if (!d)
@@ -372,7 +372,7 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
     d->width = desc->width;
     d->height = desc->height;
     session s;
-    lmn_status status = session_open(&s, r, scene, look, wishes, &d->warnings, error);
+    lmn_status status = session_open(&s, r, scene, look, options, &d->warnings, error);
     if (status == LMN_OK && cancelled(desc, 0.3, "drawing"))
         status = error_set(error, LMN_CANCELLED, "cancelled");
     if (status == LMN_OK)

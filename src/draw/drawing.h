@@ -38,12 +38,12 @@ struct lmn_drawing {
 
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
 /* What a drawing is made for. */
-typedef struct draw_wishes {
+typedef struct draw_options {
     const lmn_draw_desc *desc;
     bool                 maps;          /* its buffers alone, one sample a pixel */
     bool                 surfaces_only; /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
-} draw_wishes;
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, lmn_error *error);
+} draw_options;
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, lmn_error *error);
 void       renderer_destroy(lmn_renderer **r);
 char      *renderer_json(const lmn_renderer *r);
 char      *drawing_report_json(const lmn_drawing *d);
@@ -57,7 +57,7 @@ typedef struct session {
     frame         frame;
     gpu_texture  *out;
 } session;
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_wishes *wishes, warnings *notes, lmn_error *error);
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, warnings *notes, lmn_error *error);
 void       session_close(session *s);
 
 lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,

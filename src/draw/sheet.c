@@ -11,7 +11,7 @@ static lmn_status draw_surfaces(uint8_t **out, const lmn_draw_desc *desc, void *
     const sheet_surfaces *s = user;
     lmn_drawing *drawing;
     *out = NULL;
-    lmn_status status = renderer_draw(&drawing, s->renderer, s->scene, s->look, &(draw_wishes){.desc = desc, .surfaces_only = true}, error);
+    lmn_status status = renderer_draw(&drawing, s->renderer, s->scene, s->look, &(draw_options){.desc = desc, .surfaces_only = true}, error);
     if (status == LMN_OK) {
         *out = drawing->pixels;
         drawing->pixels = NULL;

@@ -317,15 +317,15 @@ static void set_band(const frame *f, layer_stack *stack, const int band[4])
 }
 
 /* What all figures of the stack ask for. */
-typedef struct stack_wishes {
+typedef struct stack_options {
     bool lists;  /* from one pass, where that can be done */
     bool whole;  /* pieces will not do: something depends on all of the picture */
     size_t bytes; /* that lists may take */
-} stack_wishes;
+} stack_options;
 
-static stack_wishes wishes_of(const frame *f, const layer_stack *stack)
+static stack_options options_of(const frame *f, const layer_stack *stack)
 {
-    stack_wishes out = {.lists = gpu_has_lists(f->g), .whole = f->maps != NULL, .bytes = SIZE_MAX};
+    stack_options out = {.lists = gpu_has_lists(f->g), .whole = f->maps != NULL, .bytes = SIZE_MAX};
     for (int i = 0; i < stack->count; i++) {
         const rule *r = stack->states[i].figure->rule;
         const layering *how = &stack->states[i].figure->layering;
@@ -361,19 +361,19 @@ static void peel_band(frame *f, layer_stack *stack)
 }
 
 /* At once where lists have room; else in pieces, and a piece that is too full even when it is small is peeled. */
-static void list_band(frame *f, layer_stack *stack, const stack_wishes *wishes, const int region[4], int depth)
+static void list_band(frame *f, layer_stack *stack, const stack_options *options, const int region[4], int depth)
 {
     enum { DEPTH_MAX = 2, PIECES_MAX = 8, PIECE_SIDE_MIN = 64 };
     int band[4];
     memcpy(band, region, sizeof band);
     lists_release(f, stack);
     set_band(f, stack, band);
-    int pieces = lists_build(f, stack, wishes->bytes), axis = band[2] > band[3] ? 0 : 1;
+    int pieces = lists_build(f, stack, options->bytes), axis = band[2] > band[3] ? 0 : 1;
     if (pieces == 1) {
         draw_band(f, stack, true);
         return;
     }
-    if (wishes->whole || depth == DEPTH_MAX || pieces > PIECES_MAX || band[2 + axis] / pieces < PIECE_SIDE_MIN) {
+    if (options->whole || depth == DEPTH_MAX || pieces > PIECES_MAX || band[2 + axis] / pieces < PIECE_SIDE_MIN) {
         f->lists_full = true;
         peel_band(f, stack);
         return;
@@ -383,15 +383,15 @@ static void list_band(frame *f, layer_stack *stack, const stack_wishes *wishes, 
         memcpy(piece, band, sizeof piece);
         piece[axis] = band[axis] + band[2 + axis] * i / pieces;
         piece[2 + axis] = band[axis] + band[2 + axis] * (i + 1) / pieces - piece[axis];
-        list_band(f, stack, wishes, piece, depth + 1);
+        list_band(f, stack, options, piece, depth + 1);
     }
 }
 
 static void draw_bands(frame *f, layer_stack *stack)
 {
-    stack_wishes wishes = wishes_of(f, stack);
-    if (wishes.lists) {
-        list_band(f, stack, &wishes, stack->box, 0);
+    stack_options options = options_of(f, stack);
+    if (options.lists) {
+        list_band(f, stack, &options, stack->box, 0);
     } else {
         set_band(f, stack, stack->box);
         peel_band(f, stack);

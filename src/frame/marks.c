@@ -52,8 +52,8 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
     stopwatch w = watch_start(&f->profile);
     const mark_source *source = surface->technique->surface->marks;
     bool points = source->point && source->point(surface->values) <= gpu_capabilities_of(f->g)->max_point;
-    mark_set_wishes wishes = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface, points};
-    const mark_set *set = mark_sets_find(&f->up->marks, f->g, &wishes);
+    mark_set_options options = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface, points};
+    const mark_set *set = mark_sets_find(&f->up->marks, f->g, &options);
     text prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));

@@ -234,14 +234,14 @@ static gpu_state state_of(const raster_job *job)
 static bool uses_field(const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return surface && surface->technique->surface->wishes && surface->technique->surface->wishes(surface->values).field && gpu_mesh_has_tensors(item->mesh);
+    return surface && surface->technique->surface->needs && surface->technique->surface->needs(surface->values).field && gpu_mesh_has_tensors(item->mesh);
 }
 
 /* Or on patches? Layers and enlarged figures draw each triangle once. */
 static bool uses_patches(const raster_job *job, const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->surface->wishes && surface->technique->surface->wishes(surface->values).patch > 0;
+    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->surface->needs && surface->technique->surface->needs(surface->values).patch > 0;
 }
 
 /* Does the surface look light up in a map of the item's? */
@@ -478,7 +478,7 @@ static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
     job = &here;
     bool *wanted = solids_wanted(f, job);
     if (wanted)
-        solids_open(&view, job->solids, wanted, &(solid_wishes){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});
+        solids_open(&view, job->solids, wanted, &(solid_options){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});
     if (gpu_failed(f->g)) {
         mem_free(wanted);
         return;

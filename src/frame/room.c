@@ -45,7 +45,7 @@ static void add_format(room_pass *pass, gpu_format format, bool wanted)
 }
 
 /* The channels as src/frame/raster.c has them, and fields of what perturbs. */
-static void list_passes(room_pass out[PASSES], const plan *p, const room_wishes *w)
+static void list_passes(room_pass out[PASSES], const plan *p, const room_options *w)
 {
     unsigned channels = 0;
     bool     perturbed = false;
@@ -67,7 +67,7 @@ static void list_passes(room_pass out[PASSES], const plan *p, const room_wishes 
 }
 
 /* Does the driver say that it can? */
-static bool is_possible(gpu *g, const plan *p, const room_wishes *w)
+static bool is_possible(gpu *g, const plan *p, const room_options *w)
 {
     room_pass passes[PASSES];
     list_passes(passes, p, w);
@@ -94,7 +94,7 @@ static bool has_pass(gpu *g, const room_pass *r, lmn_error *error)
 }
 
 /* *error is set when the driver failed, and not when it says beforehand that it cannot. */
-static bool has_room(gpu *g, const plan *p, const room_wishes *w, lmn_error *error)
+static bool has_room(gpu *g, const plan *p, const room_options *w, lmn_error *error)
 {
     room_pass passes[PASSES];
     list_passes(passes, p, w);
@@ -104,22 +104,22 @@ static bool has_room(gpu *g, const plan *p, const room_wishes *w, lmn_error *err
     return room;
 }
 
-static room_wishes smaller(const room_wishes *w, double share)
+static room_options smaller(const room_options *w, double share)
 {
-    room_wishes s = *w;
+    room_options s = *w;
     s.width = (int)fmax(floor(w->width * share), 1);
     s.height = (int)fmax(floor(w->height * share), 1);
     return s;
 }
 
 /* The largest share of the size that there is room for, nearly: as the driver says, or where it says too readily, the first half that is true. */
-static double find_share(gpu *g, const plan *p, const room_wishes *wishes)
+static double find_share(gpu *g, const plan *p, const room_options *options)
 {
     enum { STEPS = 64, HALVES = 6 };
     int low = 0, high = STEPS;
-    while (!is_possible(g, p, wishes) && high - low > 1) {
+    while (!is_possible(g, p, options) && high - low > 1) {
         int         middle = (low + high) / 2;
-        room_wishes less = smaller(wishes, (double)middle / STEPS);
+        room_options less = smaller(options, (double)middle / STEPS);
         if (is_possible(g, p, &less))
             low = middle;
         else
@@ -129,7 +129,7 @@ static double find_share(gpu *g, const plan *p, const room_wishes *wishes)
         return (double)low / STEPS;
     double share = 0.5;
     for (int i = 0; i < HALVES; i++, share /= 2) {
-        room_wishes less = smaller(wishes, share);
+        room_options less = smaller(options, share);
         bool        room = has_room(g, p, &less, NULL);
         gpu_targets_trim(g);
         if (room)
@@ -141,25 +141,25 @@ static double find_share(gpu *g, const plan *p, const room_wishes *wishes)
 /* Pixels that every driver can draw, when there is memory. */
 enum { SMALL = 1 << 20 };
 
-lmn_status room_check(gpu *g, const plan *p, const room_wishes *wishes, lmn_error *error)
+lmn_status room_check(gpu *g, const plan *p, const room_options *options, lmn_error *error)
 {
     lmn_error problem = {0};
-    if (has_room(g, p, wishes, &problem))
+    if (has_room(g, p, options, &problem))
         return LMN_OK;
     gpu_targets_trim(g);
-    int samples = wishes->side * wishes->side;
-    if ((int64_t)wishes->width * wishes->height * samples <= SMALL) {
+    int samples = options->side * options->side;
+    if ((int64_t)options->width * options->height * samples <= SMALL) {
         if (problem.status == LMN_OK)
-            error_set(&problem, LMN_MEMORY, "the driver has no memory for a picture of %dx%d pixels", wishes->width, wishes->height);
+            error_set(&problem, LMN_MEMORY, "the driver has no memory for a picture of %dx%d pixels", options->width, options->height);
         if (error)
             *error = problem;
         return problem.status;
     }
-    double share = find_share(g, p, wishes);
-    error_set(error, LMN_LIMIT, "a picture of %dx%d pixels with %d sample%s a pixel is larger than the driver can draw with this look", wishes->width, wishes->height, samples,
+    double share = find_share(g, p, options);
+    error_set(error, LMN_LIMIT, "a picture of %dx%d pixels with %d sample%s a pixel is larger than the driver can draw with this look", options->width, options->height, samples,
               samples == 1 ? "" : "s");
     if (share > 0)
-        error_hint(error, "with %d sample%s --size %dx%d can be drawn%s", samples, samples == 1 ? "" : "s", smaller(wishes, share).width, smaller(wishes, share).height,
+        error_hint(error, "with %d sample%s --size %dx%d can be drawn%s", samples, samples == 1 ? "" : "s", smaller(options, share).width, smaller(options, share).height,
                    samples > 1 ? ", or more with fewer --samples" : "");
     else
         error_hint(error, "ask for a smaller --size%s", samples > 1 ? " or fewer --samples" : "");

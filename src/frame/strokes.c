@@ -18,8 +18,8 @@ static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
         hides[i] = !(f->mirror && f->mirror->designated[i]) && (fig->layered ? f->plan->selected[i] : f->plan->opaque[i]);
     if (!hides)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
-    stroke_store_wishes wishes = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine};
-    stroke_store *s = hides ? stroke_store_find(&f->up->strokes[fig->layered], f->g, &wishes) : NULL;
+    stroke_store_options options = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine};
+    stroke_store *s = hides ? stroke_store_find(&f->up->strokes[fig->layered], f->g, &options) : NULL;
     mem_free(hides);
     return s;
 }
@@ -122,7 +122,7 @@ static bool eye_is_outside(const frame *f)
     return nearest > f->camera.near && !f->mirror;
 }
 
-static int wanted_bits(const stroke_wishes *w)
+static int wanted_bits(const stroke_options *w)
 {
     enum { WANT_CONTOUR = 32 };
     return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) | (w->creases ? RECORD_CREASE : 0) |
@@ -138,7 +138,7 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     /* Before the pass begins: making records takes the place of what is bound. */
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
-            bring_item(f, store, i, v->wishes.intersections);
+            bring_item(f, store, i, v->options.intersections);
     open_maps(f, s);
     if (!program || gpu_failed(f->g))
         return;
@@ -147,11 +147,11 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     reads_set(f, s, p, NULL);
     gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
     gpu_set_vec2(f->g, "u_half_widths", v->common.width / 2, v->common.width * v->style.crease_width / 2);
-    gpu_set_int(f->g, "u_wanted", wanted_bits(&v->wishes));
+    gpu_set_int(f->g, "u_wanted", wanted_bits(&v->options));
     gpu_set_int(f->g, "u_inside", !eye_is_outside(f));
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
-            draw_lines_of(f, store, i, v->wishes.intersections);
+            draw_lines_of(f, store, i, v->options.intersections);
 }
 
 /* --- exact --------------------------------------------------------------------------------------------------------- */
@@ -211,15 +211,15 @@ static void scale_ribbons(ribbon_set *r, float samples)
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
 {
     const strokes_values seen = values_in_pixels(v, f->samples);
-    stroke_wishes wishes = strokes_wishes_of(&seen);
+    stroke_options options = strokes_options_of(&seen);
     stroke_style style = strokes_style_of(&seen);
     stroke_set set = {0};
     if (s->figure->layered)
-        wishes.hidden = true;
+        options.hidden = true;
     memset(out, 0, sizeof *out);
     lmn_status status = look_at(store, f, error);
     if (status == LMN_OK)
-        status = stroke_find(&set, store->view, &wishes, s->figure->designated, NULL, NULL, error);
+        status = stroke_find(&set, store->view, &options, s->figure->designated, NULL, NULL, error);
     set.perspective = !f->camera.orthographic;
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
@@ -286,9 +286,9 @@ void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *
     const strokes_values *v = use->values;
     bool exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
     stopwatch w = watch_start(&f->profile);
-    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->wishes.refine);
+    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->options.refine);
     if (store)
-        stroke_store_fix(store, f->g, v->wishes.intersections, stroke_wishes_bend(&v->wishes));
+        stroke_store_fix(store, f->g, v->options.intersections, stroke_options_bend(&v->options));
     if (store && exact)
         draw_exact(f, s, store, v);
     else if (store)

@@ -82,14 +82,14 @@ double sway_at(const sway *s, place at)
     return sum;
 }
 
-lmn_status strokes_generate(strokes *out, const pattern_wishes *wishes, lmn_error *error)
+lmn_status strokes_generate(strokes *out, const pattern_options *options, lmn_error *error)
 {
     *out = (strokes){.width = 1};
-    const pattern_room *room = &rooms[wishes->pattern];
-    generator g = {.out = out, .seed = wishes->seed, .chance = random_start(wishes->seed, (uint32_t)wishes->pattern)};
-    g.count = wishes->count ? wishes->count : room->count;
-    g.length = wishes->length > 0 ? fmin((double)wishes->length, 4) : room->length;
-    g.uneven = fmin(fmax((double)wishes->uneven, 0), 1);
+    const pattern_room *room = &rooms[options->pattern];
+    generator g = {.out = out, .seed = options->seed, .chance = random_start(options->seed, (uint32_t)options->pattern)};
+    g.count = options->count ? options->count : room->count;
+    g.length = options->length > 0 ? fmin((double)options->length, 4) : room->length;
+    g.uneven = fmin(fmax((double)options->uneven, 0), 1);
     if (g.count > LIMIT_STROKES / 2)
         return error_set(error, LMN_LIMIT, "%zu strokes; allowed are %d", g.count, LIMIT_STROKES / 2);
     room->generate(&g);

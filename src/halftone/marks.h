@@ -86,7 +86,7 @@ bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, 
 
 /* --- strokes of a stroke texture (marks_tile.c) --------------------------------------------------------------------- */
 
-typedef struct tile_wishes {
+typedef struct tile_options {
     float  repeat;  /* how many times the unit square of strokes lies on the unit of texture coordinates */
     float  jitter;  /* how far copies of a stroke are moved, share of the square, at most 0.5 (EX-33) */
     float  turn;    /* turns the strokes, radians */
@@ -95,11 +95,11 @@ typedef struct tile_wishes {
     const float *indication;
     int    indication_width, indication_height;
     float  indication_strength;
-} tile_wishes;
+} tile_options;
 
 /* Lays strokes over the range of texture coordinates, cuts them at every triangle, and lifts them onto the surface. A stroke keeps its number, its priorities and its arc length across
  * triangles. Triangles without area in texture coordinates get none. Errors: LMN_MEMORY, LMN_LIMIT, LMN_USAGE (the surface has no texture coordinates). */
-lmn_status marks_tile(marks *out, const mark_surface *s, const struct strokes *strokes, const tile_wishes *wishes, lmn_error *error);
+lmn_status marks_tile(marks *out, const mark_surface *s, const struct strokes *strokes, const tile_options *options, lmn_error *error);
 
 /* The part of the segment from a to b that lies in a triangle, as parameters along it; false when there is none. */
 bool mark_clip_line(const double a[2], const double b[2], const double corners[3][2], double out[2]);
@@ -108,7 +108,7 @@ bool mark_barycentrics(const double p[2], const double corners[3][2], double out
 
 /* --- strokes that follow a surface (marks_trace.c) ------------------------------------------------------------------ */
 
-typedef struct trace_wishes {
+typedef struct trace_options {
     size_t   count;    /* of strokes */
     double   length;   /* of a stroke, model units */
     float    uneven;   /* how much lengths and ways differ, 0 … 1 */
@@ -116,11 +116,11 @@ typedef struct trace_wishes {
     float    turn;     /* angle between one set and the next, radians */
     bool     bends;    /* strokes run along the way the surface bends: scene/direction_field.h. Else in planes through the model */
     uint32_t seed;
-} trace_wishes;
+} trace_options;
 
 /* Strokes begin at evenly spread places and walk both ways over the surface, each in a plane of its own, until they are long enough or come to a border or a sharp edge. For meshes
  * without texture coordinates. Errors: LMN_MEMORY, LMN_LIMIT. */
-lmn_status marks_trace(marks *out, const mark_surface *s, const trace_wishes *wishes, lmn_error *error);
+lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *options, lmn_error *error);
 
 /* --- polygons (marks_polygon.c) ------------------------------------------------------------------------------------- */
 

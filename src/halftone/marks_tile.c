@@ -32,7 +32,7 @@ typedef struct piece {
 typedef struct tiling {
     const mark_surface *surface;
     const strokes      *texture;
-    const tile_wishes  *wishes;
+    const tile_options  *options;
     double              turn[2];  /* cosine and sine */
     int32_t           (*boxes)[4]; /* per stroke: cells, low and high */
     uint32_t           *starts;   /* per cell; one more */
@@ -120,7 +120,7 @@ static void put_stroke(tiling *t, uint32_t k, uint32_t *fill)
 static bool grid_open(tiling *t)
 {
     size_t count = t->texture->count;
-    double reach = (double)t->wishes->jitter;
+    double reach = (double)t->options->jitter;
     uint32_t *fill = mem_calloc(GRID * GRID, sizeof *fill);
     t->boxes = mem_alloc(count * sizeof *t->boxes);
     t->starts = mem_calloc(GRID * GRID + 1, sizeof *t->starts);
@@ -151,10 +151,10 @@ static void copy_ends(const tiling *t, uint32_t k, const int32_t square[2], doub
 {
     const texture_stroke *s = &t->texture->items[k];
     double shift[2] = {square[0], square[1]};
-    if (t->wishes->jitter > 0) {
-        random_source r = random_start(t->wishes->seed ^ (uint32_t)square[0] * 2654435761u ^ (uint32_t)square[1] * 2246822519u, k);
-        shift[0] += (double)t->wishes->jitter * random_signed(&r);
-        shift[1] += (double)t->wishes->jitter * random_signed(&r);
+    if (t->options->jitter > 0) {
+        random_source r = random_start(t->options->seed ^ (uint32_t)square[0] * 2654435761u ^ (uint32_t)square[1] * 2246822519u, k);
+        shift[0] += (double)t->options->jitter * random_signed(&r);
+        shift[1] += (double)t->options->jitter * random_signed(&r);
     }
     a[0] = (double)s->u0 + shift[0];
     a[1] = (double)s->v0 + shift[1];
@@ -167,7 +167,7 @@ static void copy_ends(const tiling *t, uint32_t k, const int32_t square[2], doub
 /* From texture coordinates to squares. */
 static void to_squares(const tiling *t, vec2 uv, double out[2])
 {
-    double u = (double)uv.x * (double)t->wishes->repeat, v = (double)uv.y * (double)t->wishes->repeat;
+    double u = (double)uv.x * (double)t->options->repeat, v = (double)uv.y * (double)t->options->repeat;
     out[0] = t->turn[0] * u + t->turn[1] * v;
     out[1] = t->turn[0] * v - t->turn[1] * u;
 }
@@ -193,7 +193,7 @@ static vec3 unit(vec3 v)
 /* Grey of the indication map where the middle of a stroke's copy is. */
 static float indicated(const tiling *t, const double a[2], const double b[2])
 {
-    const tile_wishes *w = t->wishes;
+    const tile_options *w = t->options;
     if (!w->indication)
         return 0.5f;
     double x = (a[0] + b[0]) / 2, y = (a[1] + b[1]) / 2, repeat = (double)w->repeat; /* turned back */
@@ -228,7 +228,7 @@ static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], 
     p->line = (mark_line){.a = lifted(s->places, corner, share[0]), .b = lifted(s->places, corner, share[1]),
                           .normal = unit(lifted(s->normals, corner, middle)), .perspective = source->perspective, .density = (float)density,
                           .bright = 1, .triangle = triangle};
-    p->line.light = source->light + t->wishes->indication_strength * (0.5f - indicated(t, a, b));
+    p->line.light = source->light + t->options->indication_strength * (0.5f - indicated(t, a, b));
 }
 
 /* Length of strokes to a unit of area, where texture coordinates stretch alike both ways. */
@@ -384,13 +384,13 @@ static lmn_status join(marks *out, tiling *t, lmn_error *error)
     return LMN_OK;
 }
 
-lmn_status marks_tile(marks *out, const mark_surface *s, const strokes *texture, const tile_wishes *wishes, lmn_error *error)
+lmn_status marks_tile(marks *out, const mark_surface *s, const strokes *texture, const tile_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->area = mark_surface_area(s);
     if (!s->uvs)
         return error_set(error, LMN_USAGE, "strokes of a texture need texture coordinates, and this surface has none");
-    tiling t = {.surface = s, .texture = texture, .wishes = wishes, .turn = {cos((double)wishes->turn), sin((double)wishes->turn)}};
+    tiling t = {.surface = s, .texture = texture, .options = options, .turn = {cos((double)options->turn), sin((double)options->turn)}};
     bool opened = grid_open(&t);
     for (uint32_t i = 0; opened && i < s->triangle_count && texture->count > 0 && !t.full && !t.wide && t.count <= LIMIT_MARKS; i++)
         tile_triangle(&t, i);

@@ -22,7 +22,7 @@ typedef struct d3 {
 
 typedef struct tracer {
     const mark_surface *surface;
-    const trace_wishes *wishes;
+    const trace_options *options;
     primitive           mesh;   /* the surface, for who knows only these */
     uint32_t           *across; /* mesh_adjacency */
     direction_field     field;
@@ -238,7 +238,7 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
     bool kept[2 * POINTS_MAX + 1];
     simplify(p, MARK_SAG * length, kept);
     mark_line line = {.middle = seed->place, .middle_normal = seed->normal, .light = light, .perspective = perspective,
-                      .span = 1.0f / (float)t->wishes->series, .length = (float)length, .bright = 1, .stroke = (uint32_t)t->out->stroke_count++};
+                      .span = 1.0f / (float)t->options->series, .length = (float)length, .bright = 1, .stroke = (uint32_t)t->out->stroke_count++};
     size_t first = t->out->line_count;
     bool done = true;
     for (size_t last = 0, i = 1; i < p->count && done; i++)
@@ -280,8 +280,8 @@ static d3 plane_at(const tracer *t, const mark_dot *seed, int set, double uneven
 {
     const double MOST = 0.35; /* radians */
     d3 normal = face_normal(t, seed->triangle), plane;
-    double turn = set * (double)t->wishes->turn + uneven * MOST * random_hand(r);
-    if (t->wishes->bends)
+    double turn = set * (double)t->options->turn + uneven * MOST * random_hand(r);
+    if (t->options->bends)
         plane = cross(normal, way_of_field(t, seed, normal));
     else
         plane = plane_of_model(normal);
@@ -308,7 +308,7 @@ static vec3 way_of_set(void *user, const mark_dot *at)
 /* One set of strokes; seeds of a set are spread evenly among themselves. */
 static lmn_status trace_set(tracer *t, int set, size_t count, path *p, lmn_error *error)
 {
-    const trace_wishes *w = t->wishes;
+    const trace_options *w = t->options;
     marks seeds;
     lmn_status status = marks_spread(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, way_of_set, &(set_ways){t, set}, w->length, error);
     for (size_t i = 0; i < seeds.dot_count && status == LMN_OK; i++) {
@@ -326,22 +326,22 @@ static lmn_status trace_set(tracer *t, int set, size_t count, path *p, lmn_error
     return status;
 }
 
-lmn_status marks_trace(marks *out, const mark_surface *s, const trace_wishes *wishes, lmn_error *error)
+lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->area = mark_surface_area(s);
     if (!(out->area > 0))
         return LMN_OK;
-    tracer t = {.surface = s, .wishes = wishes, .out = out};
+    tracer t = {.surface = s, .options = options, .out = out};
     t.mesh = (primitive){.vertex_count = s->vertex_count, .index_count = 3 * s->triangle_count, .positions = (vec3 *)(uintptr_t)s->places,
                          .indices = (uint32_t *)(uintptr_t)s->indices, .material = NONE};
     t.across = mesh_adjacency(&t.mesh);
     path *room = mem_alloc(sizeof *room);
     lmn_status status = t.across && room ? LMN_OK : error_memory(error);
-    if (status == LMN_OK && wishes->bends)
+    if (status == LMN_OK && options->bends)
         status = direction_field_make(&t.field, &t.mesh, FEATURE, 0, error);
-    size_t each = (wishes->count + (size_t)wishes->series - 1) / (size_t)wishes->series;
-    for (int set = 0; set < wishes->series && status == LMN_OK; set++)
+    size_t each = (options->count + (size_t)options->series - 1) / (size_t)options->series;
+    for (int set = 0; set < options->series && status == LMN_OK; set++)
         status = trace_set(&t, set, each, room, error);
     for (size_t i = 0; i < out->line_count; i++)
         out->lines[i].density = (float)(out->line_length / out->area);

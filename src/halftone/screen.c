@@ -32,7 +32,7 @@ typedef struct mark {
 /* One level at a time, from the finest on. */
 typedef struct raster {
     const strokes       *strokes;
-    const screen_wishes *wishes;
+    const screen_options *options;
     double               width; /* with the strokes' own share */
     mark                *marks;
     ranked              *order;
@@ -70,7 +70,7 @@ static void raster_end(raster *r)
     mem_free(r->tones);
 }
 
-static lmn_status check_wishes(const screen_wishes *w, lmn_error *error)
+static lmn_status check_options(const screen_options *w, lmn_error *error)
 {
     if (!is_power_of_two(w->side) || w->side > SIDE_MOST)
         return error_set(error, LMN_LIMIT, "a screen of %d texels a side; allowed are powers of two up to %d", w->side, SIDE_MOST);
@@ -115,7 +115,7 @@ static void mark_curve(raster *r, size_t first, size_t last)
         before += size;
     }
     for (size_t i = first; i <= last; i++)
-        r->marks[i] = (mark){strokes_brush_at(r->strokes, i, &r->wishes->brush), {middle[0], middle[1]}, i == first, i == last};
+        r->marks[i] = (mark){strokes_brush_at(r->strokes, i, &r->options->brush), {middle[0], middle[1]}, i == first, i == last};
 }
 
 static void mark_strokes(raster *r)
@@ -138,10 +138,10 @@ static void mark_strokes(raster *r)
     qsort(r->order, r->count, sizeof *r->order, by_light);
 }
 
-static lmn_status raster_begin(raster *r, const strokes *s, const screen_wishes *w, bool flat, lmn_error *error)
+static lmn_status raster_begin(raster *r, const strokes *s, const screen_options *w, bool flat, lmn_error *error)
 {
-    *r = (raster){.strokes = s, .wishes = w, .width = w->brush.width, .flat = flat, .side = w->side};
-    lmn_status status = check_wishes(w, error);
+    *r = (raster){.strokes = s, .options = w, .width = w->brush.width, .flat = flat, .side = w->side};
+    lmn_status status = check_options(w, error);
     if (status != LMN_OK)
         return status;
     r->width *= s->width > 0 ? (double)s->width : 1;
@@ -161,9 +161,9 @@ static lmn_status raster_begin(raster *r, const strokes *s, const screen_wishes 
 
 static bool has_room(const raster *r, int level)
 {
-    if (r->wishes->levels > 0)
-        return level < r->wishes->levels;
-    double room = fmax(r->longest, r->dots ? 1 / DOT_ROOM : 0) * (r->wishes->side >> level);
+    if (r->options->levels > 0)
+        return level < r->options->levels;
+    double room = fmax(r->longest, r->dots ? 1 / DOT_ROOM : 0) * (r->options->side >> level);
     return level == 0 || room >= r->width;
 }
 
@@ -188,7 +188,7 @@ static texture_stroke fit_ends(const raster *r, size_t index, int level)
     double      length = stroke_length(&out);
     if (m->brush.taper > 0 || length <= 0)
         return out;
-    double excess = ends_as_length(m->brush.width) * ((double)(1 << level) - 1) / r->wishes->side;
+    double excess = ends_as_length(m->brush.width) * ((double)(1 << level) - 1) / r->options->side;
     float  cut = (float)(0.5 * fmin(1, excess / length)), du = (out.u1 - out.u0) * cut, dv = (out.v1 - out.v0) * cut;
     if (m->begins) {
         out.u0 += du;
@@ -255,11 +255,11 @@ static void reduce_level(raster *r, bool average)
 /* Levels must be asked for in order. */
 static void raster_level(raster *r, int level)
 {
-    if (level == 0 || r->wishes->detail == DETAIL_KEPT) {
-        r->side = r->wishes->side >> level;
+    if (level == 0 || r->options->detail == DETAIL_KEPT) {
+        r->side = r->options->side >> level;
         draw_level(r, level);
     } else {
-        reduce_level(r, r->wishes->detail == DETAIL_AVERAGE);
+        reduce_level(r, r->options->detail == DETAIL_AVERAGE);
     }
 }
 
@@ -268,7 +268,7 @@ typedef void (*fill_fn)(const raster *r, int level, void *texels, double user);
 
 static lmn_status fill_levels(mip_chain *out, raster *r, mip_format format, fill_fn fill, double user, lmn_error *error)
 {
-    lmn_status status = mip_chain_create(out, r->wishes->side, r->wishes->side, 1, 0, format, error);
+    lmn_status status = mip_chain_create(out, r->options->side, r->options->side, 1, 0, format, error);
     for (int k = 0; status == LMN_OK && k < out->levels; k++) {
         raster_level(r, k);
         fill(r, k, out->data[k], user);
@@ -287,25 +287,25 @@ static void fill_values(const raster *r, int level, void *texels, double user)
 {
     (void)level, (void)user;
     size_t count = (size_t)r->side * (size_t)r->side;
-    if (r->wishes->equalised && !r->flat)
+    if (r->options->equalised && !r->flat)
         ink_equalise(texels, r->ink, count, r->tones);
     else
         ink_encode(texels, r->ink, count);
 }
 
-lmn_status screen_of_strokes(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error)
+lmn_status screen_of_strokes(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     raster     r;
-    lmn_status status = raster_begin(&r, s, wishes, false, error);
+    lmn_status status = raster_begin(&r, s, options, false, error);
     return status == LMN_OK ? fill_levels(out, &r, MIP_R8, fill_values, 0, error) : status;
 }
 
-lmn_status screen_ink_map(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error)
+lmn_status screen_ink_map(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     raster     r;
-    lmn_status status = raster_begin(&r, s, wishes, true, error);
+    lmn_status status = raster_begin(&r, s, options, true, error);
     return status == LMN_OK ? fill_levels(out, &r, MIP_R8, fill_values, 0, error) : status;
 }
 
@@ -330,11 +330,11 @@ static void fill_warp(const raster *r, int level, void *texels, double user)
         }
 }
 
-lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error)
+lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     raster     r;
-    lmn_status status = raster_begin(&r, s, wishes, false, error);
+    lmn_status status = raster_begin(&r, s, options, false, error);
     if (status == LMN_OK)
         status = fill_levels(out, &r, MIP_RG16F, fill_warp, 0, error);
     out->nearest = true;
@@ -369,7 +369,7 @@ static void fill_normals(const raster *r, int level, void *texels, double steep)
             int32_t owner = r->owner[(size_t)y * (size_t)r->side + (size_t)x];
             double  way[2] = {0, 0};
             if (owner != NOBODY) {
-                texture_stroke s = fit_ends(r, (size_t)owner, r->wishes->detail == DETAIL_KEPT ? level : 0);
+                texture_stroke s = fit_ends(r, (size_t)owner, r->options->detail == DETAIL_KEPT ? level : 0);
                 to_axis(&s, (x + 0.5) / r->side, (y + 0.5) / r->side, way);
             }
             double distance = sqrt(way[0] * way[0] + way[1] * way[1]);
@@ -380,10 +380,10 @@ static void fill_normals(const raster *r, int level, void *texels, double steep)
         }
 }
 
-lmn_status screen_normals(mip_chain *out, const strokes *s, const screen_wishes *wishes, double steep, lmn_error *error)
+lmn_status screen_normals(mip_chain *out, const strokes *s, const screen_options *options, double steep, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     raster     r;
-    lmn_status status = raster_begin(&r, s, wishes, false, error);
+    lmn_status status = raster_begin(&r, s, options, false, error);
     return status == LMN_OK ? fill_levels(out, &r, MIP_RG8, fill_normals, steep, error) : status;
 }

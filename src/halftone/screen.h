@@ -18,27 +18,27 @@ typedef enum screen_detail {
 } screen_detail;
 extern const char *const screen_detail_names[DETAIL_COUNT + 1];
 
-typedef struct screen_wishes {
+typedef struct screen_options {
     int           side;      /* of level 0, a power of two */
     stroke_brush  brush;     /* width in texels, on all levels */
     screen_detail detail;
     bool          equalised; /* the share of texels below v is v on every level, up to the level's darkest tone (IM-14); see screen_equalise */
     int           levels;    /* with strokes (DETAIL_KEPT); what follows is white. 0: as long as a stroke is longer than it is wide, dots: while a level is
                               * four times as wide */
-} screen_wishes;
+} screen_options;
 
 /* R8, value 1 − light priority, antialiased towards white. The darkest of several strokes owns a texel, so that those of high priority lie on top and their
  * light rims do not bite into what is below. Priorities above 1 are black, 0 and below are left out. Errors: LMN_LIMIT, LMN_MEMORY. */
-lmn_status screen_of_strokes(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error);
+lmn_status screen_of_strokes(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error);
 
 /* The warp map that belongs to that screen (IM-18): RG16F, nearest; per texel, rims included, the middle of the stroke that
  * owns it (the one whose value the screen has there; of a curve, its middle) minus the texel's own place, in the square, the shortest way around the border;
  * 0 where there is no stroke. Relative, so that it may be tiled (IM-20). Strokes should be shorter than the square. */
-lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error);
+lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error);
 
 /* Normals for strokes (IM-17): RG8, xy of unit normals as 0 … 255 for −1 … 1 (128: none), from the slope of strokes that are pressed into the surface:
  * the flank on a stroke's left side leans to the right. Levels as the screen's. `steep`: slope at a stroke's border. */
-lmn_status screen_normals(mip_chain *out, const strokes *s, const screen_wishes *wishes, double steep, lmn_error *error);
+lmn_status screen_normals(mip_chain *out, const strokes *s, const screen_options *options, double steep, lmn_error *error);
 
 /* Hatch map (IM-02): 1 × side texels, since lines run along u; each one texel thick, `spacing` texels apart on every level that has room, so that each line
  * of level k lies exactly on every second one of level k − 1, with its lower edge. `centred`: two texels that straddle the line, so that the middles
@@ -48,7 +48,7 @@ lmn_status screen_hatch_map(mip_chain *out, int side, int spacing, bool centred,
 
 /* Ink map (IM-04): black where there is ink, per level the strokes with p_p ≥ 1 − 2^−k, as wide on every level. For colour × ink (IM-07). R8. Priorities
  * of light do not matter, but strokes below 0 are left out; `equalised` is ignored. Errors: LMN_LIMIT, LMN_MEMORY. */
-lmn_status screen_ink_map(mip_chain *out, const strokes *s, const screen_wishes *wishes, lmn_error *error);
+lmn_status screen_ink_map(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error);
 
 /* Screens without strokes. The period is in texels of each level, so that the spacing on the screen stays (IM-11). */
 typedef enum screen_procedure {

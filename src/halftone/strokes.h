@@ -68,17 +68,17 @@ typedef enum stroke_pattern {
 } stroke_pattern;
 extern const char *const stroke_pattern_names[PATTERN_COUNT + 1]; /* NULL-terminated */
 
-typedef struct pattern_wishes {
+typedef struct pattern_options {
     stroke_pattern pattern;
     size_t         count;  /* of strokes, about; 0: what suits the pattern (a few hundred, dots: 4096) */
     float          length; /* mean length in the square; 0: what suits it */
     float          uneven; /* 0 regular … 1 very irregular */
     uint32_t       seed;
-} pattern_wishes;
+} pattern_options;
 
-/* Wraps around without seams; the same wishes give the same strokes. Both priorities are set: the light priority so that every prefix is evenly
+/* Wraps around without seams; the same options give the same strokes. Both priorities are set: the light priority so that every prefix is evenly
  * spread and layers follow each other, the perspective priority by strokes_set_perspective's PERSPECTIVE_EVEN. Errors: LMN_MEMORY, LMN_LIMIT. */
-lmn_status strokes_generate(strokes *out, const pattern_wishes *wishes, lmn_error *error);
+lmn_status strokes_generate(strokes *out, const pattern_options *options, lmn_error *error);
 
 /* --- priorities --- */
 

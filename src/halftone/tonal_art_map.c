@@ -15,7 +15,7 @@ enum { SIDE_LEAST = 8, SIDE_MOST = 1024, TONES_LEAST = 2, TONES_MOST = 16, STREA
 /* Both ends of a stroke run out over so many widths; what it covers less for that, by stroke_draw's profile, as a share of an end. */
 static const double CAP_WIDTHS = 6, CAP_LOSS = 1.0 / 3.0;
 
-double tam_target(const tam_wishes *w, int tone)
+double tam_target(const tam_options *w, int tone)
 {
     return w->darkest * (tone + 1) / w->tones;
 }
@@ -27,7 +27,7 @@ static double mean_ink(const tam_level *level)
 
 double tam_missing(const tam *t)
 {
-    return tam_target(t->wishes, t->tone) - mean_ink(&t->levels[t->level]);
+    return tam_target(t->options, t->tone) - mean_ink(&t->levels[t->level]);
 }
 
 double tam_expected(const tam *t, int level, double length)
@@ -59,9 +59,9 @@ static bool keep(tam *t, texture_stroke s, int direction)
 {
     if (!t->kept)
         return true;
-    s.light = 1 - (float)t->tone / (float)t->wishes->tones;
+    s.light = 1 - (float)t->tone / (float)t->options->tones;
     s.perspective = 1 - 0.75f / (float)(1 << t->level);
-    if (!t->wishes->drawn)
+    if (!t->options->drawn)
         s.layer = direction;
     return strokes_add(t->kept, s);
 }
@@ -121,7 +121,7 @@ static bool near_enough(const texture_stroke *s, int level)
 /* Length of a stroke, or of the curve that begins with it, with what its round ends cover. */
 static double whole_length(const tam *t, size_t index)
 {
-    const strokes *s = t->wishes->drawn;
+    const strokes *s = t->options->drawn;
     double         length = stroke_length(&s->items[index]);
     for (size_t i = index; i + 1 < s->count && stroke_goes_on(&s->items[i], &s->items[i + 1]); i++)
         length += stroke_length(&s->items[i + 1]);
@@ -131,7 +131,7 @@ static double whole_length(const tam *t, size_t index)
 /* Places as many as the level being filled needs, or as there are; curves as a whole. */
 static bool fill_drawn(tam *t, queue *q)
 {
-    const texture_stroke *items = t->wishes->drawn->items;
+    const texture_stroke *items = t->options->drawn->items;
     size_t        left = 0, before = SIZE_MAX; /* the stroke that was placed last */
     for (size_t i = 0; i < q->count; i++) {
         size_t index = q->items[i].index;
@@ -151,7 +151,7 @@ static bool fill_drawn(tam *t, queue *q)
 
 /* --- all of it ---------------------------------------------------------------------------------------------------- */
 
-static lmn_status check(const tam_wishes *w, lmn_error *error)
+static lmn_status check(const tam_options *w, lmn_error *error)
 {
     if (w->side < SIDE_LEAST || w->side > SIDE_MOST || (w->side & (w->side - 1)))
         return error_set(error, LMN_USAGE, "a tonal art map of %d texels a side; allowed are powers of two from %d to %d", w->side, SIDE_LEAST, SIDE_MOST);
@@ -182,7 +182,7 @@ static void tam_end(tam *t)
     mem_free(t->crowding);
 }
 
-stroke_brush tonal_art_map_brush(const tam_wishes *w)
+stroke_brush tonal_art_map_brush(const tam_options *w)
 {
     stroke_brush out = {.width = w->width, .cap = w->drawn ? 0 : CAP_WIDTHS * w->width, .grain = w->grain};
     if (w->drawn && w->drawn->width > 0)
@@ -190,9 +190,9 @@ stroke_brush tonal_art_map_brush(const tam_wishes *w)
     return out;
 }
 
-static bool tam_begin(tam *t, const tam_wishes *w, strokes *kept)
+static bool tam_begin(tam *t, const tam_options *w, strokes *kept)
 {
-    *t = (tam){.wishes = w, .brush = tonal_art_map_brush(w), .opacity = (float)w->opacity, .kept = kept, .random = random_start(w->seed, STREAM)};
+    *t = (tam){.options = w, .brush = tonal_art_map_brush(w), .opacity = (float)w->opacity, .kept = kept, .random = random_start(w->seed, STREAM)};
     /* Ink covers paper; graphite leaves some of it even where many strokes lie. */
     t->limit = w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1;
     bool enough = true;
@@ -216,7 +216,7 @@ static void keep_tone(const tam *t, mip_chain *out)
         uint8_t *texels = mip_layer(out, k, t->tone);
         size_t   count = mip_level_bytes(out, k) / (size_t)out->layers;
         if (k >= t->level_count)
-            memset(texels, (int)(255.5 - 255 * tam_target(t->wishes, t->tone)), count);
+            memset(texels, (int)(255.5 - 255 * tam_target(t->options, t->tone)), count);
         for (size_t i = 0; k < t->level_count && i < count; i++)
             texels[i] = (uint8_t)(255.5f - 255 * t->levels[k].ink[i]);
     }
@@ -224,26 +224,26 @@ static void keep_tone(const tam *t, mip_chain *out)
 
 static bool fill_tone(tam *t, queue *q)
 {
-    bool fitted = t->wishes->placement == TAM_BEST_FIT, good = t->wishes->drawn || tam_set_crowding(t);
+    bool fitted = t->options->placement == TAM_BEST_FIT, good = t->options->drawn || tam_set_crowding(t);
     for (t->level = t->level_count - 1; good && t->level >= 0; t->level--)
-        good = t->wishes->drawn ? fill_drawn(t, q) : fitted ? tam_fill_best(t) : tam_fill_strips(t);
+        good = t->options->drawn ? fill_drawn(t, q) : fitted ? tam_fill_best(t) : tam_fill_strips(t);
     return good;
 }
 
-lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_wishes *wishes, lmn_error *error)
+lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     if (kept)
         *kept = (strokes){.width = 1};
-    lmn_status status = check(wishes, error);
+    lmn_status status = check(options, error);
     if (status == LMN_OK)
-        status = mip_chain_create(out, wishes->side, wishes->side, wishes->tones, 0, MIP_R8, error);
+        status = mip_chain_create(out, options->side, options->side, options->tones, 0, MIP_R8, error);
     if (status != LMN_OK)
         return status;
     tam   t;
     queue q = {NULL, 0};
-    bool  good = tam_begin(&t, wishes, kept) && (!wishes->drawn || queue_fill(&q, wishes->drawn));
-    for (t.tone = 0; good && t.tone < wishes->tones; t.tone++) {
+    bool  good = tam_begin(&t, options, kept) && (!options->drawn || queue_fill(&q, options->drawn));
+    for (t.tone = 0; good && t.tone < options->tones; t.tone++) {
         good = fill_tone(&t, &q);
         keep_tone(&t, out);
     }

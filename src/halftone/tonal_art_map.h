@@ -9,7 +9,7 @@
 typedef enum tam_placement { TAM_BEST_FIT, TAM_STRIPS, TAM_PLACEMENT_COUNT } tam_placement;
 extern const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1];
 
-typedef struct tam_wishes {
+typedef struct tam_options {
     int           side;      /* of level 0, a power of two, 8 … 1024; 256 */
     int           tones;     /* 2 … 16; 6. Tone i of n inks (i + 1) / (n + 1) of the surface, times `darkest` × (n + 1) / n */
     double        darkest;   /* ink of the last tone, 0.05 … 0.98 */
@@ -24,15 +24,15 @@ typedef struct tam_wishes {
     const strokes *drawn;    /* not NULL: these are placed instead, in the order of their light priorities and down to the level of the others, with round
                               * ends, until a tone is reached or there are none left (P39: dots and other shapes) */
     uint32_t      seed;
-} tam_wishes;
+} tam_options;
 
 /* What the strokes are drawn with. */
-stroke_brush tonal_art_map_brush(const tam_wishes *wishes);
+stroke_brush tonal_art_map_brush(const tam_options *options);
 
 /* R8, one layer a tone, lightest first; 255 is paper; levels with fewer than 8 texels a side are of the tone's grey. Pixel by pixel, ink never gets
  * less towards darker tones, and strokes of a level are in all finer ones. Errors: LMN_USAGE, LMN_MEMORY. `kept`
  * may be NULL; else it gets per stroke what was placed: light = tone it appears in first as 1 − tone index / tones, perspective = by coarsest level k,
  * 1 − 0.75 × 2^−k; layer 1: across. It is the caller's even when it is empty. */
-lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_wishes *wishes, lmn_error *error);
+lmn_status tonal_art_map(mip_chain *out, strokes *kept, const tam_options *options, lmn_error *error);
 
 #endif

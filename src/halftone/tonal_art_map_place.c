@@ -27,7 +27,7 @@ static const double STRIP_SHARE = 0.7; /* of a strip, for hatching, in which str
 /* Strokes repel each other like charges, more the nearer, up to a few gaps of the tone: where that is least, is the widest gap. */
 bool tam_set_crowding(tam *t)
 {
-    const tam_wishes *w = t->wishes;
+    const tam_options *w = t->options;
     double            reach = REACH * t->brush.width / tam_target(w, t->tone);
     reach = fmin(fmax(reach, 3 * t->brush.width), w->side / 2.0);
     size_t count = (size_t)(reach * CROWD_STEPS) + 2;
@@ -90,7 +90,7 @@ static float crowd_along(const tam_level *level, const float *crowd, const textu
 /* Tones from the middle on are drawn across, until as much lies that way as the other, and then in turns. */
 static int direction_of(const tam *t)
 {
-    bool across = t->wishes->cross && 2 * t->tone >= t->wishes->tones && t->drawn_length[TAM_ACROSS] < t->drawn_length[TAM_ALONG];
+    bool across = t->options->cross && 2 * t->tone >= t->options->tones && t->drawn_length[TAM_ACROSS] < t->drawn_length[TAM_ALONG];
     return across ? TAM_ACROSS : TAM_ALONG;
 }
 
@@ -98,7 +98,7 @@ static int direction_of(const tam *t)
  * long as the tone still needs. */
 static double next_length(tam *t)
 {
-    const tam_wishes *w = t->wishes;
+    const tam_options *w = t->options;
     double            least = fmin(w->length, fmax(SHORTEST * w->length, LONG_ENOUGH * t->brush.width / t->levels[t->level].side));
     double            length = least + (w->length - least) * random_unit(&t->random), missing = tam_missing(t);
     double            needed = length * missing / tam_expected(t, t->level, length);
@@ -109,7 +109,7 @@ static double next_length(tam *t)
 
 static texture_stroke stroke_at(tam *t, double u, double v, double length, int direction)
 {
-    double slope = SWAY * (double)t->wishes->uneven * random_hand(&t->random), unit = length / sqrt(1 + slope * slope);
+    double slope = SWAY * (double)t->options->uneven * random_hand(&t->random), unit = length / sqrt(1 + slope * slope);
     double along = unit, aside = unit * slope;
     texture_stroke s = {.u0 = (float)u, .v0 = (float)v};
     s.u1 = s.u0 + (float)(direction == TAM_ALONG ? along : aside);
@@ -195,7 +195,7 @@ static size_t common_divisor(size_t a, size_t b)
  * that each stroke takes the best of a few places in its strip. */
 bool tam_fill_strips(tam *t)
 {
-    const tam_wishes *w = t->wishes;
+    const tam_options *w = t->options;
     double            inside = w->opacity < 1 ? 1 : STRIP_SHARE;
     const tam_level  *level = &t->levels[t->level];
     size_t            most = strokes_most(t);

@@ -17,7 +17,7 @@ typedef struct tam_level {
 } tam_level;
 
 typedef struct tam {
-    const tam_wishes *wishes;
+    const tam_options *options;
     stroke_brush      brush;
     float             limit, opacity; /* of ink; share of what is left of it that one stroke takes */
     tam_level         levels[MIP_LEVELS_MAX];
@@ -30,7 +30,7 @@ typedef struct tam {
     int               tone, level; /* being filled */
 } tam;
 
-double tam_target(const tam_wishes *w, int tone);
+double tam_target(const tam_options *w, int tone);
 /* Mean ink that is missing at the level being filled. */
 double tam_missing(const tam *t);
 /* Mean ink that a stroke of this length would add to a level now, about. */

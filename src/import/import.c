@@ -114,7 +114,7 @@ static lmn_status read_into(const import_job *job, const import_format *format, 
 }
 
 /* What is asked of programs must not be left out in silence where there is none. */
-static lmn_status check_wishes(const import_format *format, const char *path, const lmn_load_desc *desc, lmn_error *error)
+static lmn_status check_options(const import_format *format, const char *path, const lmn_load_desc *desc, lmn_error *error)
 {
     const lmn_task_desc *conditions = work_conditions();
     if (format == &import_scad && conditions && (conditions->files == LMN_FILES_FOLDER || conditions->read_file)) {
@@ -139,7 +139,7 @@ static lmn_status load(lmn_scene **out, const import_job *by, const char *path, 
     lmn_scene *scene = scene_new();
     status = scene ? choose(&format, path, &file, error) : error_memory(error);
     if (status == LMN_OK)
-        status = check_wishes(format, path, desc, error);
+        status = check_options(format, path, desc, error);
     if (status == LMN_OK) {
         import_job job = {.path = path, .model = by ? by->model : path, .file = &file, .scene = scene, .desc = desc};
         status = read_into(&job, format, desc->up_axis, error);

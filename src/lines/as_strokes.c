@@ -11,7 +11,7 @@ static bool is_class_inner(int kind)
     return kind != STROKE_CONTOUR && kind != STROKE_BORDER;
 }
 
-void lines_as_strokes(stroke_wishes *wishes, stroke_style *style, const void *values)
+void lines_as_strokes(stroke_options *options, stroke_style *style, const void *values)
 {
     const lines_common *lines = values;
     colour inner = isnan(lines->inner_colour.r) ? lines->colour : lines->inner_colour;
@@ -24,8 +24,8 @@ void lines_as_strokes(stroke_wishes *wishes, stroke_style *style, const void *va
     style->overshoot = lines->overshoot;
     style->halo = lines->halo;
     bool outlines = lines->colour.a > 0 && lines->profile_weight > 0, inside = inner.a > 0 && lines->inner_weight > 0;
-    wishes->contours = outlines ? CONTOURS_EDGES : CONTOURS_NONE;
-    wishes->borders = outlines;
-    wishes->creases = wishes->intersections = inside;
-    wishes->materials = 0;
+    options->contours = outlines ? CONTOURS_EDGES : CONTOURS_NONE;
+    options->borders = outlines;
+    options->creases = options->intersections = inside;
+    options->materials = 0;
 }

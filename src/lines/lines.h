@@ -73,6 +73,6 @@ extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_s
     lines_denormal, lines_id, lines_colour, lines_shadow, lines_shell, lines_strokes;
 
 /* As strokes of a mesh: outlines, borders and creases as wide, as coloured and as dashed as the technique's lines. `values` begin with lines_common. */
-void lines_as_strokes(struct stroke_wishes *wishes, struct stroke_style *style, const void *values);
+void lines_as_strokes(struct stroke_options *options, struct stroke_style *style, const void *values);
 
 #endif

@@ -319,17 +319,17 @@ static void note_idle_rules(const plan *p, warnings *notes)
 }
 
 /* One figure a rule that has parts. */
-static lmn_status make_figures(plan *p, const plan_wishes *wishes, warnings *notes, lmn_error *error)
+static lmn_status make_figures(plan *p, const plan_options *options, warnings *notes, lmn_error *error)
 {
     for (size_t r = 0; r < p->look->rule_count; r++) {
         p->rule_count++;
-        if (!copy_rule(&p->rules[r], &p->look->rules[r], wishes->pixel_scale))
+        if (!copy_rule(&p->rules[r], &p->look->rules[r], options->pixel_scale))
             return error_memory(error);
-        if (wishes->surfaces_only)
+        if (options->surfaces_only)
             drop_lines(&p->rules[r]);
         settle_perturbation(&p->rules[r], notes);
         settle_grounds(&p->rules[r], p->ground);
-        figure f = {.rule = &p->rules[r], .box = box3_empty(), .unmarked = wishes->surfaces_only};
+        figure f = {.rule = &p->rules[r], .box = box3_empty(), .unmarked = options->surfaces_only};
         f.designated = mem_calloc(p->part_count, sizeof *f.designated);
         if (!f.designated)
             return error_memory(error);
@@ -496,14 +496,14 @@ static lmn_status prepare_layers(plan *p, warnings *notes, lmn_error *error)
 }
 
 /* What the look's surfaces want meshes to have. */
-static mesh_wishes wishes_of(const lmn_look *look)
+static mesh_needs needs_of(const lmn_look *look)
 {
-    mesh_wishes all = {false, 0};
+    mesh_needs all = {false, 0};
     for (size_t i = 0; i < look->rule_count; i++) {
         const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
-        if (!surface || !surface->technique->surface->wishes)
+        if (!surface || !surface->technique->surface->needs)
             continue;
-        mesh_wishes own = surface->technique->surface->wishes(surface->values);
+        mesh_needs own = surface->technique->surface->needs(surface->values);
         all.field = all.field || own.field;
         all.patch = own.patch > 0 ? own.patch : all.patch;
     }
@@ -528,7 +528,7 @@ static lmn_status find_ground(colour *out, const lmn_look *look, const char *bac
     return status;
 }
 
-static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, const plan_wishes *wishes, lmn_error *error)
+static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, lmn_error *error)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     memset(out, 0, sizeof *out);
@@ -537,8 +537,8 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->look = look;
     out->box = box3_empty();
     out->crease_angle = (double)v->crease_angle * (3.14159265358979323846 / 180);
-    out->meshes = wishes_of(look);
-    out->has_removed = pose->ghost_count > 0 && asks_for_removed(look) && !wishes->parts_only;
+    out->meshes = needs_of(look);
+    out->has_removed = pose->ghost_count > 0 && asks_for_removed(look) && !options->parts_only;
     out->part_count = pose->part_count + (out->has_removed ? pose->ghost_count : 0);
     out->rule_of = mem_calloc(out->part_count, sizeof *out->rule_of);
     out->selected = mem_calloc(out->part_count, sizeof *out->selected);
@@ -547,16 +547,16 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
     if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules)
         return error_memory(error);
-    lmn_status status = find_ground(&out->ground, look, wishes->background, error);
-    if (status == LMN_OK && !wishes->surfaces_only && !wishes->parts_only)
-        status = section_find(&out->section, pose, look, wishes->select, error);
+    lmn_status status = find_ground(&out->ground, look, options->background, error);
+    if (status == LMN_OK && !options->surfaces_only && !options->parts_only)
+        status = section_find(&out->section, pose, look, options->select, error);
     out->has_cut = out->section.cut.cell_count > 0;
     return status;
 }
 
-static lmn_status plan_figures(plan *p, const plan_wishes *wishes, warnings *notes, lmn_error *error)
+static lmn_status plan_figures(plan *p, const plan_options *options, warnings *notes, lmn_error *error)
 {
-    lmn_status status = make_figures(p, wishes, notes, error);
+    lmn_status status = make_figures(p, options, notes, error);
     if (status == LMN_OK)
         status = split_mirrors(p, error);
     if (status == LMN_OK)
@@ -565,21 +565,21 @@ static lmn_status plan_figures(plan *p, const plan_wishes *wishes, warnings *not
         return status;
     find_opaque_parts(p);
     for (size_t i = 0; i < p->figure_count; i++)
-        settle_figure(&p->figures[i], p, wishes->as_sprites);
+        settle_figure(&p->figures[i], p, options->as_sprites);
     order_figures(p);
     return LMN_OK;
 }
 
-lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_wishes *wishes, warnings *notes, lmn_error *error)
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes, lmn_error *error)
 {
-    lmn_status status = open_plan(out, pose, look, wishes, error);
+    lmn_status status = open_plan(out, pose, look, options, error);
     if (status == LMN_OK)
-        status = select_parts(out, wishes->select, error);
+        status = select_parts(out, options->select, error);
     if (status != LMN_OK)
         return status;
     share_parts(out);
     note_idle_rules(out, notes);
-    return wishes->parts_only ? LMN_OK : plan_figures(out, wishes, notes, error);
+    return options->parts_only ? LMN_OK : plan_figures(out, options, notes, error);
 }
 
 const rule *plan_rule(const plan *p, size_t part_index)

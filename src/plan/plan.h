@@ -38,7 +38,7 @@ typedef struct plan {
     section          section;
     bool             has_cut;      /* there may be cut faces */
     double           crease_angle; /* radians */
-    mesh_wishes      meshes;       /* of all techniques */
+    mesh_needs      meshes;       /* of all techniques */
     bool             has_removed;  /* the look selects what solids take away: ghosts are parts, too */
     /* parts */
     size_t           part_count;
@@ -56,18 +56,18 @@ typedef struct plan {
 } plan;
 
 /* How a drawing wants its plan. */
-typedef struct plan_wishes {
+typedef struct plan_options {
     const char *select;        /* restricts what is drawn, or NULL */
     const char *background;    /* a colour, or NULL: the look's */
     int         pixel_scale;   /* lengths in pixels are multiplied by it */
     bool        as_sprites;    /* no figure is drawn directly (maps need their buffers) */
     bool        surfaces_only; /* neither lines, nor marks on surfaces, nor sections */
     bool        parts_only;    /* no figures, ghosts and sections: for who draws parts by the look's own rules */
-} plan_wishes;
+} plan_options;
 
 /* The pose and the look are lent. Errors: LMN_USAGE (bad selector, colour or section), LMN_FORMAT (nothing to draw), LMN_MEMORY. Warnings (rules that select nothing,
  * settings without effect) go to `notes`. */
-lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_wishes *wishes, warnings *notes, lmn_error *error);
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes, lmn_error *error);
 void       plan_release(plan *p);
 
 /* The look's rule that draws a part; NULL: none does. */

@@ -289,12 +289,12 @@ static void open_lists(const solid_view *v, solid_layers *s, const bool *wanted,
         evaluate(v, s, wanted, inside, limit);
 }
 
-void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const solid_wishes *wishes)
+void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const solid_options *options)
 {
     if (s->ready || gpu_failed(v->g))
         return;
     s->ready = true;
-    s->first_only = wishes->first_only;
+    s->first_only = options->first_only;
     s->near = v->camera->near;
     bool inside = find_box(v, wanted, s->box), all_convex = false, lists = gpu_has_lists(v->g);
     if (s->box[2] <= 0)
@@ -302,7 +302,7 @@ void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const
     open_planes(v, s, wanted);
     s->nearest = s->surfaces = blank_picture(v);
     s->count = s->first_only ? 1 : 0;
-    bool convex = s->first_only && !inside && wishes->evaluation != EVALUATION_LISTS && solids_have_convex(v, wanted, &all_convex);
+    bool convex = s->first_only && !inside && options->evaluation != EVALUATION_LISTS && solids_have_convex(v, wanted, &all_convex);
     stopwatch w = watch_start(v->profile);
     if (convex && !gpu_failed(v->g))
         s->depth = solids_draw_convex(v, s, wanted);
@@ -311,7 +311,7 @@ void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const
     if (all_convex || gpu_failed(v->g))
         return;
     w = watch_start(v->profile);
-    bool swept = (!lists || wishes->evaluation == EVALUATION_PRODUCTS) && solids_sweep(v, s, wanted, inside, wishes->layers);
+    bool swept = (!lists || options->evaluation == EVALUATION_PRODUCTS) && solids_sweep(v, s, wanted, inside, options->layers);
     if (swept)
         watch_stop(v->profile, w, "solids", "sweep");
     else if (lists)

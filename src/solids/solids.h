@@ -34,14 +34,14 @@ typedef struct solid_layers {
     gpu_buffer  *heads, *nodes, *chain, *counter;
 } solid_layers;
 
-typedef struct solid_wishes {
+typedef struct solid_options {
     int32_t evaluation; /* layer_evaluation */
     int     layers;     /* at most */
     bool    first_only; /* opaque: what lies behind the nearest is not asked for */
-} solid_wishes;
+} solid_options;
 
 /* Finds the surfaces of the solids among the wanted items (one a draw item). Errors stick to the GPU. */
-void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const solid_wishes *wishes);
+void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const solid_options *options);
 /* Makes layer `index` current; layers are asked for in order, from any number to the next or from 0. */
 void solids_select(const solid_view *v, solid_layers *s, int index);
 void solids_release(gpu *g, solid_layers *s);

@@ -29,7 +29,7 @@ lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_u
 
 /* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the look's lights (no shadows) and the technique's ink. `surface` must have marks
  * (technique->surface->marks), its lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs no GPU. Errors: LMN_MEMORY, those of the technique. */
-typedef struct mark_page_wishes {
+typedef struct mark_page_options {
     const pose          *pose;
     const lmn_look      *look;
     const bool          *parts;      /* NULL: all */
@@ -40,7 +40,7 @@ typedef struct mark_page_wishes {
     int                  width, height;
     mark_hidden_fn       hidden;
     void                *user;
-} mark_page_wishes;
-lmn_status marks_on_page(marks_page *out, const mark_page_wishes *wishes, lmn_error *error);
+} mark_page_options;
+lmn_status marks_on_page(marks_page *out, const mark_page_options *options, lmn_error *error);
 
 #endif

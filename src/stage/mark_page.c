@@ -8,7 +8,7 @@
 
 /* Marks are measured from the ground's origin; who knows what hides them is asked in the world's axes. */
 typedef struct asked {
-    const mark_page_wishes *wishes;
+    const mark_page_options *options;
     const double           *origin;
     bool                    full; /* memory was gone: nothing is known to be hidden */
 } asked;
@@ -21,12 +21,12 @@ static void ask(void *user, const double (*places)[3], size_t count, uint32_t *o
         for (int k = 0; k < 3; k++)
             moved[i][k] = places[i][k] + a->origin[k];
     if (moved)
-        a->wishes->hidden(a->wishes->user, (const double (*)[3])moved, count, out);
+        a->options->hidden(a->options->user, (const double (*)[3])moved, count, out);
     a->full = a->full || !moved;
     mem_free(moved);
 }
 
-static mark_view view_of(const mark_page_wishes *w, const double origin[3])
+static mark_view view_of(const mark_page_options *w, const double origin[3])
 {
     mark_view v = {.projection = w->camera->projection, .orthographic = w->camera->orthographic, .width = w->width, .height = w->height};
     mat4 world = mat4_identity();
@@ -40,7 +40,7 @@ static mark_view view_of(const mark_page_wishes *w, const double origin[3])
     return v;
 }
 
-lmn_status marks_on_page(marks_page *out, const mark_page_wishes *w, lmn_error *error)
+lmn_status marks_on_page(marks_page *out, const mark_page_options *w, lmn_error *error)
 {
     mark_ground ground;
     marks made = {.dots = NULL};
@@ -53,7 +53,7 @@ lmn_status marks_on_page(marks_page *out, const mark_page_wishes *w, lmn_error *
     made.parts = ground.parts;
     if (status == LMN_OK) {
         mark_view view = view_of(w, ground.origin);
-        asked a = {.wishes = w, .origin = ground.origin};
+        asked a = {.options = w, .origin = ground.origin};
         status = marks_visible(out, &made, &view, &style, w->hidden ? ask : NULL, &a, error);
         if (a.full)
             status = error_memory(error);

@@ -32,7 +32,7 @@ void mark_sets_release(mark_sets **all, gpu *g)
 }
 
 /* What decides which marks a figure has, beside the scene that the upload belongs to. */
-static uint64_t key_of(gpu *g, const mark_set_wishes *w)
+static uint64_t key_of(gpu *g, const mark_set_options *w)
 {
     text t = {0};
     w->surface->technique->surface->marks->describe(&t, w->surface->values);
@@ -105,7 +105,7 @@ static void upload_lines(gpu *g, const marks *m, mark_set *out)
     mem_free(order);
 }
 
-static void make_set(gpu *g, const mark_set_wishes *w, mark_set *out)
+static void make_set(gpu *g, const mark_set_options *w, mark_set *out)
 {
     mark_ground ground;
     marks made = {.dots = NULL};
@@ -130,7 +130,7 @@ static void make_set(gpu *g, const mark_set_wishes *w, mark_set *out)
     surface_marks_release(&made);
 }
 
-mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_wishes *w)
+mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_options *w)
 {
     if (!*slot && !(*slot = mem_calloc(1, sizeof **slot))) {
         gpu_fail(g, LMN_MEMORY, "out of memory");

@@ -19,17 +19,17 @@ typedef struct mark_set {
 
 typedef struct mark_sets mark_sets;
 
-typedef struct mark_set_wishes {
+typedef struct mark_set_options {
     const pose          *pose;
     const bool          *parts;   /* per part: is marked */
     size_t               part_count;
     double               crease_angle;
     const technique_use *surface; /* whose marks they are */
     bool                 points;  /* dots are drawn as points */
-} mark_set_wishes;
+} mark_set_options;
 
 /* Finds or makes a set; that which was not drawn for longest goes. *slot is made when it is NULL. NULL after an error, which sticks to the GPU. */
-mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_wishes *wishes);
+mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_options *options);
 void      mark_sets_release(mark_sets **all, gpu *g);
 
 #endif

@@ -29,12 +29,12 @@ void stroke_store_destroy(stroke_store **store, gpu *g)
     *store = NULL;
 }
 
-static bool is_as_wished(const stroke_store *s, const stroke_store_wishes *w)
+static bool is_as_wished(const stroke_store *s, const stroke_store_options *w)
 {
     return s->part_count == w->part_count && s->refine == w->refine && memcmp(s->parts, w->hides, w->part_count * sizeof *s->parts) == 0;
 }
 
-static lmn_status fill_store(stroke_store *s, const stroke_store_wishes *w, lmn_error *error)
+static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn_error *error)
 {
     s->refine = w->refine;
     s->part_count = w->part_count;
@@ -49,14 +49,14 @@ static lmn_status fill_store(stroke_store *s, const stroke_store_wishes *w, lmn_
     return s->edges && s->crossings ? LMN_OK : error_memory(error);
 }
 
-stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_wishes *wishes)
+stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_options *options)
 {
-    if (*slot && is_as_wished(*slot, wishes))
+    if (*slot && is_as_wished(*slot, options))
         return *slot;
     stroke_store_destroy(slot, g);
     lmn_error error = {0};
     stroke_store *s = mem_calloc(1, sizeof *s);
-    lmn_status status = s ? fill_store(s, wishes, &error) : error_memory(&error);
+    lmn_status status = s ? fill_store(s, options, &error) : error_memory(&error);
     if (status != LMN_OK) {
         stroke_store_destroy(&s, g);
         gpu_fail(g, status, "%s", error.message);

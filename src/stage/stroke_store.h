@@ -16,16 +16,16 @@ typedef struct stroke_store {
     stroke_camera  camera;
 } stroke_store;
 
-typedef struct stroke_store_wishes {
+typedef struct stroke_store_options {
     const pose *pose;
     const bool *hides; /* per part: may hide lines */
     size_t      part_count;
     double      crease_angle;
     int32_t     refine;
-} stroke_store_wishes;
+} stroke_store_options;
 
 /* What *slot holds when it is as wished, else a new one in its place; NULL after an error, which sticks to the GPU. */
-stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_wishes *wishes);
+stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_options *options);
 /* Where surfaces cross and how they bend does not depend on the view: it is found once. Errors stick to the GPU. */
 void          stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends);
 /* What the camera sees, unless that is there. Errors: those of stroke_view_create. */

@@ -9,7 +9,7 @@ static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh *
 {
     posed_mesh m;
     lmn_status status = posed_make(&m, p, u->crease_angle, pose, error);
-    if (status == LMN_OK && u->wishes.field) {
+    if (status == LMN_OK && u->needs.field) {
         status = upload_with_field(u, g, out, lapped, &m.data, error);
     } else if (status == LMN_OK) {
         gpu_mesh_data data = upload_data_of(&m.data);
@@ -103,7 +103,7 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->revision = scene->revision;
     out->identity = scene->identity;
     out->crease_angle = desc->crease_angle;
-    out->wishes = desc->wishes;
+    out->needs = desc->needs;
     out->pose = pose;
     out->has_removed = desc->removed;
     out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);

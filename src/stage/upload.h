@@ -73,7 +73,7 @@ typedef struct draw_item {
 typedef struct upload {
     uint64_t      revision, identity; /* of the scene */
     double        crease_angle; /* radians */
-    mesh_wishes   wishes;       /* of all techniques */
+    mesh_needs   needs;       /* of all techniques */
     section       section;
     size_t        open_parts; /* some of whose sections are not closed */
     bool          has_cut;    /* there are cut faces */
@@ -112,7 +112,7 @@ typedef struct upload {
 typedef struct upload_desc {
     double         crease_angle;
     bool           removed; /* what solids take away, too */
-    mesh_wishes    wishes;
+    mesh_needs    needs;
     const section *section; /* copied */
 } upload_desc;
 

@@ -12,7 +12,7 @@ enum { PATCH_SEED = 1 };
 float upload_patch_radius(const upload *u, box3 b)
 {
     float x = b.max.x - b.min.x, y = b.max.y - b.min.y, z = b.max.z - b.min.z;
-    return u->wishes.patch * sqrtf(x * x + y * y + z * z);
+    return u->needs.patch * sqrtf(x * x + y * y + z * z);
 }
 
 /* As fields and patches are made of: of vertices as they are drawn. It borrows. */
@@ -66,7 +66,7 @@ lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh *
         with.tensors = (const float *)tensors;
         *out = gpu_mesh_create(g, &with);
     }
-    if (status == LMN_OK && u->wishes.patch > 0) {
+    if (status == LMN_OK && u->needs.patch > 0) {
         status = lapped_make(&patches, &p, &field, (double)upload_patch_radius(u, p.bounds), PATCH_SEED, error);
         if (status == LMN_OK)
             status = upload_lapped_mesh(g, lapped, &patches, data, error);

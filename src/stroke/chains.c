@@ -29,7 +29,7 @@ typedef struct chainer {
     const stroke_view   *v;
     const view_lines    *lines;
     const visibility    *seen;
-    const stroke_wishes *wishes;
+    const stroke_options *options;
     double               focal;  /* pixels to a unit of length, at depth 1 in perspective */
     uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
     uint32_t            *nexts; /* per half-line: another one at the same end */
@@ -362,10 +362,10 @@ static bool is_crumb(const chainer *c, stroke_class kind)
 {
     double ink = 0;
     for (size_t i = 0; i + 1 < c->point_count; i++)
-        if (c->points[i].count == 0 || (c->wishes->hidden && c->points[i].count > 0))
+        if (c->points[i].count == 0 || (c->options->hidden && c->points[i].count > 0))
             ink += (c->points[i + 1].arc - c->points[i].arc) * 0.5 * (c->points[i].weight + c->points[i + 1].weight);
     int side = c->v->camera.width > c->v->camera.height ? c->v->camera.width : c->v->camera.height;
-    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->wishes->shortest, FORM_SHARE * side);
+    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->options->shortest, FORM_SHARE * side);
 }
 
 /* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */
@@ -443,7 +443,7 @@ static double distance_from(const chainer *c, const chain_point *p, const chain_
 /* Marks the points that stay between two that do (Douglas and Peucker). */
 static bool simplify(chainer *c, size_t begin, size_t end)
 {
-    double limit = c->wishes->simplify;
+    double limit = c->options->simplify;
     if (!mem_grow((void **)&c->kept, &c->kept_capacity, c->point_count, 1) ||
         !mem_grow((void **)&c->stack, &c->stack_capacity, 2 * (end - begin) + 4, sizeof *c->stack))
         return false;
@@ -500,7 +500,7 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
         int32_t count = c->points[begin].count;
-        if (count == OUTSIDE || (count > 0 && !c->wishes->hidden) || c->points[end].arc <= c->points[begin].arc)
+        if (count == OUTSIDE || (count > 0 && !c->options->hidden) || c->points[end].arc <= c->points[begin].arc)
             continue;
         s.hidden_by = (uint32_t)count;
         s.closed = closed && begin == 0 && end + 1 == c->point_count;
@@ -530,19 +530,19 @@ static bool make_chain(chainer *c, uint32_t line)
     if (!put_path(c, closed) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
-    if (length < c->wishes->shortest || length <= 0 || is_crumb(c, c->lines->lines[line].kind))
+    if (length < c->options->shortest || length <= 0 || is_crumb(c, c->lines->lines[line].kind))
         return true;
     calm(c);
     return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
 }
 
-lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
+lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_options *options,
                        lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
-    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .wishes = wishes, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
-    bool good = link_ends(&c) && curve_path_open(&c.curve, v, lines, wishes->curve);
+    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .options = options, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
+    bool good = link_ends(&c) && curve_path_open(&c.curve, v, lines, options->curve);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)
             if ((int)lines->lines[i].kind == kind && !c.used[i])
@@ -570,22 +570,22 @@ void stroke_set_release(stroke_set *s)
     memset(s, 0, sizeof *s);
 }
 
-lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
                        lmn_error *error)
 {
     view_lines lines;
     visibility seen;
     memset(out, 0, sizeof *out);
-    lmn_status status = lines_collect(&lines, v, wishes, parts, progress, user, error);
+    lmn_status status = lines_collect(&lines, v, options, parts, progress, user, error);
     if (status != LMN_OK)
         return status;
     status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
     if (status == LMN_OK)
-        status = chains_make(out, v, &lines, &seen, wishes, error);
+        status = chains_make(out, v, &lines, &seen, options, error);
     if (status == LMN_OK)
         status = strokes_join(out, v, error);
     if (status == LMN_OK)
-        status = strokes_thin(out, wishes->crowd, v->camera.width, v->camera.height, error);
+        status = strokes_thin(out, options->crowd, v->camera.width, v->camera.height, error);
     out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)
         stroke_set_release(out);

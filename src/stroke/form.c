@@ -70,7 +70,7 @@ static bool collect_suggestive(form_view *f, double strength)
 
 /* --- all ----------------------------------------------------------------------------------------------------------- */
 
-static bool collect_item(view_lines *out, const stroke_view *v, const stroke_wishes *w, uint32_t item, const form_surface *s)
+static bool collect_item(view_lines *out, const stroke_view *v, const stroke_options *w, uint32_t item, const form_surface *s)
 {
     form_view f;
     bool seen, good = form_view_open(&f, out, v, item, s, &seen);
@@ -108,7 +108,7 @@ static bool is_wanted(const stroke_view *v, const bool *parts, size_t mesh)
 }
 
 /* All items of a mesh. */
-static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stroke_wishes *w, const bool *parts, size_t mesh, bool bends, lmn_error *error)
+static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stroke_options *w, const bool *parts, size_t mesh, bool bends, lmn_error *error)
 {
     const stroke_scene *scene = v->scene;
     form_surface own = {0};
@@ -121,21 +121,21 @@ static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stro
     return status;
 }
 
-bool stroke_wishes_bend(const stroke_wishes *w)
+bool stroke_options_bend(const stroke_options *w)
 {
     return w->contours == CONTOURS_SMOOTH || w->suggestive > 0 || w->ridges > 0 || w->valleys > 0 || w->apparent > 0;
 }
 
-lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
                         lmn_error *error)
 {
-    bool bends = wishes->suggestive > 0 || wishes->ridges > 0 || wishes->valleys > 0 || wishes->apparent > 0;
+    bool bends = options->suggestive > 0 || options->ridges > 0 || options->valleys > 0 || options->apparent > 0;
     lmn_status status = LMN_OK;
-    for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK && stroke_wishes_bend(wishes); i++) {
+    for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK && stroke_options_bend(options); i++) {
         if (progress && !progress((double)i / (double)v->scene->mesh_count, "finding lines of form", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while lines of form were found");
         else
-            status = collect_mesh(out, v, wishes, parts, i, bends, error);
+            status = collect_mesh(out, v, options, parts, i, bends, error);
     }
     if (status == LMN_OK)
         link_ignored(out);

@@ -43,7 +43,7 @@ bool     form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, fo
 /* Outlines by normals. */
 bool smooth_collect(form_view *f);
 /* --- form_ridges.c --- */
-/* Ridges, valleys and apparent ridges; strengths as in stroke_wishes. */
+/* Ridges, valleys and apparent ridges; strengths as in stroke_options. */
 bool ridges_collect(form_view *f, stroke_class kind, double strength);
 
 /* Lengths and curvatures are measured against this share of the size of a mesh. */

@@ -17,7 +17,7 @@ const char *stroke_class_name(stroke_class c)
 typedef struct collector {
     view_lines          *out;
     const stroke_view   *v;
-    const stroke_wishes *wishes;
+    const stroke_options *options;
     const bool          *parts;
     double3             *places;  /* of the ends that only lines have, from v->vertex_count on */
     uint32_t            *slots;   /* hash table of them; NO_VERTEX when empty */
@@ -77,7 +77,7 @@ bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a,
 /* What the edge is in this view; STROKE_CLASS_COUNT: no line. */
 static stroke_class class_of(const collector *c, const mesh_edge *e, uint32_t first_face)
 {
-    const stroke_wishes *w = c->wishes;
+    const stroke_options *w = c->options;
     if (e->flags & EDGE_BORDER)
         return w->borders ? STROKE_BORDER : STROKE_CLASS_COUNT;
     bool differ = view_is_front(c->v, first_face + e->face[0]) != view_is_front(c->v, first_face + e->face[1]);
@@ -135,7 +135,7 @@ static lmn_status find_outline(collector *c, uint32_t index, lmn_error *error)
     const edge_mesh *m = &c->v->scene->meshes[c->v->scene->items[index].mesh];
     mem_free(c->outline);
     c->outline = NULL;
-    if (!m->refinement || c->wishes->contours != CONTOURS_EDGES)
+    if (!m->refinement || c->options->contours != CONTOURS_EDGES)
         return LMN_OK;
     c->outline = mem_alloc((size_t)m->edge_count + 1);
     front_test test = {c->v, m, index};
@@ -228,13 +228,13 @@ static lmn_status collect_intersections(collector *c, lmn_progress_fn progress, 
     return status;
 }
 
-lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
                          lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    collector c = {.out = out, .v = v, .wishes = wishes, .parts = parts};
+    collector c = {.out = out, .v = v, .options = options, .parts = parts};
     out->end_count = v->vertex_count;
-    lmn_status status = wishes->intersections ? collect_intersections(&c, progress, user, error) : LMN_OK;
+    lmn_status status = options->intersections ? collect_intersections(&c, progress, user, error) : LMN_OK;
     for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
         if (parts && !parts[v->scene->items[i].part_index])
             continue;
@@ -243,7 +243,7 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wis
             status = error_memory(error);
     }
     if (status == LMN_OK)
-        status = form_collect(out, v, wishes, parts, progress, user, error);
+        status = form_collect(out, v, options, parts, progress, user, error);
     mem_free(c.outline);
     mem_free(c.places);
     mem_free(c.slots);

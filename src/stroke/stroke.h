@@ -91,7 +91,7 @@ typedef struct stroke_scene {
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
-/* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round as the lines are. Takes stroke_wishes.refine. Also LMN_LIMIT. */
+/* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round as the lines are. Takes stroke_options.refine. Also LMN_LIMIT. */
 lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                        int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_scene_release(stroke_scene *s);
@@ -130,7 +130,7 @@ typedef enum contour_kind {
 } contour_kind;
 
 /* Which lines are wanted. */
-typedef struct stroke_wishes {
+typedef struct stroke_options {
     int32_t contours; /* contour_kind */
     bool    creases, borders, materials, intersections;
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
@@ -140,15 +140,15 @@ typedef struct stroke_wishes {
     float   crowd;     /* strokes that run all their length this close to more important ones are left out, pixels */
     int32_t refine;    /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve;     /* 0 … 4: how often chains of contours are refined as curves */
-} stroke_wishes;
-#define STROKE_WISHES_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0}
+} stroke_options;
+#define STROKE_OPTIONS_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0}
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one view. */
-bool stroke_wishes_bend(const stroke_wishes *w);
+bool stroke_options_bend(const stroke_options *w);
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
  * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
                        lmn_error *error);
 
 /* What `stroke_verify` found. */

@@ -202,7 +202,7 @@ typedef struct view_lines {
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
 } view_lines;
-lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
                          lmn_error *error);
 void       lines_release(view_lines *l);
 /* Adds a line of the world, as far as it lies in the window; ends that are cut off get numbers of their own. False when memory is gone. */
@@ -212,11 +212,11 @@ uint64_t   line_id(uint64_t a, uint64_t b); /* numbers that differ for different
 /* --- form.c --- */
 void       form_surfaces_destroy(stroke_scene *s);
 /* Adds the lines of smooth surfaces that are wished for: outlines by normals, suggestive contours, ridges, valleys, apparent ridges. */
-lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_wishes *wishes, const bool *parts, lmn_progress_fn progress, void *user,
+lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
                         lmn_error *error);
 
 /* --- chains.c --- */
-lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_wishes *wishes,
+lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_options *options,
                        lmn_error *error);
 
 /* --- join.c --- */

@@ -28,5 +28,5 @@ static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_dots = {
     .name = "dots", .doc = "Dots that stay as dense and as large at any zoom, by their number or their size.", .example = "{\"surface\": {\"technique\": \"dots\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(dots), .passes = passes, .pass_count = PARAM_COUNT(passes),
-    .surface = &(const surface_row){.shader = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes},
+    .surface = &(const surface_row){.shader = "surface/dots.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .needs = halftone_needs},
 };

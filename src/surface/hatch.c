@@ -39,5 +39,5 @@ static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_hatch = {
     .name = "hatch", .doc = "Hatching that stays as dense and as wide at any zoom, by the number or the width of its lines.", .example = "{\"surface\": {\"technique\": \"hatch\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(hatch), .passes = passes, .pass_count = PARAM_COUNT(passes),
-    .surface = &(const surface_row){.shader = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes},
+    .surface = &(const surface_row){.shader = "surface/hatch.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .needs = halftone_needs},
 };

@@ -79,20 +79,20 @@ static lmn_status make_tiled(marks *out, const mark_surface *surface, const surf
     if (pattern == PATTERN_COUNT)
         status = strokes_load(&texture, v->strokes.text, error);
     else
-        status = strokes_generate(&texture, &(pattern_wishes){.pattern = pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed}, error);
+        status = strokes_generate(&texture, &(pattern_options){.pattern = pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed}, error);
     double squares = area_of_uvs(surface), often = squares > 0 && texture.count > 0 ? sqrt(v->common.count / (squares * (double)texture.count)) : 1;
-    tile_wishes wishes = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1), .jitter = v->jitter, .seed = (uint32_t)v->common.pattern_seed};
+    tile_options options = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1), .jitter = v->jitter, .seed = (uint32_t)v->common.pattern_seed};
     if (status == LMN_OK)
-        status = marks_tile(out, surface, &texture, &wishes, error);
+        status = marks_tile(out, surface, &texture, &options, error);
     strokes_release(&texture);
     return status;
 }
 
 static lmn_status make_traced(marks *out, const mark_surface *surface, double extent, size_t count, const surface_strokes_values *v, lmn_error *error)
 {
-    trace_wishes wishes = {.count = count, .length = extent * (double)v->length, .uneven = v->uneven, .series = v->series,
+    trace_options options = {.count = count, .length = extent * (double)v->length, .uneven = v->uneven, .series = v->series,
                            .turn = v->turn * (3.14159265f / 180), .bends = v->placed != PLACED_PLANES, .seed = (uint32_t)v->common.pattern_seed};
-    return marks_trace(out, surface, &wishes, error);
+    return marks_trace(out, surface, &options, error);
 }
 
 /* Some of a surface's triangles. */

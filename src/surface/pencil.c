@@ -59,10 +59,10 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
 {
     const pencil_values *v = values;
     const double darkest = is_gradation(v) ? 0.9 : 0.82;
-    const tam_wishes wishes = {.side = SIDE, .tones = TONES, .darkest = darkest, .width = (double)v->width, .length = (double)v->length,
+    const tam_options options = {.side = SIDE, .tones = TONES, .darkest = darkest, .width = (double)v->width, .length = (double)v->length,
                                .opacity = (double)v->opacity * (is_gradation(v) ? 0.5 : 1), .cross = v->cross, .uneven = is_gradation(v) ? 0.6f : 0.3f, .placement = TAM_BEST_FIT,
                                .seed = (uint32_t)v->map_seed};
-    lmn_status status = tonal_art_map(out, NULL, &wishes, error);
+    lmn_status status = tonal_art_map(out, NULL, &options, error);
     out->fact = (float)darkest; /* which the shader tells tones by */
     return status;
 }
@@ -82,5 +82,5 @@ static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_pencil = {
     .name = "pencil", .doc = "Pencil strokes along the form, gone over several times.", .example = "{\"surface\": {\"technique\": \"pencil\", \"gloss\": 0.2}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(pencil_values), .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures), .numbers = numbers_of,
-    .surface = &(const surface_row){.shader = "surface/pencil.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes},
+    .surface = &(const surface_row){.shader = "surface/pencil.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .needs = halftone_needs},
 };

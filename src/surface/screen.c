@@ -59,5 +59,5 @@ static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_screen = {
     .name = "screen", .doc = "A halftone screen on the surface: strokes, dots or a painted texture that come and go with the tone.", .example = "{\"surface\": {\"technique\": \"screen\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(screen_values), .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures),
-    .surface = &(const surface_row){.shader = "surface/screen.glsl", .direct = true, .light_map_when = "whole&coordinates=uv", .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes, .by_material = screen_by_material},
+    .surface = &(const surface_row){.shader = "surface/screen.glsl", .direct = true, .light_map_when = "whole&coordinates=uv", .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .needs = halftone_needs, .by_material = screen_by_material},
 };

@@ -142,7 +142,7 @@ static lmn_status strokes_of(strokes *out, const screen_values *v, int frame, lm
     int pattern = index_in(stroke_pattern_names, name_of(v));
     if (pattern < 0)
         return strokes_load(out, name_of(v), error);
-    return strokes_generate(out, &(pattern_wishes){.pattern = (stroke_pattern)pattern, .uneven = 0.5f, .seed = (uint32_t)(v->pattern_seed * 16 + frame)}, error);
+    return strokes_generate(out, &(pattern_options){.pattern = (stroke_pattern)pattern, .uneven = 0.5f, .seed = (uint32_t)(v->pattern_seed * 16 + frame)}, error);
 }
 
 /* Side of the square over the mean distance of its strokes. */
@@ -158,32 +158,32 @@ static double strokes_across(const strokes *s)
 }
 
 /* As many texels as the square has pixels on the page, about, so that strokes can be drawn as wide as they are wanted. */
-static screen_wishes wishes_of(const screen_values *v, const strokes *s)
+static screen_options options_of(const screen_values *v, const strokes *s)
 {
     double pixels = (double)v->scale * strokes_across(s);
     int side = SIDE_LEAST;
     while (side < SIDE_MOST && side < pixels * 0.75)
         side *= 2;
-    return (screen_wishes){.side = side, .brush = {.width = fmax((double)v->width * side / pixels, 0.5), .taper = 0.15},
+    return (screen_options){.side = side, .brush = {.width = fmax((double)v->width * side / pixels, 0.5), .taper = 0.15},
                            .detail = (screen_detail)v->detail, .equalised = v->equalised && v->scheme != SCHEME_MULTIPLY};
 }
 
-typedef lmn_status (*strokes_to_chain)(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error);
+typedef lmn_status (*strokes_to_chain)(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error);
 
-static lmn_status to_screen(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error)
+static lmn_status to_screen(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error)
 {
-    return v->scheme == SCHEME_MULTIPLY ? screen_ink_map(out, s, wishes, error) : screen_of_strokes(out, s, wishes, error);
+    return v->scheme == SCHEME_MULTIPLY ? screen_ink_map(out, s, options, error) : screen_of_strokes(out, s, options, error);
 }
 
-static lmn_status to_relief(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error)
+static lmn_status to_relief(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error)
 {
-    return screen_normals(out, s, wishes, (double)v->relief, error);
+    return screen_normals(out, s, options, (double)v->relief, error);
 }
 
-static lmn_status to_warp(mip_chain *out, const strokes *s, const screen_wishes *wishes, const screen_values *v, lmn_error *error)
+static lmn_status to_warp(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error)
 {
     (void)v;
-    return screen_warp(out, s, wishes, error);
+    return screen_warp(out, s, options, error);
 }
 
 /* Puts chains of one layer that are alike into one of several; takes them over. */
@@ -210,16 +210,16 @@ static lmn_status make_of_strokes(mip_chain *out, const screen_values *v, stroke
     mip_chain parts[FRAMES_MAX] = {{0}};
     bool pattern = index_in(stroke_pattern_names, name_of(v)) >= 0;
     int count = pattern ? v->frames : 1;
-    screen_wishes wishes = {0};
+    screen_options options = {0};
     lmn_status status = LMN_OK;
     for (int i = 0; i < count && status == LMN_OK; i++) {
         strokes s = {0};
         status = strokes_of(&s, v, i, error);
         if (status == LMN_OK && i == 0)
-            wishes = wishes_of(v, &s);
+            options = options_of(v, &s);
         if (status == LMN_OK)
-            status = convert(&parts[i], &s, &wishes, v, error);
-        parts[i].fact = (float)(wishes.side / strokes_across(&s));
+            status = convert(&parts[i], &s, &options, v, error);
+        parts[i].fact = (float)(options.side / strokes_across(&s));
         strokes_release(&s);
     }
     if (status == LMN_OK)

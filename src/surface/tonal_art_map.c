@@ -68,7 +68,7 @@ static lmn_status check_strokes(const char *name, lmn_error *error)
 static lmn_status make_dots(strokes *out, const tonal_art_map_values *v, lmn_error *error)
 {
     double dot = 0.785 * (double)v->width * (double)v->width, needed = -log(1 - (double)v->darkest) * SIDE * SIDE / dot;
-    return strokes_generate(out, &(pattern_wishes){.pattern = PATTERN_STIPPLE, .count = (size_t)(1.5 * needed / (double)v->opacity), .uneven = v->uneven, .seed = (uint32_t)v->map_seed}, error);
+    return strokes_generate(out, &(pattern_options){.pattern = PATTERN_STIPPLE, .count = (size_t)(1.5 * needed / (double)v->opacity), .uneven = v->uneven, .seed = (uint32_t)v->map_seed}, error);
 }
 
 static void describe(text *out, const void *values)
@@ -88,13 +88,13 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
     const tonal_art_map_values *v = values;
     const char                 *name = v->strokes.text;
     strokes                     drawn = {.width = 1};
-    tam_wishes wishes = {.side = SIDE, .tones = v->tones, .darkest = (double)v->darkest, .width = (double)v->width, .length = (double)v->length,
+    tam_options options = {.side = SIDE, .tones = v->tones, .darkest = (double)v->darkest, .width = (double)v->width, .length = (double)v->length,
                          .opacity = (double)v->opacity, .cross = v->cross, .grain = (double)v->grain, .uneven = v->uneven,
                          .placement = (tam_placement)v->placement, .drawn = name[0] ? &drawn : NULL, .seed = (uint32_t)v->map_seed};
     memset(out, 0, sizeof *out);
     lmn_status status = !name[0] ? LMN_OK : strcmp(name, dots_name) == 0 ? make_dots(&drawn, v, error) : strokes_load(&drawn, name, error);
     if (status == LMN_OK)
-        status = tonal_art_map(out, NULL, &wishes, error);
+        status = tonal_art_map(out, NULL, &options, error);
     out->fact = (float)v->darkest; /* which the shader tells tones by */
     strokes_release(&drawn);
     return status;
@@ -106,5 +106,5 @@ static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_tonal_art_map = {
     .name = "tonal-art-map", .doc = "Hatched tones that hold each other's strokes, made once and laid on the surface.", .example = "{\"surface\": {\"technique\": \"tonal-art-map\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(tonal_art_map_values), .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures),
-    .surface = &(const surface_row){.shader = "surface/tonal_art_map.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .wishes = halftone_wishes},
+    .surface = &(const surface_row){.shader = "surface/tonal_art_map.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .needs = halftone_needs},
 };

@@ -52,10 +52,10 @@ typedef struct pass {
 } pass;
 
 /* What a technique wants meshes to have besides positions and normals. */
-typedef struct mesh_wishes {
+typedef struct mesh_needs {
     bool  field;  /* the way surfaces bend */
     float patch;  /* radius of patches that cover them, share of a mesh's diagonal; 0: none */
-} mesh_wishes;
+} mesh_needs;
 
 struct pass;
 
@@ -98,7 +98,7 @@ typedef struct mark_source {
 } mark_source;
 
 struct layering;
-struct stroke_wishes;
+struct stroke_options;
 
 /* What a surface technique is beside its passes. */
 typedef struct surface_row {
@@ -109,7 +109,7 @@ typedef struct surface_row {
     const char  *light_map_when; /* condition under which it wants t_light_map, the light (its function light_of) laid out by texture coordinates */
     const char  *forward_when;   /* the same as `forward` under this condition on its parameters; NULL: never */
     const char  *deferred_when;  /* condition under which it is shaded from the G-buffer wherever that can be; NULL: as the layers say */
-    mesh_wishes (*wishes)(const void *values); /* NULL: nothing */
+    mesh_needs (*needs)(const void *values); /* NULL: nothing */
     /* Changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all materials are alike. NULL:
      * always so. */
     bool       (*by_material)(void *values, const char *strokes);
@@ -124,7 +124,7 @@ typedef struct lines_row {
     const char *detect;  /* of one pass: GLSL file with `void detect_edges()`; NULL: others */
     bool        own_ink; /* compositions get its own parameters too, with which it is inked */
     /* As vectors, lengths in pixels: which strokes and how they look; NULL: lines_as_strokes. */
-    void      (*as_strokes)(struct stroke_wishes *wishes, struct stroke_style *style, const void *values);
+    void      (*as_strokes)(struct stroke_options *options, struct stroke_style *style, const void *values);
 } lines_row;
 
 /* What a composition is. */

@@ -210,9 +210,9 @@ static float settle_pen(technique_use *surface)
 
 lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error)
 {
-    const technique_use *asked = m->wishes.surface;
+    const technique_use *asked = m->options.surface;
     technique_use        surface = {asked->technique, mem_copy(asked->values, asked->technique->params_size)};
-    mark_page_wishes     wishes = m->wishes;
+    mark_page_options     options = m->options;
     marks_page           page = {.dots = NULL};
     mark_values         *common = surface.values;
     if (!common)
@@ -220,10 +220,10 @@ lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *e
     if (isnan(common->paper.r))
         common->paper = m->ground;
     float pen_width = m->one_pen ? settle_pen(&surface) : 0;
-    wishes.surface = &surface;
-    wishes.hidden = count_in_front;
-    wishes.user = (void *)(uintptr_t)m->view;
-    lmn_status  status = marks_on_page(&page, &wishes, error);
+    options.surface = &surface;
+    options.hidden = count_in_front;
+    options.user = (void *)(uintptr_t)m->view;
+    lmn_status  status = marks_on_page(&page, &options, error);
     mark_writer w = {.ink = ink, .page = &page, .pen_width = pen_width, .name = "dots", .group = -1, .pen = {.how = ink}};
     bool        good = status != LMN_OK || put_dots(&w);
     w.name = "marks";

@@ -20,7 +20,7 @@ static colour or_else(colour c, colour otherwise)
 }
 
 /* Lines behind other surfaces: as the composition of layers has them. */
-static void take_layers(stroke_wishes *wishes, stroke_style *style, const rule *r)
+static void take_layers(stroke_options *options, stroke_style *style, const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
     if (!compose || !compose->technique->compose->layered) {
@@ -41,7 +41,7 @@ static void take_layers(stroke_wishes *wishes, stroke_style *style, const rule *
     style->halo = fmaxf(style->halo, behind->halo);
     if (how.several && how.count == 1)
         style->hidden = HIDDEN_NONE;
-    wishes->hidden = style->hidden != HIDDEN_NONE;
+    options->hidden = style->hidden != HIDDEN_NONE;
 }
 
 static void take_hand(stroke_style *style, const rule *r)
@@ -68,22 +68,22 @@ static const technique_use *lines_of(const rule *r)
     return rule_use(r, KIND_LINES);
 }
 
-bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *style)
+bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style)
 {
     const technique_use *lines = lines_of(r);
-    *wishes = (stroke_wishes)STROKE_WISHES_INIT;
+    *options = (stroke_options)STROKE_OPTIONS_INIT;
     *style = (stroke_style){.width = 2, .crease_width = 1, .wobble_length = 60, .repeats = 1, .gap = 4, .hidden = HIDDEN_NONE, .hidden_fade = 1, .hidden_gap = 4};
     if (!lines)
         return false;
-    (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(wishes, style, lines->values);
+    (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(options, style, lines->values);
     if (draws_strokes(lines->technique)) {
         if (!(style->wobble > 0))
             take_hand(style, r);
         return true;
     }
-    take_layers(wishes, style, r);
+    take_layers(options, style, r);
     take_hand(style, r);
-    return wishes->contours != CONTOURS_NONE || wishes->creases || wishes->borders;
+    return options->contours != CONTOURS_NONE || options->creases || options->borders;
 }
 
 /* --- surfaces ------------------------------------------------------------------------------------------------------------ */

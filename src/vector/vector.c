@@ -63,20 +63,20 @@ static refusal refusal_of(const vector_job *j, lmn_error *error)
 /* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they lack. */
 static bool lacks_solids(const vector_job *j, const rule *r)
 {
-    stroke_wishes wishes;
+    stroke_options options;
     stroke_style  style;
-    return !j->pixels || vector_rule_strokes(r, &wishes, &style) || vector_rule_marks(r);
+    return !j->pixels || vector_rule_strokes(r, &options, &style) || vector_rule_marks(r);
 }
 
 /* Which parts are drawn, by which rules. Solids have no strokes. */
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene  *scene = j->scene;
-    const plan_wishes wishes = {.select = j->desc->select, .background = j->desc->background, .parts_only = true};
+    const plan_options options = {.select = j->desc->select, .background = j->desc->background, .parts_only = true};
     size_t            solids = 0;
     lmn_status        status = pose_create(&j->pose, scene, error);
     if (status == LMN_OK)
-        status = plan_create(&j->plan, &j->pose, j->look, &wishes, &j->out->warnings, error);
+        status = plan_create(&j->plan, &j->pose, j->look, &options, &j->out->warnings, error);
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
         bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
         solids += solid && plan_rule(&j->plan, i) && lacks_solids(j, plan_rule(&j->plan, i));
@@ -324,7 +324,7 @@ static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vecto
     if (!parts)
         return error_memory(error);
     vector_marks m = {.view = view, .ground = j->plan.ground, .one_pen = j->wanted->plotter, .part_marks = j->out->part_marks,
-                      .wishes = {.pose = &j->pose, .look = j->look, .parts = parts, .part_count = j->scene->part_count, .crease_angle = j->plan.crease_angle,
+                      .options = {.pose = &j->pose, .look = j->look, .parts = parts, .part_count = j->scene->part_count, .crease_angle = j->plan.crease_angle,
                                  .surface = surface, .camera = &v->camera, .width = v->width, .height = v->height}};
     lmn_status status = LMN_OK;
     if (!report_part(0, "marks", j))
@@ -344,9 +344,9 @@ static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule 
     for (size_t i = 0; i < set->stroke_count; i++) {
         const stroke *s = &set->strokes[i];
         const rule   *owner = s->kind == STROKE_INTERSECTION && s->part > 0 && s->part <= j->scene->part_count ? plan_rule(&j->plan, s->part - 1) : r;
-        stroke_wishes wishes = {.intersections = false};
+        stroke_options options = {.intersections = false};
         stroke_style  style;
-        if (owner != r && owner && vector_rule_strokes(owner, &wishes, &style) && wishes.intersections)
+        if (owner != r && owner && vector_rule_strokes(owner, &options, &style) && options.intersections)
             continue;
         set->strokes[kept++] = *s;
     }
@@ -356,17 +356,17 @@ static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule 
 /* The strokes of one rule's parts, as ribbons. */
 static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
 {
-    stroke_wishes wishes;
+    stroke_options options;
     stroke_style  style;
     stroke_set    set = {0};
     size_t        count = 0;
     *out = (ribbon_set){0};
-    if (!vector_rule_strokes(r, &wishes, &style))
+    if (!vector_rule_strokes(r, &options, &style))
         return LMN_OK;
     bool *parts = parts_of(j, r, &count);
     if (!parts)
         return error_memory(error);
-    lmn_status status = count ? stroke_find(&set, view, &wishes, parts, report_part, j, error) : LMN_OK;
+    lmn_status status = count ? stroke_find(&set, view, &options, parts, report_part, j, error) : LMN_OK;
     mem_free(parts);
     keep_own_crossings(j, &set, r);
     if (status == LMN_OK)
@@ -446,12 +446,12 @@ static lmn_status make_scene(vector_job *j, lmn_error *error)
     int32_t refine = 0;
     bool    bends = false;
     for (size_t i = 0; i < j->scene->part_count; i++) {
-        stroke_wishes wishes;
+        stroke_options options;
         stroke_style  style;
-        if (!j->stroked[i] || !vector_rule_strokes(plan_rule(&j->plan, i), &wishes, &style))
+        if (!j->stroked[i] || !vector_rule_strokes(plan_rule(&j->plan, i), &options, &style))
             continue;
-        refine = wishes.refine > refine ? wishes.refine : refine;
-        bends = bends || stroke_wishes_bend(&wishes);
+        refine = options.refine > refine ? options.refine : refine;
+        bends = bends || stroke_options_bend(&options);
     }
     lmn_status status = stroke_scene_create_refined(&j->strokes, &j->pose, j->stroked, crease, refine, report_part, j, error);
     if (status == LMN_OK && bends)

@@ -43,7 +43,7 @@ double vector_place_views(const vector_layout *how, vector_view *views, size_t c
 /* --- vector_style.c: looks as strokes --------------------------------------------------------------------------------- */
 
 /* How the lines of a rule are drawn as strokes; false: it has none. */
-bool vector_rule_strokes(const rule *r, stroke_wishes *wishes, stroke_style *style);
+bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style);
 bool vector_rule_needs_pixels(const rule *r, colour ground);
 /* The colour that fills a part's area: the surface's own, the material's else. Linear. */
 colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index);
@@ -74,9 +74,9 @@ void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, 
 
 /* The surface of a rule whose marks are drawn; NULL: it has none. */
 const technique_use *vector_rule_marks(const rule *r);
-/* Puts what is drawn of a rule's marks into groups of their own, one for each part. `wishes` says what and in which view; its surface may leave the paper to the ground, and who hides what is `view`. */
+/* Puts what is drawn of a rule's marks into groups of their own, one for each part. `options` says what and in which view; its surface may leave the paper to the ground, and who hides what is `view`. */
 typedef struct vector_marks {
-    mark_page_wishes   wishes;
+    mark_page_options   options;
     const stroke_view *view;
     colour             ground;        /* of the page, sRGB */
     bool               one_pen;       /* for plotters: all as wide as the look says, each on its own */

@@ -116,9 +116,9 @@ static void add_primitive(lmn_scene *s, primitive *p)
     primitive_release(p);
 }
 
-static stroke_wishes only(int contours)
+static stroke_options only(int contours)
 {
-    stroke_wishes w = STROKE_WISHES_INIT;
+    stroke_options w = STROKE_OPTIONS_INIT;
     w.contours = contours;
     w.creases = w.borders = w.materials = w.intersections = 0;
     w.simplify = 0;
@@ -141,7 +141,7 @@ typedef struct form_shot {
     stroke_set   set;
 } form_shot;
 
-static form_shot take(lmn_scene *s, stroke_camera camera, stroke_wishes wishes)
+static form_shot take(lmn_scene *s, stroke_camera camera, stroke_options options)
 {
     form_shot out = {.source = s, .scene = mem_alloc(sizeof *out.scene)};
     lmn_error error = {0};
@@ -149,10 +149,10 @@ static form_shot take(lmn_scene *s, stroke_camera camera, stroke_wishes wishes)
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
     assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
-    assert_int_equal(stroke_scene_create_refined(out.scene, &at_rest, NULL, 100 * field_pi / 180, wishes.refine, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_scene_create_refined(out.scene, &at_rest, NULL, 100 * field_pi / 180, options.refine, NULL, NULL, &error), LMN_OK);
     pose_release(&at_rest);
     assert_int_equal(stroke_view_create(&out.view, out.scene, &camera, NULL, NULL, &error), LMN_OK);
-    assert_int_equal(stroke_find(&out.set, out.view, &wishes, NULL, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_find(&out.set, out.view, &options, NULL, NULL, NULL, &error), LMN_OK);
     return out;
 }
 
@@ -213,7 +213,7 @@ static void outlines_of_convex_bodies_are_whole(void **state)
             if (shape < 5)
                 add_primitive(s, &p);
             stroke_camera c = camera_number(i, i % 2);
-            stroke_wishes w = only(CONTOURS_SMOOTH);
+            stroke_options w = only(CONTOURS_SMOOTH);
             w.hidden = true;
             form_shot f = take(s, c, w);
             if (f.set.stroke_count != 1 || f.set.strokes[0].hidden_by || !f.set.strokes[0].closed)
@@ -275,7 +275,7 @@ static void outlines_of_a_torus_are_hidden_where_it_hides_them(void **state)
         primitive p = grid_surface(torus_at, 96, 32, true, true, 0.25 * (i % 3));
         add_primitive(s, &p);
         stroke_camera c = camera_number(i + 50, i % 2);
-        stroke_wishes w = only(CONTOURS_SMOOTH);
+        stroke_options w = only(CONTOURS_SMOOTH);
         w.hidden = true;
         form_shot f = take(s, c, w);
         for (size_t n = 0; n < f.set.stroke_count; n++) {
@@ -324,7 +324,7 @@ static void every_body_has_its_own_fold(void **state)
             add_primitive(s, &p);
         }
         stroke_camera c = look_along(0.1 * i, 1, -0.4, origin, 20, i % 2 ? 5 : 0.25, i % 2, PAGE, PAGE);
-        stroke_wishes w = only(CONTOURS_SMOOTH);
+        stroke_options w = only(CONTOURS_SMOOTH);
         w.hidden = true;
         w.suggestive = 0.02f;
         form_shot f = take(s, c, w);
@@ -345,7 +345,7 @@ static void hollow_outlines_are_hidden(void **state)
         primitive p = grid_surface(torus_at, 96, 32, true, true, 0.25 * (i % 3));
         add_primitive(s, &p);
         stroke_camera c = camera_number(i + 50, i % 2);
-        stroke_wishes w = only(CONTOURS_SMOOTH);
+        stroke_options w = only(CONTOURS_SMOOTH);
         w.hidden = true;
         form_shot f = take(s, c, w);
         for (size_t n = 0; n < f.set.stroke_count; n++)
@@ -389,7 +389,7 @@ static void lines_of_form_agree_with_rays(void **state)
     lmn_scene *s = stroke_scene_begin();
     primitive p = grid_surface(torus_at, 60, 24, true, true, 0.5);
     add_primitive(s, &p);
-    stroke_wishes w = only(CONTOURS_SMOOTH);
+    stroke_options w = only(CONTOURS_SMOOTH);
     w.ridges = w.valleys = w.suggestive = w.apparent = 0.1f;
     w.hidden = true;
     form_shot f = take(s, camera_number(3, false), w);
@@ -449,7 +449,7 @@ static void outlines_end_at_creases(void **state)
         pose at_rest;
     assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
         form_shot f = {.source = s, .scene = mem_alloc(sizeof *f.scene)};
-        stroke_wishes w = only(CONTOURS_SMOOTH);
+        stroke_options w = only(CONTOURS_SMOOTH);
         assert_int_equal(stroke_scene_create(f.scene, &at_rest, NULL, 70 * field_pi / 180, NULL, NULL, &error), LMN_OK);
         pose_release(&at_rest);
         assert_int_equal(stroke_view_create(&f.view, f.scene, &c, NULL, NULL, &error), LMN_OK);
@@ -524,7 +524,7 @@ static void suggestive_contours_of_a_torus(void **state)
         add_primitive(s, &p);
         const double ways[4][3] = {{0.3, 0.2, -1}, {1, 0.3, -1}, {0, 1, -0.7}, {1, 1, -2}};
         stroke_camera c = look_along(ways[i / 2][0], ways[i / 2][1], ways[i / 2][2], origin, 20, i % 4 < 2 ? 5 : 0.25, i % 4 < 2, PAGE, PAGE);
-        stroke_wishes w = only(CONTOURS_NONE);
+        stroke_options w = only(CONTOURS_NONE);
         w.suggestive = 0.02f;
         w.shortest = 0.01f; /* crumbs as well */
         form_shot f = take(s, c, w);
@@ -571,7 +571,7 @@ static void crumbs_are_left_out(void **state)
         lmn_scene *s = stroke_scene_begin();
         primitive p = grid_surface(torus_at, 60, 24, true, true, 0.5);
         add_primitive(s, &p);
-        stroke_wishes w = only(CONTOURS_NONE);
+        stroke_options w = only(CONTOURS_NONE);
         w.ridges = w.valleys = w.suggestive = 0.1f;
         w.shortest = i ? 0.01f : 1;
         form_shot f = take(s, camera_number(3, true), w);
@@ -596,7 +596,7 @@ static void ellipsoids_have_no_suggestive_contours(void **state)
         lmn_scene *s = stroke_scene_begin();
         primitive p = i % 2 ? ball(24, 0.5, (place3){3, 2, 1.5}) : grid_surface(ellipsoid_at, 64, 32, true, false, 0);
         add_primitive(s, &p);
-        stroke_wishes w = only(CONTOURS_NONE);
+        stroke_options w = only(CONTOURS_NONE);
         w.suggestive = 0.02f;
         form_shot f = take(s, camera_number(i, i < 4), w);
         assert_int_equal(f.set.stroke_count, 0);
@@ -625,7 +625,7 @@ static void a_bump_has_a_crest_and_two_feet(void **state)
             primitive p = grid_surface(bump_at, 90, 40, false, false, 0.4 * jitter);
             add_primitive(s, &p);
             stroke_camera c = look_along(0.2, 0.1, -1, origin, 20, 5, true, PAGE, PAGE);
-            stroke_wishes w = only(CONTOURS_NONE);
+            stroke_options w = only(CONTOURS_NONE);
             w.ridges = wanted ? 0 : 0.2f;
             w.valleys = wanted ? 0.2f : 0;
             form_shot f = take(s, c, w);
@@ -655,7 +655,7 @@ static void apparent_ridges_seen_from_above(void **state)
     primitive p = grid_surface(bump_at, 90, 40, false, false, 0);
     add_primitive(s, &p);
     stroke_camera c = look_along(0, 0, -1, origin, 20, 5, true, PAGE, PAGE);
-    stroke_wishes w = only(CONTOURS_NONE);
+    stroke_options w = only(CONTOURS_NONE);
     w.apparent = 0.15f;
     form_shot f = take(s, c, w);
     double crest = 0;
@@ -699,7 +699,7 @@ static void curves_agree_with_refined_surfaces(void **state)
     double most = 0;
     for (uint32_t i = 0; i < 6; i++) {
         stroke_camera c = camera_number(i, true);
-        stroke_wishes w = only(CONTOURS_SMOOTH), finer = w;
+        stroke_options w = only(CONTOURS_SMOOTH), finer = w;
         w.refine = 2;
         w.curve = 3;
         finer.refine = 4;
@@ -730,7 +730,7 @@ static void rims_become_round_either_way(void **state)
         }
         lmn_scene *s = stroke_scene_begin();
         add_primitive(s, &p);
-        stroke_wishes w = only(CONTOURS_EDGES);
+        stroke_options w = only(CONTOURS_EDGES);
         w.borders = true;
         w.refine = i ? 3 : 0;
         w.curve = i ? 0 : 3;
@@ -754,7 +754,7 @@ static void corners_stay_corners(void **state)
     for (int i = 0; i < 2; i++) {
         lmn_scene *s = stroke_scene_begin();
         add_box(s, -3, -2, -1, 3, 2, 1);
-        stroke_wishes w = STROKE_WISHES_INIT;
+        stroke_options w = STROKE_OPTIONS_INIT;
         w.curve = 4 * i;
         w.hidden = true;
         stroke_camera c = look_along(0.5, 1, -0.7, origin, 20, 5, true, PAGE, PAGE);
@@ -783,7 +783,7 @@ static void corners_stay_corners(void **state)
         }
         lmn_scene *s = stroke_scene_begin();
         add_part(s, places, 12, corners, at);
-        stroke_wishes w = STROKE_WISHES_INIT;
+        stroke_options w = STROKE_OPTIONS_INIT;
         w.curve = 4 * i;
         stroke_shot f = shoot(s, look_along(0.5, 1, -0.7, origin, 20, 5, true, PAGE, PAGE), w);
         count_strokes(&f.set, STROKE_CLASS_COUNT, -1, &lengths[i]);
@@ -798,7 +798,7 @@ static void memory_may_run_out(void **state)
     lmn_scene *s = stroke_scene_begin();
     primitive p = grid_surface(torus_at, 16, 8, true, true, 0);
     add_primitive(s, &p);
-    stroke_wishes w = only(CONTOURS_SMOOTH);
+    stroke_options w = only(CONTOURS_SMOOTH);
     w.suggestive = w.ridges = w.valleys = w.apparent = 0.1f;
     w.curve = 2;
     form_shot f = take(s, camera_number(2, false), w);

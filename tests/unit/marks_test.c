@@ -238,10 +238,10 @@ static void test_odd_surfaces(void **state)
         assert_int_equal(marks_stipple(&m, both[i], 100, 1, &error), LMN_OK);
         assert_int_equal(m.dot_count, 0);
         surface_marks_release(&m);
-        assert_int_equal(marks_tile(&m, both[i], &texture, &(tile_wishes){.repeat = 1}, &error), LMN_OK);
+        assert_int_equal(marks_tile(&m, both[i], &texture, &(tile_options){.repeat = 1}, &error), LMN_OK);
         assert_int_equal(m.line_count, 0);
         surface_marks_release(&m);
-        assert_int_equal(marks_trace(&m, both[i], &(trace_wishes){.count = 10, .length = 1, .series = 1, .bends = true}, &error), LMN_OK);
+        assert_int_equal(marks_trace(&m, both[i], &(trace_options){.count = 10, .length = 1, .series = 1, .bends = true}, &error), LMN_OK);
         assert_int_equal(m.line_count, 0);
         surface_marks_release(&m);
     }
@@ -251,9 +251,9 @@ static void test_odd_surfaces(void **state)
     assert_int_equal(m.dot_count, 1);
     surface_marks_release(&m);
     uvs[2] = (vec2){1e9f, 1e9f};
-    assert_int_equal(marks_tile(&m, &flat, &texture, &(tile_wishes){.repeat = 1}, &error), LMN_LIMIT);
+    assert_int_equal(marks_tile(&m, &flat, &texture, &(tile_options){.repeat = 1}, &error), LMN_LIMIT);
     flat.uvs = NULL;
-    assert_int_equal(marks_tile(&m, &flat, &texture, &(tile_wishes){.repeat = 1}, &error), LMN_USAGE);
+    assert_int_equal(marks_tile(&m, &flat, &texture, &(tile_options){.repeat = 1}, &error), LMN_USAGE);
     strokes_release(&texture);
 }
 
@@ -300,7 +300,7 @@ static void test_tiling(void **state)
     for (int k = 0; k < 3; k++) {
         sheet s = make_sheet(cells[k], 2, 2, 3, false);
         marks m;
-        assert_int_equal(marks_tile(&m, &s.surface, &texture, &(tile_wishes){.repeat = 1}, NULL), LMN_OK);
+        assert_int_equal(marks_tile(&m, &s.surface, &texture, &(tile_options){.repeat = 1}, NULL), LMN_OK);
         assert_near(m.line_length / wanted, 1, 1e-4);
         if (k == 0)
             stroke_count = m.stroke_count;
@@ -349,7 +349,7 @@ static void test_along_an_edge(void **state)
         for (int i = 0; mirrored && i < 9; i++)
             s.uvs[i].x = 1 - s.uvs[i].x;
         marks m;
-        assert_int_equal(marks_tile(&m, &s.surface, &texture, &(tile_wishes){.repeat = 1}, NULL), LMN_OK);
+        assert_int_equal(marks_tile(&m, &s.surface, &texture, &(tile_options){.repeat = 1}, NULL), LMN_OK);
         assert_near(m.line_length, sqrt(0.5) + 0.8, 1e-5);
         assert_int_equal(m.stroke_count, 2);
         surface_marks_release(&m);
@@ -365,10 +365,10 @@ static void test_indication(void **state)
     sheet s = make_sheet(4, 1, 1, 4, false);
     marks plain, same, stepped;
     const float grey[4] = {0.5f, 0.5f, 0.5f, 0.5f}, step[4] = {0, 1, 0, 1}; /* more on the left, fewer on the right */
-    tile_wishes wishes = {.repeat = 1}, on_grey = {.repeat = 1, .indication = grey, .indication_width = 2, .indication_height = 2, .indication_strength = 0.6f};
-    tile_wishes on_step = on_grey;
+    tile_options options = {.repeat = 1}, on_grey = {.repeat = 1, .indication = grey, .indication_width = 2, .indication_height = 2, .indication_strength = 0.6f};
+    tile_options on_step = on_grey;
     on_step.indication = step;
-    assert_int_equal(marks_tile(&plain, &s.surface, &texture, &wishes, NULL), LMN_OK);
+    assert_int_equal(marks_tile(&plain, &s.surface, &texture, &options, NULL), LMN_OK);
     assert_int_equal(marks_tile(&same, &s.surface, &texture, &on_grey, NULL), LMN_OK);
     assert_int_equal(marks_tile(&stepped, &s.surface, &texture, &on_step, NULL), LMN_OK);
     assert_int_equal(plain.line_count, same.line_count);
@@ -401,8 +401,8 @@ static void test_jitter(void **state)
     strokes texture = some_strokes(100);
     sheet s = make_sheet(6, 1, 1, 6, false);
     marks plain, moved, again;
-    tile_wishes wishes = {.repeat = 1}, jittered = {.repeat = 1, .jitter = 0.1f, .seed = 4};
-    assert_int_equal(marks_tile(&plain, &s.surface, &texture, &wishes, NULL), LMN_OK);
+    tile_options options = {.repeat = 1}, jittered = {.repeat = 1, .jitter = 0.1f, .seed = 4};
+    assert_int_equal(marks_tile(&plain, &s.surface, &texture, &options, NULL), LMN_OK);
     assert_int_equal(marks_tile(&moved, &s.surface, &texture, &jittered, NULL), LMN_OK);
     assert_int_equal(marks_tile(&again, &s.surface, &texture, &jittered, NULL), LMN_OK);
     assert_near(moved.line_length / plain.line_length, 1, 0.01); /* as much ink */
@@ -439,8 +439,8 @@ static void test_trace(void **state)
     sheet s = make_sheet(24, 1.2, 1.2, 1, true);
     for (int bends = 0; bends < 2; bends++) {
         marks m;
-        trace_wishes wishes = {.count = 600, .length = 0.1, .uneven = 0, .series = 2, .turn = 1, .bends = bends, .seed = 1};
-        assert_int_equal(marks_trace(&m, &s.surface, &wishes, NULL), LMN_OK);
+        trace_options options = {.count = 600, .length = 0.1, .uneven = 0, .series = 2, .turn = 1, .bends = bends, .seed = 1};
+        assert_int_equal(marks_trace(&m, &s.surface, &options, NULL), LMN_OK);
         assert_true(m.stroke_count > 590 && m.stroke_count <= 600);
         size_t whole = 0;
         for (size_t i = 0; i < m.line_count; i++) {
@@ -476,8 +476,8 @@ static void test_memory(void **state)
             lmn_error error;
             mem_fail_at(n);
             lmn_status status = what == 0   ? marks_stipple(&m, &s.surface, 200, 1, &error)
-                                : what == 1 ? marks_tile(&m, &s.surface, &texture, &(tile_wishes){.repeat = 1}, &error)
-                                            : marks_trace(&m, &s.surface, &(trace_wishes){.count = 50, .length = 0.2, .series = 2, .bends = true}, &error);
+                                : what == 1 ? marks_tile(&m, &s.surface, &texture, &(tile_options){.repeat = 1}, &error)
+                                            : marks_trace(&m, &s.surface, &(trace_options){.count = 50, .length = 0.2, .series = 2, .bends = true}, &error);
             mem_fail_at(0);
             failed = status != LMN_OK;
             assert_true(!failed || status == LMN_MEMORY);

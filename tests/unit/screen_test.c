@@ -52,9 +52,9 @@ static strokes random_strokes(size_t count, double length, double slope)
     return s;
 }
 
-static screen_wishes wishes_of(int side, double width, bool equalised)
+static screen_options options_of(int side, double width, bool equalised)
 {
-    return (screen_wishes){.side = side, .brush = {.width = width}, .equalised = equalised};
+    return (screen_options){.side = side, .brush = {.width = width}, .equalised = equalised};
 }
 
 /* --- hatch maps ---------------------------------------------------------------------------------------------------- */
@@ -149,7 +149,7 @@ static void strokes_stay_at_their_place(void **state)
     strokes s = {.width = 1};
     for (int i = 0; i < 8; i++) /* apart from each other on all levels down to 64 */
         assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.0625f + 0.125f * (float)i, 0.8f, 0.0625f + 0.125f * (float)i, 0.3f + 0.1f * (float)(i % 7), (float)i / 8, 0}));
-    screen_wishes w = wishes_of(256, 1.5, false);
+    screen_options w = options_of(256, 1.5, false);
     mip_chain     m, ink;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_ink_map(&ink, &s, &w, NULL), LMN_OK);
@@ -185,7 +185,7 @@ static void levels_are_what_is_drawn_explicitly(void **state)
     (void)state;
     static uint8_t explicit[256 * 256];
     strokes        s = random_strokes(150, 0.3, 0.3);
-    screen_wishes  w = wishes_of(256, 1.5, false);
+    screen_options  w = options_of(256, 1.5, false);
     mip_chain      m;
     assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
     for (int k = 0; k < 4; k++) {
@@ -211,7 +211,7 @@ static void density_stays_over_distance(void **state)
 {
     (void)state;
     strokes       s = random_strokes(1600, 0.1, 0.2);
-    screen_wishes w = wishes_of(1024, 1.5, false);
+    screen_options w = options_of(1024, 1.5, false);
     mip_chain     m, mean;
     assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
     w.detail = DETAIL_AVERAGE;
@@ -234,9 +234,9 @@ static void dots_keep_density_too(void **state)
 {
     (void)state;
     strokes        s = {0};
-    pattern_wishes p = {.pattern = PATTERN_STIPPLE, .count = 4096, .seed = 1};
+    pattern_options p = {.pattern = PATTERN_STIPPLE, .count = 4096, .seed = 1};
     assert_int_equal(strokes_generate(&s, &p, NULL), LMN_OK);
-    screen_wishes w = wishes_of(512, 2, false);
+    screen_options w = options_of(512, 2, false);
     mip_chain     m;
     assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
     for (int k = 0; k <= 4; k++)
@@ -250,7 +250,7 @@ static void minimum_gets_dark(void **state)
 {
     (void)state;
     strokes       s = random_strokes(400, 0.1, 0.2);
-    screen_wishes w = wishes_of(512, 1.5, false);
+    screen_options w = options_of(512, 1.5, false);
     mip_chain     m;
     w.detail = DETAIL_MINIMUM;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
@@ -274,7 +274,7 @@ static void equalised_screens_are_linear(void **state)
 {
     (void)state;
     strokes       s = random_strokes(4000, 0.06, 0.2);
-    screen_wishes w = wishes_of(512, 1.5, true);
+    screen_options w = options_of(512, 1.5, true);
     mip_chain     m;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     printf("    largest error of tone by level:");
@@ -297,7 +297,7 @@ static void equalising_keeps_the_order(void **state)
 {
     (void)state;
     strokes       s = random_strokes(300, 0.2, 0.1);
-    screen_wishes w = wishes_of(128, 2, false);
+    screen_options w = options_of(128, 2, false);
     mip_chain     m, e;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_of_strokes(&e, &s, &w, NULL), LMN_OK);
@@ -359,7 +359,7 @@ static void warp_refers_to_one_point_a_stroke(void **state)
 {
     (void)state;
     strokes       s = random_strokes(40, 0.25, 0.5); /* priorities rise, so the last is on top */
-    screen_wishes w = wishes_of(128, 2, false);
+    screen_options w = options_of(128, 2, false);
     mip_chain     m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
     assert_true(m.nearest && m.format == MIP_RG16F);
@@ -393,7 +393,7 @@ static void whole_strokes_under_steep_light(void **state)
     strokes s = {.width = 1};
     assert_true(strokes_add(&s, (texture_stroke){0.1f, 0.3f, 0.7f, 0.3f, 0.5f, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.35f, 0.7f, 0.95f, 0.7f, 0.5f, 1, 0}));
-    screen_wishes w = wishes_of(128, 3, false);
+    screen_options w = options_of(128, 3, false);
     mip_chain     m, warp;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_warp(&warp, &s, &w, NULL), LMN_OK);
@@ -424,7 +424,7 @@ static void of_equal_strokes_the_first_is_on_top(void **state)
     strokes s = {.width = 1};
     assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.5f, 0.8f, 0.5f, 0.7f, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.6f, 0.3f, 0.6f, 0.8f, 0.7f, 1, 0}));
-    screen_wishes w = wishes_of(64, 4, false);
+    screen_options w = options_of(64, 4, false);
     mip_chain     m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
     const float *t = m.data[0];
@@ -442,7 +442,7 @@ static void curves_have_one_reference(void **state)
     assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.2f, 0.5f, 0.2f, 1, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.2f, 0.5f, 0.4f, 1, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.4f, 0.6f, 0.4f, 1, 1, 0}));
-    screen_wishes w = wishes_of(64, 2, false);
+    screen_options w = options_of(64, 2, false);
     mip_chain     m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
     const float *t = m.data[0];
@@ -463,7 +463,7 @@ static void normals_lean_to_the_axis(void **state)
     (void)state;
     strokes s = {.width = 1};
     assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.25f, 0.5f, 0.75f, 1, 1, 0}));
-    screen_wishes w = wishes_of(64, 8, false);
+    screen_options w = options_of(64, 8, false);
     mip_chain     m;
     assert_int_equal(screen_normals(&m, &s, &w, 1, NULL), LMN_OK);
     const uint8_t *row = level_of(&m, 0) + 2 * 64 * 32;
@@ -715,21 +715,21 @@ static void pictures_are_resampled_and_checked(void **state)
 
 /* --- limits and memory ------------------------------------------------------------------------------------------------ */
 
-static void wrong_wishes_are_refused(void **state)
+static void wrong_options_are_refused(void **state)
 {
     (void)state;
     strokes       s = random_strokes(3, 0.1, 0), none = {.width = 1};
     lmn_error     error;
     mip_chain     m;
-    screen_wishes w = wishes_of(100, 1, false);
+    screen_options w = options_of(100, 1, false);
     assert_int_equal(screen_of_strokes(&m, &s, &w, &error), LMN_LIMIT);
-    w = wishes_of(8192, 1, false);
+    w = options_of(8192, 1, false);
     assert_int_equal(screen_of_strokes(&m, &s, &w, &error), LMN_LIMIT);
-    w = wishes_of(64, 0, false);
+    w = options_of(64, 0, false);
     assert_int_equal(screen_of_strokes(&m, &s, &w, &error), LMN_LIMIT);
-    w = wishes_of(64, (double)NAN, false);
+    w = options_of(64, (double)NAN, false);
     assert_int_equal(screen_of_strokes(&m, &s, &w, &error), LMN_LIMIT);
-    w = wishes_of(64, 1, true);
+    w = options_of(64, 1, true);
     assert_int_equal(screen_of_strokes(&m, &none, &w, &error), LMN_OK); /* no strokes: paper */
     assert_true(mean_ink(&m, 0) == 0);
     mip_chain_release(&m);
@@ -742,7 +742,7 @@ static void wrong_wishes_are_refused(void **state)
 static lmn_status make(int which, mip_chain *m, const strokes *s, lmn_error *error)
 {
     static uint8_t pixels[16 * 16 * 4];
-    screen_wishes  w = wishes_of(32, 1, true);
+    screen_options  w = options_of(32, 1, true);
     screen_layer   layer = {pixels, 16, 16};
     switch (which) {
     case 0:
@@ -810,7 +810,7 @@ int main(void)
         cmocka_unit_test(light_takes_layers_away_from_the_last),
         cmocka_unit_test(painted_marks_go_as_a_whole),
         cmocka_unit_test(pictures_are_resampled_and_checked),
-        cmocka_unit_test(wrong_wishes_are_refused),
+        cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(failing_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,9 +3,9 @@
 
 static const double origin[3] = {0, 0, 0};
 
-static stroke_wishes all_lines(void)
+static stroke_options all_lines(void)
 {
-    stroke_wishes w = STROKE_WISHES_INIT;
+    stroke_options w = STROKE_OPTIONS_INIT;
     w.hidden = 1;
     w.crowd = 0;
     return w;
@@ -46,7 +46,7 @@ static void plates_are_counted(void **state)
     add_box(s, -8, -0.1, -1, 8, 0.1, -0.8);
     for (int k = 0; k < 5; k++)
         add_plate(s, -5 + k, -3, 5, 3, k);
-    stroke_wishes w = all_lines();
+    stroke_options w = all_lines();
     stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 40, 10, true, 1000, 1000), w);
     /* The rod's upper edges lie above its lower ones exactly; they are its outline. 50 px a unit. */
     double wanted[6] = {3 + 3, 1, 1, 1, 1, 6};
@@ -98,7 +98,7 @@ static void pieces_that_cross_have_a_line(void **state)
     lmn_scene *s = stroke_scene_begin();
     add_ball(s, 0, 0, 0, 1, 96, 64);
     add_box(s, -2, -2, 0.4, 2, 2, 0.5);
-    stroke_wishes w = all_lines();
+    stroke_options w = all_lines();
     stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 3, true, 900, 900), w);
     double length;
     size_t count = count_strokes(&shot.set, STROKE_INTERSECTION, -1, &length);
@@ -216,7 +216,7 @@ static void same_call_same_strokes(void **state)
     add_ball(s, 0, 0, 0, 1, 60, 40);
     add_ball(s, 0.7, 0.2, 0.4, 1, 50, 30);
     stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
-    stroke_wishes w = all_lines();
+    stroke_options w = all_lines();
     stroke_set again;
     assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
     assert_int_equal(stroke_find(&again, shot.view, &w, NULL, NULL, NULL, NULL), LMN_OK);
@@ -362,7 +362,7 @@ static void lines_on_lines_are_left_out(void **state)
         add_plate(s, -2, -2, 2, 2, 0);
         add_plate(s, -2, -2, 2, 2, -1); /* right below */
         add_plate(s, -3, -0.5, 3, 0.5, 1); /* across */
-        stroke_wishes w = all_lines();
+        stroke_options w = all_lines();
         w.crowd = crowd ? 0.75f : 0;
         stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
         double hidden, visible;
@@ -410,7 +410,7 @@ static void memory_may_run_out(void **state)
     pose at_rest;
     assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
     stroke_camera c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
-    stroke_wishes w = all_lines();
+    stroke_options w = all_lines();
     bool done = false;
     for (long n = 1; n < 400 && !done; n++) {
         stroke_scene scene;
@@ -453,7 +453,7 @@ static void work_can_be_cancelled(void **state)
     pose at_rest;
     assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
     stroke_camera c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
-    stroke_wishes w = all_lines();
+    stroke_options w = all_lines();
     stroke_scene scene;
     stroke_view *view;
     stroke_set set;

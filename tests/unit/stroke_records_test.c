@@ -102,7 +102,7 @@ static void test_crossings(void **state)
     add_box(s, 0, 0, 0, 2, 2, 2);
     add_plate(s, -2, -2, 2, 2, 0.5);
     const double from[3] = {0, 0, 0};
-    stroke_shot shot = shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_wishes){.contours = CONTOURS_EDGES});
+    stroke_shot shot = shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_options){.contours = CONTOURS_EDGES});
     assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
     size_t all = stroke_scene_crossing_count(shot.scene), found = 0;
     assert_true(all > 10);
@@ -169,12 +169,12 @@ static void test_without_memory(void **state)
 static void test_what_needs_chains(void **state)
 {
     (void)state;
-    strokes_values v = {.wishes = STROKE_WISHES_INIT, .style = {.repeats = 1}};
+    strokes_values v = {.options = STROKE_OPTIONS_INIT, .style = {.repeats = 1}};
     assert_false(strokes_need_chains(&v));
     strokes_values changed[] = {v, v, v, v, v, v};
     changed[0].style.taper = 1;
     changed[1].common.dash = 1;
-    changed[2].wishes.contours = CONTOURS_SMOOTH;
+    changed[2].options.contours = CONTOURS_SMOOTH;
     changed[3].style.hidden = HIDDEN_SOLID;
     changed[4].style.repeats = 2;
     changed[5].common.halo = 1;
@@ -191,7 +191,7 @@ static void test_style(void **state)
     assert_true(s.width == 3 && s.dash == 4 && s.gap == 5 && s.overshoot == 6 && s.halo == 7);
     assert_true(s.colours[STROKE_CONTOUR].r == 1 && s.colours[STROKE_BORDER].r == 1 && s.colours[STROKE_CREASE].g == 1 && s.colours[STROKE_VALLEY].g == 1 &&
                 s.colours[STROKE_INTERSECTION].b == 1 && s.colours[STROKE_MATERIAL].b == 1);
-    assert_true(strokes_wishes_of(&v).hidden);
+    assert_true(strokes_options_of(&v).hidden);
 }
 
 int main(void)

@@ -133,7 +133,7 @@ typedef struct stroke_shot {
 } stroke_shot;
 
 /* Finds the strokes of a scene, which is freed with the shot, and holds them against rays. */
-static inline stroke_shot shoot(lmn_scene *s, stroke_camera camera, stroke_wishes wishes)
+static inline stroke_shot shoot(lmn_scene *s, stroke_camera camera, stroke_options options)
 {
     stroke_shot out = {.source = s};
     lmn_error error = {0};
@@ -145,7 +145,7 @@ static inline stroke_shot shoot(lmn_scene *s, stroke_camera camera, stroke_wishe
     assert_int_equal(stroke_scene_create(out.scene, &at_rest, NULL, 30 * stroke_pi / 180, NULL, NULL, &error), LMN_OK);
     pose_release(&at_rest);
     assert_int_equal(stroke_view_create(&out.view, out.scene, &camera, NULL, NULL, &error), LMN_OK);
-    assert_int_equal(stroke_find(&out.set, out.view, &wishes, NULL, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_find(&out.set, out.view, &options, NULL, NULL, NULL, &error), LMN_OK);
     assert_int_equal(stroke_verify(&out.check, &out.set, out.view, 1, NULL, NULL, &error), LMN_OK);
     return out;
 }

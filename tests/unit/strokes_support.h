@@ -27,8 +27,8 @@ static inline strokes pattern(stroke_pattern p, size_t count, float uneven, uint
 {
     strokes s;
     lmn_error error = {0};
-    pattern_wishes wishes = {.pattern = p, .count = count, .uneven = uneven, .seed = seed};
-    assert_int_equal(strokes_generate(&s, &wishes, &error), LMN_OK);
+    pattern_options options = {.pattern = p, .count = count, .uneven = uneven, .seed = seed};
+    assert_int_equal(strokes_generate(&s, &options, &error), LMN_OK);
     return s;
 }
 

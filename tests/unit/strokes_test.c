@@ -616,10 +616,10 @@ static void test_pattern_counts(void **state)
         }
     strokes s;
     lmn_error error = {0};
-    pattern_wishes many = {.pattern = PATTERN_STIPPLE, .count = (size_t)-1};
+    pattern_options many = {.pattern = PATTERN_STIPPLE, .count = (size_t)-1};
     assert_int_equal(strokes_generate(&s, &many, &error), LMN_LIMIT);
     assert_null(s.items);
-    pattern_wishes odd = {.pattern = PATTERN_RANDOM, .count = 10, .length = 1e30f, .uneven = 9};
+    pattern_options odd = {.pattern = PATTERN_RANDOM, .count = 10, .length = 1e30f, .uneven = 9};
     assert_int_equal(strokes_generate(&s, &odd, &error), LMN_OK);
     strokes_release(&s);
 }
@@ -674,9 +674,9 @@ static bool generate_while_failing(stroke_pattern p, long n)
 {
     strokes s;
     lmn_error error = {0};
-    pattern_wishes wishes = {.pattern = p, .count = 60, .uneven = 0.5f};
+    pattern_options options = {.pattern = p, .count = 60, .uneven = 0.5f};
     mem_fail_at(n);
-    lmn_status status = strokes_generate(&s, &wishes, &error);
+    lmn_status status = strokes_generate(&s, &options, &error);
     if (status == LMN_OK)
         status = strokes_set_light(&s, ORDER_EVEN, SHARE_AREA, 0.01, 0, &error);
     mem_fail_at(0);

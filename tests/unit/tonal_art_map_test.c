@@ -31,9 +31,9 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static tam_wishes usual(tam_placement placement)
+static tam_options usual(tam_placement placement)
 {
-    return (tam_wishes){.side = SIDE, .tones = TONES, .darkest = 0.9, .width = 1.5, .length = 0.4, .opacity = 1, .uneven = 0.5f, .placement = placement, .seed = 1};
+    return (tam_options){.side = SIDE, .tones = TONES, .darkest = 0.9, .width = 1.5, .length = 0.4, .opacity = 1, .uneven = 0.5f, .placement = placement, .seed = 1};
 }
 
 static double mean_ink(const mip_chain *m, int level, int tone)
@@ -49,7 +49,7 @@ static double mean_ink(const mip_chain *m, int level, int tone)
 /* --- tones ------------------------------------------------------------------------------------------------------------ */
 
 /* A level is as near to its tone as half of the smallest mark allows; `mark` is that mark's ink in texels on a level, at least. */
-static void check_tones(const mip_chain *m, const tam_wishes *w, double mark, const char *what)
+static void check_tones(const mip_chain *m, const tam_options *w, double mark, const char *what)
 {
     printf("    %s: largest error of tone by level:", what);
     for (int k = 0; k < m->levels; k++) {
@@ -88,7 +88,7 @@ static void darken(void *user, size_t index, float coverage)
 }
 
 /* Each picture is the strokes of its tone and level and no others: so those of a lighter tone and of a coarser level are in it, at the same place, as wide. */
-static void check_strokes(const mip_chain *m, const strokes *kept, const tam_wishes *w)
+static void check_strokes(const mip_chain *m, const strokes *kept, const tam_options *w)
 {
     static float ink[SIDE * SIDE];
     stroke_brush brush = tonal_art_map_brush(w);
@@ -115,7 +115,7 @@ static void maps_are_nested_and_of_their_tones(void **state)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
-        tam_wishes w = usual(i % 2 ? TAM_STRIPS : TAM_BEST_FIT);
+        tam_options w = usual(i % 2 ? TAM_STRIPS : TAM_BEST_FIT);
         w.cross = i == 2 || i == 3;
         w.opacity = i >= 2 ? 0.3 : 1;
         w.darkest = i < 6 ? 0.9 : 0.8; /* without crossing strokes the last gaps are hard to find */
@@ -134,7 +134,7 @@ static void a_map_is_fast(void **state)
 {
     (void)state;
     for (int side = 256; side <= 512; side *= 2) {
-        tam_wishes w = usual(TAM_BEST_FIT);
+        tam_options w = usual(TAM_BEST_FIT);
         w.side = side;
         w.cross = true;
         mip_chain m;
@@ -152,7 +152,7 @@ static void a_map_is_fast(void **state)
 static void strokes_are_as_wide_on_all_levels(void **state)
 {
     (void)state;
-    tam_wishes w = usual(TAM_BEST_FIT);
+    tam_options w = usual(TAM_BEST_FIT);
     mip_chain  m;
     strokes    kept;
     assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
@@ -186,7 +186,7 @@ static void ends_are_as_long_at_any_length(void **state)
     (void)state;
     enum { PLACES = 24 };
     static float ink[SIDE * SIDE];
-    tam_wishes   w = usual(TAM_BEST_FIT);
+    tam_options   w = usual(TAM_BEST_FIT);
     w.width = 4;
     stroke_brush brush = tonal_art_map_brush(&w);
     double       first[PLACES];
@@ -217,7 +217,7 @@ static void ends_are_as_long_at_any_length(void **state)
 static void ends_in_maps_are_alike(void **state)
 {
     (void)state;
-    tam_wishes w = usual(TAM_BEST_FIT);
+    tam_options w = usual(TAM_BEST_FIT);
     w.side = 1024;
     w.darkest = 0.05;
     w.tones = 2;
@@ -257,7 +257,7 @@ static void lengths_are_what_they_may_be(void **state)
 {
     (void)state;
     for (int placement = 0; placement < TAM_PLACEMENT_COUNT; placement++) {
-        tam_wishes w = usual((tam_placement)placement);
+        tam_options w = usual((tam_placement)placement);
         mip_chain  m;
         strokes    kept;
         double     sum = 0, least = 1, most = 0;
@@ -290,7 +290,7 @@ static void strokes_have_grain(void **state)
 {
     (void)state;
     static float ink[SIDE * SIDE];
-    tam_wishes   w = usual(TAM_BEST_FIT);
+    tam_options   w = usual(TAM_BEST_FIT);
     w.width = 4;
     double before = 0;
     for (int i = 0; i <= 4; i++) {
@@ -350,7 +350,7 @@ static void strokes_are_evenly_spread(void **state)
     (void)state;
     static float ink[SIDE * SIDE];
     for (int placement = 0; placement < TAM_PLACEMENT_COUNT; placement++) {
-        tam_wishes w = usual((tam_placement)placement);
+        tam_options w = usual((tam_placement)placement);
         mip_chain  m;
         strokes    kept;
         assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
@@ -409,10 +409,10 @@ static void borders_are_like_the_inside(void **state)
 {
     (void)state;
     strokes        dots = {0};
-    pattern_wishes p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
+    pattern_options p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
     assert_int_equal(strokes_generate(&dots, &p, NULL), LMN_OK);
     for (int kind = 0; kind < 4; kind++) {
-        tam_wishes w = usual(kind == 1 ? TAM_STRIPS : TAM_BEST_FIT);
+        tam_options w = usual(kind == 1 ? TAM_STRIPS : TAM_BEST_FIT);
         w.cross = kind < 2;
         w.grain = kind == 2 ? 0.8 : 0;
         w.drawn = kind == 3 ? &dots : NULL;
@@ -435,7 +435,7 @@ static void borders_are_like_the_inside(void **state)
 static void crosses_from_the_middle(void **state)
 {
     (void)state;
-    tam_wishes w = usual(TAM_BEST_FIT);
+    tam_options w = usual(TAM_BEST_FIT);
     w.cross = true;
     mip_chain m;
     strokes   kept;
@@ -462,7 +462,7 @@ static void overlaps_darken_less_and_less(void **state)
         strokes s = {.width = 1};
         for (int i = 0; i < count; i++)
             assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.5f, 0.8f, 0.5f, 1, 1, 0}));
-        tam_wishes w = {.side = 32, .tones = 2, .darkest = 0.8, .width = 4, .length = 0.5, .opacity = 0.3, .drawn = &s};
+        tam_options w = {.side = 32, .tones = 2, .darkest = 0.8, .width = 4, .length = 0.5, .opacity = 0.3, .drawn = &s};
         mip_chain  m;
         assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
         double ink = 1 - ((const uint8_t *)mip_layer(&m, 0, 1))[16 * 32 + 16] / 255.0;
@@ -480,9 +480,9 @@ static void drawn_shapes_are_placed(void **state)
 {
     (void)state;
     strokes        dots = {0};
-    pattern_wishes p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
+    pattern_options p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
     assert_int_equal(strokes_generate(&dots, &p, NULL), LMN_OK);
-    tam_wishes w = usual(TAM_BEST_FIT);
+    tam_options w = usual(TAM_BEST_FIT);
     w.darkest = 0.6;
     w.width = 3;
     w.drawn = &dots;
@@ -511,12 +511,12 @@ static void drawn_shapes_are_placed(void **state)
     strokes_release(&house);
 }
 
-/* --- wishes ----------------------------------------------------------------------------------------------------------- */
+/* --- options ----------------------------------------------------------------------------------------------------------- */
 
-static void the_same_wishes_give_the_same_map(void **state)
+static void the_same_options_give_the_same_map(void **state)
 {
     (void)state;
-    tam_wishes w = usual(TAM_BEST_FIT);
+    tam_options w = usual(TAM_BEST_FIT);
     w.side = 64;
     mip_chain a, b, c;
     assert_int_equal(tonal_art_map(&a, NULL, &w, NULL), LMN_OK);
@@ -531,10 +531,10 @@ static void the_same_wishes_give_the_same_map(void **state)
     mip_chain_release(&c);
 }
 
-static void wrong_wishes_are_refused(void **state)
+static void wrong_options_are_refused(void **state)
 {
     (void)state;
-    tam_wishes wrong[11];
+    tam_options wrong[11];
     for (int i = 0; i < 11; i++)
         wrong[i] = usual(TAM_BEST_FIT);
     wrong[0].side = 100;
@@ -561,7 +561,7 @@ static void extremes_end(void **state)
 {
     (void)state;
     for (int i = 0; i < 64; i++) {
-        tam_wishes w = {.side = i & 1 ? 128 : 16, .tones = i & 2 ? 16 : 2, .darkest = i & 4 ? 0.98 : 0.05, .width = i & 8 ? 4 : 0.5, .length = i & 16 ? 1 : 0.05,
+        tam_options w = {.side = i & 1 ? 128 : 16, .tones = i & 2 ? 16 : 2, .darkest = i & 4 ? 0.98 : 0.05, .width = i & 8 ? 4 : 0.5, .length = i & 16 ? 1 : 0.05,
                         .opacity = i & 32 ? 0.1 : 1, .uneven = 1, .cross = i % 3 == 0, .placement = i % 5 == 0 ? TAM_STRIPS : TAM_BEST_FIT, .seed = (uint32_t)i};
         mip_chain  m;
         double     start = seconds();
@@ -585,7 +585,7 @@ static void failing_memory_is_reported(void **state)
     for (int i = 0; i < 5; i++)
         assert_true(strokes_add(&drawn, (texture_stroke){0.1f, 0.2f * (float)i, 0.9f, 0.2f * (float)i, 1, 1, 0}));
     for (int i = 0; i < 3; i++) {
-        tam_wishes w = usual((tam_placement)(i % 2));
+        tam_options w = usual((tam_placement)(i % 2));
         w.side = 16;
         w.cross = true;
         w.drawn = i == 2 ? &drawn : NULL;
@@ -911,8 +911,8 @@ int main(void)
         cmocka_unit_test(crosses_from_the_middle),
         cmocka_unit_test(overlaps_darken_less_and_less),
         cmocka_unit_test(drawn_shapes_are_placed),
-        cmocka_unit_test(the_same_wishes_give_the_same_map),
-        cmocka_unit_test(wrong_wishes_are_refused),
+        cmocka_unit_test(the_same_options_give_the_same_map),
+        cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(extremes_end),
         cmocka_unit_test(failing_memory_is_reported),
         cmocka_unit_test_setup_teardown(what_is_kept_is_found, make_folder, remove_folder),

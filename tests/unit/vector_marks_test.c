@@ -229,9 +229,9 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
     assert_int_equal(pose_create(&at_rest, f->scene, &error), LMN_OK);
     assert_int_equal(mark_ground_create(&ground, &at_rest, NULL, f->scene->part_count, crease, &error), LMN_OK);
     rays r = {&ground, &s->views[0].camera};
-    mark_page_wishes wishes = {.pose = &at_rest, .look = f->stipple, .part_count = f->scene->part_count, .crease_angle = crease,
+    mark_page_options options = {.pose = &at_rest, .look = f->stipple, .part_count = f->scene->part_count, .crease_angle = crease,
                                .surface = f->stipple->rules[0].uses[KIND_SURFACE], .camera = r.camera, .width = SIDE, .height = SIDE, .hidden = cast, .user = &r};
-    assert_int_equal(marks_on_page(&page, &wishes, &error), LMN_OK);
+    assert_int_equal(marks_on_page(&page, &options, &error), LMN_OK);
     search look_for = {&page, calloc(page.dot_count, 1), 0};
     size_t drawn = visit_dots(s, find_dot, &look_for), outside = 0, missing = 0;
     for (size_t i = 0; i < page.dot_count; i++) {

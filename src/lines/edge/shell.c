@@ -14,10 +14,10 @@ static const pass passes[] = {
     LINES_PASSES_CONTRAST,
 };
 
-static void shell_as_strokes(stroke_wishes *wishes, stroke_style *style, const void *values)
+static void shell_as_strokes(stroke_options *options, stroke_style *style, const void *values)
 {
-    lines_as_strokes(wishes, style, values);
-    wishes->creases = wishes->intersections = false;
+    lines_as_strokes(options, style, values);
+    options->creases = options->intersections = false;
 }
 
 const technique lines_shell = {

@@ -16,31 +16,31 @@ static const char *const visibility_names[] = {"auto", "exact", "sampled", NULL}
 #define CHOICE(KEY, FIELD, ...) ROW(KEY, FIELD, PARAM_ENUM, int32_t, __VA_ARGS__)
 
 static const param params[] = {
-    CHOICE("contours", wishes.contours, .names = contour_names, .def = CONTOURS_EDGES,
+    CHOICE("contours", options.contours, .names = contour_names, .def = CONTOURS_EDGES,
            .doc = "Outlines: none; along edges of the mesh, exactly around what is there; or smooth, where the surface that is meant turns away."),
-    FLAG("creases", wishes.creases, .def = 1, .doc = "Lines where faces meet at more than scene.crease_angle."),
-    FLAG("borders", wishes.borders, .def = 1, .doc = "Lines where a surface ends."),
-    FLAG("materials", wishes.materials, .def = 1, .doc = "Lines where a part's material changes."),
-    FLAG("intersections", wishes.intersections, .def = 1,
+    FLAG("creases", options.creases, .def = 1, .doc = "Lines where faces meet at more than scene.crease_angle."),
+    FLAG("borders", options.borders, .def = 1, .doc = "Lines where a surface ends."),
+    FLAG("materials", options.materials, .def = 1, .doc = "Lines where a part's material changes."),
+    FLAG("intersections", options.intersections, .def = 1,
          .doc = "Lines where surfaces run through each other."),
-    NUMBER("suggestive", wishes.suggestive, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    NUMBER("suggestive", options.suggestive, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Suggestive contours: lines where an outline would appear if the eye moved a little; 1 draws the strongest, less draws more, 0 none."),
-    NUMBER("ridges", wishes.ridges, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    NUMBER("ridges", options.ridges, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Lines along rounded ridges; 1 draws the sharpest, less draws more, 0 none."),
-    NUMBER("valleys", wishes.valleys, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    NUMBER("valleys", options.valleys, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Lines along rounded valleys; 1 draws the sharpest, less draws more, 0 none."),
-    NUMBER("apparent", wishes.apparent, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    NUMBER("apparent", options.apparent, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Apparent ridges: lines where what is seen bends most; 1 draws the strongest, less draws more, 0 none."),
-    ROW("refine", wishes.refine, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 3, .soft_max = 2, .unit = UNIT_COUNT,
+    ROW("refine", options.refine, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 3, .soft_max = 2, .unit = UNIT_COUNT,
         .doc = "Times surfaces are refined before their lines are found: coarse ones become round, edges sharper than scene.crease_angle stay sharp. Each time makes four "
                "triangles of one. What fills the picture keeps the surface that it has."),
-    ROW("curve", wishes.curve, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 4, .soft_max = 3, .unit = UNIT_COUNT,
+    ROW("curve", options.curve, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 4, .soft_max = 3, .unit = UNIT_COUNT,
         .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as straight as they are."),
-    NUMBER("shortest", wishes.shortest, .def = 1, .min = 0, .max = 200, .soft_max = 20, .unit = UNIT_PX, .along = true,
+    NUMBER("shortest", options.shortest, .def = 1, .min = 0, .max = 200, .soft_max = 20, .unit = UNIT_PX, .along = true,
            .doc = "Lines shorter than this are left out."),
-    NUMBER("crowd", wishes.crowd, .def = 0.75, .min = 0, .max = 16, .soft_max = 4, .unit = UNIT_PX,
+    NUMBER("crowd", options.crowd, .def = 0.75, .min = 0, .max = 16, .soft_max = 4, .unit = UNIT_PX,
            .doc = "Lines that run all their length this close to more important ones are left out; 0 keeps them all."),
-    NUMBER("simplify", wishes.simplify, .def = 0.1, .min = 0, .max = 8, .soft_max = 2, .unit = UNIT_PX,
+    NUMBER("simplify", options.simplify, .def = 0.1, .min = 0, .max = 8, .soft_max = 2, .unit = UNIT_PX,
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_SHARE,
            .doc = "Width of all lines that are no outlines, share of the width."),
@@ -82,9 +82,9 @@ static const pass passes[] = {
     LINES_PASSES_CONTRAST,
 };
 
-static void own_strokes(stroke_wishes *wishes, stroke_style *style, const void *values)
+static void own_strokes(stroke_options *options, stroke_style *style, const void *values)
 {
-    *wishes = strokes_wishes_of(values);
+    *options = strokes_options_of(values);
     *style = strokes_style_of(values);
 }
 
@@ -109,9 +109,9 @@ stroke_style strokes_style_of(const strokes_values *v)
     return s;
 }
 
-stroke_wishes strokes_wishes_of(const strokes_values *v)
+stroke_options strokes_options_of(const strokes_values *v)
 {
-    stroke_wishes w = v->wishes;
+    stroke_options w = v->options;
     w.hidden = v->style.hidden != HIDDEN_NONE;
     return w;
 }
@@ -119,8 +119,8 @@ stroke_wishes strokes_wishes_of(const strokes_values *v)
 bool strokes_need_chains(const strokes_values *v)
 {
     const stroke_style *s = &v->style;
-    const stroke_wishes *w = &v->wishes;
-    bool kinds = stroke_wishes_bend(w) || w->curve > 0;
+    const stroke_options *w = &v->options;
+    bool kinds = stroke_options_bend(w) || w->curve > 0;
     bool style = s->brush != BRUSH_PEN || s->taper > 0 || s->pressure > 0 || s->wobble > 0 || s->repeats > 1 || s->hidden != HIDDEN_NONE;
     return kinds || style || v->common.overshoot > 0 || v->common.dash > 0 || v->common.halo > 0;
 }

@@ -10,14 +10,14 @@ typedef enum stroke_visibility { VISIBILITY_AUTO, VISIBILITY_EXACT, VISIBILITY_S
 /* What lines of all techniques have is in `common` alone: strokes_style_of takes it into the style. */
 typedef struct strokes_values {
     lines_common  common;
-    stroke_wishes wishes;
+    stroke_options options;
     stroke_style  style;
     int32_t       visibility; /* stroke_visibility */
 } strokes_values;
 
-/* The style and the wishes as a drawing has them. */
+/* The style and the options as a drawing has them. */
 stroke_style  strokes_style_of(const strokes_values *v);
-stroke_wishes strokes_wishes_of(const strokes_values *v);
+stroke_options strokes_options_of(const strokes_values *v);
 
 /* Do these lines need chains, which only the CPU makes? Else every edge can be drawn by itself, on the GPU. */
 bool strokes_need_chains(const strokes_values *v);

@@ -41,7 +41,7 @@ typedef struct halftone_values {
      .writes = TARGET_DIRECTION, .repeat = 2, .when = HALFTONE_DEFERRED_WHEN, .prepares = true}
 
 /* Of a technique whose values begin with these. */
-mesh_wishes halftone_wishes(const void *values);
+mesh_needs halftone_needs(const void *values);
 
 #define HALFTONE_ROWS(DEFAULT_COORDINATES)                                                                                                           \
     PARAM_ENUM_ROW(halftone_values, coordinates, .names = halftone_coordinate_names, .def = (DEFAULT_COORDINATES), .variant = true,                  \
