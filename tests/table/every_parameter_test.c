@@ -1,5 +1,6 @@
 /* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some value:
- * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly]
+ * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly] [KIND.TECHNIQUE]
+ * With a technique, as in surface.flat, its own parameters alone.
  *
  * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, not with both of its extremes. What decides which shaders
  * are built is still drawn with all. For the paths of drawing that share most of their code with the usual one, which is not drawn briefly. */
@@ -35,6 +36,7 @@ typedef struct fixture {
     lmn_renderer *renderer;
     const char   *examples;
     bool          brief;
+    const char   *only; /* KIND.TECHNIQUE; NULL: all */
     int           mistakes, drawn;
     plain_picture plain[PLAIN_MAX];
     size_t        plain_count;
@@ -276,10 +278,17 @@ static void complain(fixture *f, const kind *k, const char *technique_name, cons
     f->mistakes++;
 }
 
+static bool is_wanted(const fixture *f, const kind *k, const technique *t)
+{
+    char name[TEXT_SIZE];
+    snprintf(name, sizeof name, "%s.%s", k->name, t->name);
+    return !f->only || strcmp(f->only, name) == 0;
+}
+
 /* A parameter of the whole kind may mean nothing to some of its techniques, but it must to one. */
 static void check_kind(fixture *f, const kind *k)
 {
-    for (size_t i = 0; i < k->common_count; i++) {
+    for (size_t i = 0; i < k->common_count && !f->only; i++) {
         bool changed = false;
         for (size_t n = 0; n < k->technique_count; n++)
             changed = check_param(f, k, k->techniques[n], &k->common[i]) || changed;
@@ -287,7 +296,7 @@ static void check_kind(fixture *f, const kind *k)
             complain(f, k, "all techniques", &k->common[i]);
     }
     for (size_t n = 0; n < k->technique_count; n++)
-        for (size_t i = 0; i < k->techniques[n]->param_count; i++)
+        for (size_t i = 0; i < k->techniques[n]->param_count && is_wanted(f, k, k->techniques[n]); i++)
             if (!check_param(f, k, k->techniques[n], &k->techniques[n]->params[i]))
                 complain(f, k, k->techniques[n]->name, &k->techniques[n]->params[i]);
 }
@@ -298,6 +307,8 @@ static void test_every_parameter(void **state)
     for (size_t i = 0; i < KIND_COUNT; i++)
         check_kind(f, kinds[i]);
     print_message("%d pictures\n", f->drawn);
+    if (f->only && f->drawn == 0)
+        fail_msg("'%s' is no technique with parameters; say KIND.TECHNIQUE, for example surface.flat", f->only);
     assert_int_equal(f->mistakes, 0);
 }
 
@@ -369,7 +380,11 @@ int main(int count, char **arguments)
 {
     static fixture f;
     f.examples = count > 1 ? arguments[1] : "examples";
-    f.brief = count > 2 && strcmp(arguments[2], "briefly") == 0;
+    for (int i = 2; i < count; i++)
+        if (strcmp(arguments[i], "briefly") == 0)
+            f.brief = true;
+        else
+            f.only = arguments[i];
     const struct CMUnitTest tests[] = {cmocka_unit_test_prestate_setup_teardown(test_every_parameter, make_fixture, end_fixture, &f)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
