@@ -8,9 +8,10 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-enum { FILES_MAX = 24, INCLUDE_DEPTH_MAX = 8 };
+enum { FILES_MAX = 24, INCLUDE_DEPTH_MAX = 8, FILE_LINES_MAX = 2000 };
 
-/* The files a shader was put together from; #line numbers them, since drivers refuse names. */
+/* The files a shader was put together from. Drivers refuse their names in #line, and Mesa forgets their numbers in errors about meaning: so a line's
+ * number says which file it is in. The file at i begins at line (i + 1) · FILE_LINES_MAX + 1; below are the lines of the prelude. */
 typedef struct source {
     text        body;
     const char *files[FILES_MAX];
@@ -89,14 +90,15 @@ static bool append_file(gpu *g, source *s, const char *path, int depth)
     int id = s->file_count++;
     s->files[id] = mem_copy_text(path);
     bool good = s->files[id] != NULL;
-    text_append(&s->body, "#line 1 %d\n", id);
+    int before = (id + 1) * FILE_LINES_MAX;
+    text_append(&s->body, "#line %d\n", before + 1);
     int number = 1;
     for (const char *line = content; good && *line; number++) {
         const char *end = strchr(line, '\n');
         size_t length = end ? (size_t)(end - line) + 1 : strlen(line);
         if (strncmp(line, "#include", 8) == 0) {
             good = append_include(g, s, line, length, depth);
-            text_append(&s->body, "#line %d %d\n", number + 1, id);
+            text_append(&s->body, "#line %d\n", before + number + 1);
         } else {
             text_append_bytes(&s->body, line, length);
         }
@@ -137,18 +139,39 @@ static const char *main_file(const char *list)
     return last ? last + 1 : list;
 }
 
-/* Turns "0:12(3): error: …" and "ERROR: 0:12: …" into "src/FILE:12: error: …". */
+/* Appends a line of the log with the file's name: "0:4012(3): error: …", "ERROR: 0:4012: …" and "0(4012) : error …" become "src/FILE:12: …". */
+static void explain_line(text *out, const source *s, const char *line, size_t length)
+{
+    const char *at = strncmp(line, "ERROR: ", 7) == 0 ? line + 7 : strncmp(line, "WARNING: ", 9) == 0 ? line + 9 : line;
+    size_t digits = strspn(at, "0123456789");
+    char *behind = NULL;
+    long number = digits > 0 && (at[digits] == ':' || at[digits] == '(') ? strtol(at + digits + 1, &behind, 10) : 0;
+    long file = number / FILE_LINES_MAX - 1;
+    if (file >= 0 && file < s->file_count) {
+        text_append(out, "src/%s:%ld", s->files[file], number % FILE_LINES_MAX);
+        behind += *behind == ')';
+        length -= (size_t)(behind - line);
+        line = behind;
+    }
+    text_append_bytes(out, line, length);
+}
+
 static void explain(gpu *g, const source *s, const char *path, const char *log)
 {
-    const char *at = strncmp(log, "ERROR: ", 7) == 0 ? log + 7 : log;
-    char *behind;
-    long file = strtol(at, &behind, 10);
-    if (behind != at && *behind == ':' && file >= 0 && file < s->file_count) {
-        long line = strtol(behind + 1, &behind, 10);
-        gpu_fail(g, LMN_GL, "src/%s:%ld: %s", s->files[file], line, behind);
-    } else {
-        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", main_file(path), log);
+    text out = {0};
+    for (const char *line = log; *line;) {
+        size_t length = strcspn(line, "\n");
+        length += line[length] == '\n';
+        explain_line(&out, s, line, length);
+        line += length;
     }
+    while (!out.failed && out.size > 0 && strchr("\n\r ", out.data[out.size - 1]))
+        out.data[--out.size] = '\0';
+    if (!out.failed && out.size > 4 && strncmp(out.data, "src/", 4) == 0)
+        gpu_fail(g, LMN_GL, "%s", out.data);
+    else
+        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", main_file(path), out.failed || !out.data ? log : out.data);
+    text_release(&out);
 }
 
 static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *path, const char *prelude)

@@ -20,6 +20,16 @@ const char *look_name_at(size_t index)
     return NULL;
 }
 
+/* The first kind that has a technique of this name; NULL: none. */
+static const kind *kind_with(const char *technique_name)
+{
+    for (size_t k = 0; k < KIND_COUNT; k++)
+        for (size_t i = 0; kinds[k]->selector_key && i < kinds[k]->technique_count; i++)
+            if (strcmp(kinds[k]->techniques[i]->name, technique_name) == 0)
+                return kinds[k];
+    return NULL;
+}
+
 static lmn_status unknown_name(const char *name, lmn_error *error)
 {
     const char **names = mem_calloc(embedded_looks_count + 1, sizeof *names);
@@ -29,7 +39,11 @@ static lmn_status unknown_name(const char *name, lmn_error *error)
         names[i] = embedded_looks[i].path;
     lmn_status status = error_set(error, LMN_USAGE, "there is no look '%.80s'", name);
     const char *near = text_nearest(name, names, embedded_looks_count);
-    if (near)
+    const kind *known = kind_with(name);
+    if (known)
+        error_hint(error, "it is a technique, not a look: --set %s.%s=%s; its parameters are in `limner looks --markdown`", known->name,
+                   known->selector_key, name);
+    else if (near)
         error_hint(error, "did you mean '%s'? `limner looks` lists all; a file's path contains '/' or ends in .json", near);
     else
         error_hint(error, "`limner looks` lists all; a file's path contains '/' or ends in .json");

@@ -268,6 +268,43 @@ static void gooch_lines(void)
     shape_release(&s);
 }
 
+/* --- wax ---------------------------------------------------------------------------------------------------------- */
+
+/* Without depth, wax is Lambert's law in its colour. With it, a channel is dark only where the light is further behind than it goes, and no place
+ * is darker than the opaque one. The border is of the glow's hue. */
+static void wax_wraps(void)
+{
+    static const double share[3] = {1, 0.5, 0.25}, depth[] = {0, 0.4, 1};
+    dvec light = dvec_unit(dvec_of(0.8, 0.2, 0.4));
+    for (int d = 0; d < 3; d++) {
+        char surface[200];
+        double worst = 0;
+        shot s;
+        /* sRGB of 1, 0.5, 0.25 */
+        snprintf(surface, sizeof surface, "{\"technique\":\"wax\",\"colour\":\"#ffffff\",\"glow\":\"#ffbc89\",\"depth\":%g,\"warmth\":0,\"shine\":0}", depth[d]);
+        if (take_ball(&s, surface_look(surface, "0.8,0.2,0.4", 0), NULL))
+            for (int i = 0; i < 256 * 256; i++)
+                for (int k = 0; k < 3 && !isinf(s.depth[i]); k++) {
+                    double reach = depth[d] * sqrt(share[k]), t = dvec_dot(light, dvec_from(s.normal[i]));
+                    double lit = fmax((t + reach) / (1 + reach), 0);
+                    worst = fmax(worst, fabs(s.picture[4 * i + k] - picture_srgb(lit + (1 - lit) * 0.4 * depth[d] * share[k])));
+                }
+        check_at_most("wax", worst, 2, "levels between wax of depth %g and its closed form", depth[d]);
+        shot_release(&s);
+    }
+    shot s;
+    int border = 0, cold = 0;
+    if (take_ball(&s, surface_look("{\"technique\":\"wax\",\"colour\":\"#ffffff\",\"glow\":\"#ff8040\",\"warmth\":1,\"shine\":0}", "0,0,1", 0), NULL))
+        for (int i = 0; i < 256 * 256; i++)
+            if (!isinf(s.depth[i]) && s.normal[i][2] < 0.3f) {
+                border++;
+                cold += s.picture[4 * i] <= s.picture[4 * i + 2] + 20;
+            }
+    check_at_least("wax", border, 1000, "pixels near the border of a ball that is lit from the front");
+    check_at_most("wax", cold, 0, "of them not warmer than white");
+    shot_release(&s);
+}
+
 /* --- plain facts ------------------------------------------------------------------------------------------------- */
 
 static void light_comes_from_where_it_is_said(void)
@@ -322,8 +359,8 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"tones", tones_are_counted}, {"borders", tone_borders}, {"blur", blur_is_a_box},
-        {"gooch", gooch_ramp},        {"gooch-lines", gooch_lines}, {"light", light_comes_from_where_it_is_said},
-        {"texture", texture_stands_upright},
+        {"gooch", gooch_ramp},        {"gooch-lines", gooch_lines}, {"wax", wax_wraps},
+        {"light", light_comes_from_where_it_is_said}, {"texture", texture_stands_upright},
     };
     int status = check_main(argc, argv, "surfaces", cases, sizeof cases / sizeof *cases);
     shot_end();

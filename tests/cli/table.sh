@@ -140,6 +140,7 @@ group_usage() {
     row 1 'there is no such format' '' draw "$gear" --format gif
     row 1 "there is no look 'edgs'" '' draw "$gear" --look edgs
     row 1 "did you mean 'edges'" '' draw "$gear" --look edgs
+    row 1 "it is a technique, not a look: --set lines.operator=sobel" '' looks sobel
     row 1 'lines.width is .99.; allowed is a number from .* px' '' draw "$gear" --set lines.width=99
     row 1 "did you mean 'width'" '' draw "$gear" --set lines.widht=9
     row 1 'allowed is KIND.PARAM=VALUE' '' draw "$gear" --set lines.width
@@ -391,6 +392,11 @@ group_looks() {
     done
     row 0 '' 'x.png' draw "$examples/csg/widget.csg" $small --look ghost -o x.png
     row 0 '' '' info "$examples/csg/widget.csg"; out 'widget/removed$'
+    # A shader that the driver refuses is named with its line, which stands behind what it includes.
+    local shaders; shaders=$(mktemp -d); mkdir "$shaders/surface"
+    printf '#include "light/light.glsl"\n\nvec4 surface_colour(surface_point p)\n{\n    return vec4(u_nothing);\n}\n' > "$shaders/surface/flat.glsl"
+    LIMNER_SHADER_DIR=$shaders row 3 '^limner: src/surface/flat.glsl:5' '' draw "$gear" $small --set surface.technique=flat -o x.png
+    rm -r "$shaders"
 }
 
 group_sketch() {
