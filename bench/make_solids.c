@@ -36,7 +36,10 @@ static void turned(int ring)
     printf("rotate_extrude(convexity = 2, $fn = %d) { polygon(points = [", AROUND);
     for (int i = 0; i < ALONG + !ring; i++) {
         double angle = ring ? 2 * (double)pi * i / ALONG : (double)pi * i / ALONG - (double)pi / 2;
-        double x = ring ? 0.7 + 0.3 * cos(angle) : i == 0 || i == ALONG ? 0 : cos(angle), y = ring ? 0.3 * sin(angle) : sin(angle);
+        double x = ring                   ? 0.7 + 0.3 * cos(angle)
+                   : i == 0 || i == ALONG ? 0
+                                          : cos(angle),
+               y = ring ? 0.3 * sin(angle) : sin(angle);
         printf("%s[%.7f, %.7f]", i ? ", " : "", x, y);
     }
     printf("], paths = undef, convexity = 1); }");
@@ -56,8 +59,10 @@ static void ring(void)
 static void leaf(void (*shape)(void), float x, float y, float z, const float half[3])
 {
     float r = 0.3f + 0.6f * next(), g = 0.3f + 0.6f * next(), b = 0.3f + 0.6f * next();
-    printf("  color([%.3f, %.3f, %.3f, 1]) { multmatrix([[%.7g, 0, 0, %.7g], [0, %.7g, 0, %.7g], [0, 0, %.7g, %.7g], [0, 0, 0, 1]]) { ", (double)r,
-           (double)g, (double)b, (double)half[0], (double)x, (double)half[1], (double)y, (double)half[2], (double)z);
+    printf("  color([%.3f, %.3f, %.3f, 1]) { multmatrix([[%.7g, 0, 0, %.7g], [0, %.7g, 0, %.7g], [0, 0, %.7g, %.7g], "
+           "[0, 0, 0, 1]]) { ",
+           (double)r, (double)g, (double)b, (double)half[0], (double)x, (double)half[1], (double)y, (double)half[2],
+           (double)z);
     shape();
     printf(" } }\n");
 }
@@ -66,7 +71,8 @@ static void holes(int n, int side, float cell)
 {
     leaf(box, 0, 0, 0, (float[]){1, 1, 0.2f});
     for (int i = 0; i < n; i++)
-        leaf(cylinder, -1 + cell * ((float)(i % side) + 0.5f), -1 + cell * ((float)(i / side) + 0.5f), 0, (float[]){cell * 0.35f, cell * 0.35f, 0.3f});
+        leaf(cylinder, -1 + cell * ((float)(i % side) + 0.5f), -1 + cell * ((float)(i / side) + 0.5f), 0,
+             (float[]){cell * 0.35f, cell * 0.35f, 0.3f});
 }
 
 static void scattered(int n, void (*shape)(void))
@@ -105,7 +111,7 @@ int main(int count, char **arguments)
     if (n < 1)
         return 1;
     const char *set = arguments[1];
-    float cell = 2.0f / (float)side;
+    float       cell = 2.0f / (float)side;
     printf("%s() {\n", strcmp(set, "inter") == 0 ? "intersection" : strcmp(set, "pairs") == 0 ? "union" : "difference");
     if (strcmp(set, "holes") == 0)
         holes(n, side, cell);

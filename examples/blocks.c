@@ -7,7 +7,7 @@
 
 static const double ground_floor = 4.0, storey = 3.2, footing = 0.05;
 
-/* --- lots -------------------------------------------------------------------------------------------------------- */
+/* --- lots ----------------------------------------------------------------------------------------------- */
 
 double row_start(int row)
 {
@@ -48,18 +48,22 @@ static building tower_of(building b, int row)
 
 building building_of(int index)
 {
-    int row = index / (SIDES * LOTS), side = index / LOTS % SIDES, lot = index % LOTS;
-    bool front = lot < FRONT_LOTS, back = !front && lot < FRONT_LOTS + BACK_LOTS;
-    int  count = front ? FRONT_LOTS : BACK_LOTS, place_in = front ? lot : back ? lot - FRONT_LOTS : lot - FRONT_LOTS - BACK_LOTS;
+    int      row = index / (SIDES * LOTS), side = index / LOTS % SIDES, lot = index % LOTS;
+    bool     front = lot < FRONT_LOTS, back = !front && lot < FRONT_LOTS + BACK_LOTS;
+    int      count = front ? FRONT_LOTS : BACK_LOTS, place_in = front  ? lot
+                                                                : back ? lot - FRONT_LOTS
+                                                                       : lot - FRONT_LOTS - BACK_LOTS;
     building b = {.seed = seed_of(index, 3)};
-    double start;
+    double   start;
     share_out(index / LOTS * 3 + (front ? 0 : back ? 1 : 2), place_in, count, &start, &b.width);
     bool first = place_in == 0, last = place_in == count - 1;
     b.depth = front ? 11.5 + 1.2 * chance(&b.seed) : 10.5 + chance(&b.seed);
     b.floors = 3 + (int)(3.4 * chance(&b.seed)) + (front && row == 2 ? 1 : 0);
     b.detail = !front || row > 1 || (row == 1 && lot > 1) ? 0 : row == 0 && lot < 2 ? 2 : 1;
     b.roof = (roof_shape)((int)(5 * chance(&b.seed)));
-    double from_middle = front ? STREET_HALF + 0.35 * chance(&b.seed) : back ? STREET_HALF + BLOCK_DEPTH : STREET_HALF + BLOCK_DEPTH + LANE;
+    double from_middle = front  ? STREET_HALF + 0.35 * chance(&b.seed)
+                         : back ? STREET_HALF + BLOCK_DEPTH
+                                : STREET_HALF + BLOCK_DEPTH + LANE;
     double near_end = row_start(row) - start, far_end = near_end - b.width;
     if (!front && !back)
         b = tower_of(b, row);
@@ -88,7 +92,7 @@ static double gable_rise(const building *b)
     return b->width * 0.42;
 }
 
-/* --- facades ----------------------------------------------------------------------------------------------------- */
+/* --- facades -------------------------------------------------------------------------------------------- */
 
 typedef enum layer { STONEWORK, PANES } layer;
 
@@ -106,11 +110,12 @@ static void pane(mesh *m, double left, double bottom, double right, double top, 
     plan(m, &o, NULL, 0, bottom, top);
 }
 
-/* From near by a frame with lintel, sill and glazing bars, farther off a frame and a sill, from afar the pane alone. */
+/* From near by a frame with lintel, sill and glazing bars, farther off a frame and a sill, from afar the pane
+ * alone. */
 static void window(mesh *m, layer part, const opening *w, int detail)
 {
     static const double bar = 0.035, rim = 0.13, fronts[] = {0.05, 0.28, 0.04};
-    const opening outer = {w->left - rim, w->bottom - 0.02, w->right + rim, w->top + rim};
+    const opening       outer = {w->left - rim, w->bottom - 0.02, w->right + rim, w->top + rim};
     if (part == PANES) {
         pane(m, w->left, w->bottom, w->right, w->top, fronts[detail]);
         if (detail > 1) { /* bars, a cross */
@@ -119,7 +124,8 @@ static void window(mesh *m, layer part, const opening *w, int detail)
             pane(m, w->left - 0.03, crossing - bar, w->right + 0.03, crossing + bar, 0.09);
         }
     } else if (detail > 1) {
-        outline whole = rectangle(outer.left, outer.bottom, outer.right, outer.top), hole = rectangle(w->left, w->bottom, w->right, w->top);
+        outline whole = rectangle(outer.left, outer.bottom, outer.right, outer.top),
+                hole = rectangle(w->left, w->bottom, w->right, w->top);
         elevation(m, &whole, &hole, 1, -0.15, 0.22);
         box(m, w->left - 0.22, w->top + 0.11, -0.13, w->right + 0.22, w->top + 0.3, 0.32);
     } else if (detail) {
@@ -146,7 +152,8 @@ static void door(mesh *m, layer part, double middle, int detail)
     }
     if (!detail)
         return;
-    outline outer = rectangle(leaf.left - 0.22, 0.1, leaf.right + 0.22, leaf.top + 0.28), hole = rectangle(leaf.left, 0.15, leaf.right, leaf.top);
+    outline outer = rectangle(leaf.left - 0.22, 0.1, leaf.right + 0.22, leaf.top + 0.28),
+            hole = rectangle(leaf.left, 0.15, leaf.right, leaf.top);
     elevation(m, &outer, &hole, 1, -0.15, 0.26);
     box(m, leaf.left - 0.4, leaf.top + 0.26, -0.14, leaf.right + 0.4, leaf.top + 0.42, 0.5);
     box(m, leaf.left - 0.3, footing + 0.01, -0.16, leaf.right + 0.3, 0.24, 0.55);
@@ -158,7 +165,8 @@ static void balcony(mesh *m, double middle, double floor, double half)
     box(m, middle - half, floor - 0.18, -0.1, middle + half, floor - 0.02, 0.85);
     box(m, middle - half, floor + 0.98, 0.74, middle + half, floor + 1.06, 0.82);
     for (int side = -1; side <= 1; side += 2)
-        box(m, middle + side * (half - 0.04) - 0.03, floor + 0.97, -0.05, middle + side * (half - 0.04) + 0.03, floor + 1.05, 0.76);
+        box(m, middle + side * (half - 0.04) - 0.03, floor + 0.97, -0.05, middle + side * (half - 0.04) + 0.03,
+            floor + 1.05, 0.76);
     int bars = (int)(2 * half / 0.42);
     for (int i = 0; i <= bars; i++) {
         double x = middle - half + 0.04 + (2 * half - 0.08) * i / bars;
@@ -176,7 +184,7 @@ static int columns_of(double width)
 static void facade(mesh *m, layer part, const building *b, double width, bool street)
 {
     uint32_t seed = b->seed * 3 + 1;
-    int    columns = columns_of(width), door_at = (int)(columns * chance(&seed)), balconies = chance(&seed) > 0.55 ? 1 : 0;
+    int columns = columns_of(width), door_at = (int)(columns * chance(&seed)), balconies = chance(&seed) > 0.55 ? 1 : 0;
     double bay = width / columns, half = fmin(0.62, bay * 0.26), tall = 1.7 + 0.35 * chance(&seed);
     for (int f = 0; f < b->floors; f++)
         for (int c = 0; c < columns; c++) {
@@ -214,7 +222,7 @@ static void all_facades(mesh *m, layer part, const building *b)
         }
 }
 
-/* --- towers ------------------------------------------------------------------------------------------------------ */
+/* --- towers --------------------------------------------------------------------------------------------- */
 
 enum { TIERS = 3 };
 
@@ -225,9 +233,9 @@ typedef struct tier {
 /* Towers step back twice on their way up. */
 static void tiers_of(const building *b, tier out[TIERS])
 {
-    double height = wall_height(b);
+    double   height = wall_height(b);
     uint32_t seed = b->seed * 5 + 3;
-    double first = 0.5 + 0.2 * chance(&seed), second = first + 0.18 + 0.08 * chance(&seed);
+    double   first = 0.5 + 0.2 * chance(&seed), second = first + 0.18 + 0.08 * chance(&seed);
     out[0] = (tier){0, footing, ground_floor + storey * floor((height * first - ground_floor) / storey)};
     out[1] = (tier){1.3, out[0].to - 0.5, ground_floor + storey * floor((height * second - ground_floor) / storey)};
     out[2] = (tier){2.9, out[1].to - 0.5, height};
@@ -243,8 +251,10 @@ static void tower_walls(mesh *m, const building *b)
         double in = tiers[t].inset, from = tiers[t].from, to = tiers[t].to;
         box(m, in, from, -b->depth + in, b->width - in, to, -in);
         box(m, in - 0.5, to - 0.45, -b->depth + in - 0.5, b->width - in + 0.5, to + 0.5, -in + 0.5); /* cornice */
-        for (double y = t ? from + 0.5 + storey : ground_floor; banded && y < to - 1; y += (b->floors > 11 ? 2 : 1) * storey)
-            box(m, in - 0.4, y - 0.42, -b->depth + in - 0.4, b->width - in + 0.4, y + (b->floors > 11 ? 1.2 : 0.42), -in + 0.4);
+        for (double y = t ? from + 0.5 + storey : ground_floor; banded && y < to - 1;
+             y += (b->floors > 11 ? 2 : 1) * storey)
+            box(m, in - 0.4, y - 0.42, -b->depth + in - 0.4, b->width - in + 0.4, y + (b->floors > 11 ? 1.2 : 0.42),
+                -in + 0.4);
         for (int i = 0; !banded && i <= 3; i++) {
             double x = in + 0.35 + (b->width - 2 * in - 0.7) * i / 3, z = in + 0.35 + (b->depth - 2 * in - 0.7) * i / 3;
             box(m, x - 0.28, from + 0.01, -b->depth + in - 0.38, x + 0.28, to - 0.2, -in + 0.38);
@@ -256,7 +266,7 @@ static void tower_walls(mesh *m, const building *b)
     TURNED(m, b->width * 0.7, tiers[2].to, -b->depth * 0.5, 12, {0, 0}, {0, 1.1}, {2.4, 1.1}, {3.1, 0});
 }
 
-/* --- walls ------------------------------------------------------------------------------------------------------- */
+/* --- walls ---------------------------------------------------------------------------------------------- */
 
 static void chimney(mesh *m, double x, double z, double foot, double top, int detail)
 {
@@ -284,7 +294,8 @@ static void gabled_walls(mesh *m, const building *b)
     for (int side = 0; side < 2; side++)
         for (int i = 0; i < 2 * STEPS; i++) {
             int    step = side ? 2 * STEPS - 1 - i : i;
-            double in = 0.02 + (b->width / 2 - 0.75) * (step / 2) / (STEPS - 1), y = height + 0.25 + (rise + 0.55) * ((step + 1) / 2) / STEPS;
+            double in = 0.02 + (b->width / 2 - 0.75) * (step / 2) / (STEPS - 1),
+                   y = height + 0.25 + (rise + 0.55) * ((step + 1) / 2) / STEPS;
             add_point(&g, side ? in : b->width - in, step == 0 ? height - 0.4 : y);
         }
     elevation(m, &g, NULL, 0, -0.45, 0.07);
@@ -298,7 +309,8 @@ static void plain_walls(mesh *m, const building *b)
     if (b->detail)
         box(m, 0.015, height - 0.62, -0.19, b->width - 0.015, height - 0.43, 0.3);
     if (b->roof == ROOF_FLAT) {
-        outline outer = rectangle(0.02, -b->depth + 0.01, b->width - 0.02, 0.02), inner = rectangle(0.35, -b->depth + 0.35, b->width - 0.35, -0.35);
+        outline outer = rectangle(0.02, -b->depth + 0.01, b->width - 0.02, 0.02),
+                inner = rectangle(0.35, -b->depth + 0.35, b->width - 0.35, -0.35);
         plan(m, &outer, &inner, 1, height - 0.14, height + 0.9);
         box(m, b->width * 0.3, height - 0.1, -b->depth * 0.7, b->width * 0.55, height + 2.3, -b->depth * 0.45);
     }
@@ -307,7 +319,10 @@ static void plain_walls(mesh *m, const building *b)
 static double ridge_height(const building *b)
 {
     double height = wall_height(b);
-    return b->roof == ROOF_FLAT ? height + 0.6 : b->roof == ROOF_EAVES ? height + b->depth * 0.36 : b->roof == ROOF_MANSARD ? height + 3.9 : height + gable_rise(b);
+    return b->roof == ROOF_FLAT      ? height + 0.6
+           : b->roof == ROOF_EAVES   ? height + b->depth * 0.36
+           : b->roof == ROOF_MANSARD ? height + 3.9
+                                     : height + gable_rise(b);
 }
 
 void build_walls(mesh *m, int index)
@@ -344,14 +359,14 @@ void build_windows(mesh *m, int block)
     }
 }
 
-/* --- roofs ------------------------------------------------------------------------------------------------------- */
+/* --- roofs ---------------------------------------------------------------------------------------------- */
 
 static void dormers(mesh *m, const building *b, double sill, double back)
 {
     int    columns = columns_of(b->width);
     double bay = b->width / columns;
     for (int c = 0; c < columns; c++) {
-        double middle = bay * (c + 0.5);
+        double  middle = bay * (c + 0.5);
         outline o = {0};
         add_point(&o, middle - 0.62, sill);
         add_point(&o, middle + 0.62, sill);
@@ -360,7 +375,8 @@ static void dormers(mesh *m, const building *b, double sill, double back)
         add_point(&o, middle - 0.62, sill + 1.35);
         elevation(m, &o, NULL, 0, back, -0.3);
         if (b->detail) {
-            outline frame = rectangle(middle - 0.46, sill + 0.1, middle + 0.46, sill + 1.3), hole = rectangle(middle - 0.36, sill + 0.2, middle + 0.36, sill + 1.2);
+            outline frame = rectangle(middle - 0.46, sill + 0.1, middle + 0.46, sill + 1.3),
+                    hole = rectangle(middle - 0.36, sill + 0.2, middle + 0.36, sill + 1.2);
             elevation(m, &frame, &hole, 1, -0.5, -0.24);
         }
     }
@@ -398,11 +414,23 @@ void build_roofs(mesh *m, int block)
         uint32_t kept = m->point_count;
         double   h = wall_height(&b), d = b.depth;
         if (b.roof == ROOF_EAVES) {
-            roof_along(m, &b, (const double[][2]){{0.5, h - 0.1}, {0.5, h + 0.08}, {-d / 2, h + d * 0.36}, {-d - 0.4, h + 0.08}, {-d - 0.4, h - 0.1}}, 5);
+            roof_along(
+                m, &b,
+                (const double[][2]){
+                    {0.5, h - 0.1}, {0.5, h + 0.08}, {-d / 2, h + d * 0.36}, {-d - 0.4, h + 0.08}, {-d - 0.4, h - 0.1}},
+                5);
             if (chance(&b.seed) > 0.35)
                 dormers(m, &b, h + 0.7, -3.2);
         } else if (b.roof == ROOF_MANSARD) {
-            roof_along(m, &b, (const double[][2]){{0.3, h - 0.1}, {0.3, h + 0.1}, {-0.9, h + 2.7}, {-d / 2, h + 3.9}, {0.9 - d, h + 2.7}, {-d - 0.2, h + 0.1}, {-d - 0.2, h - 0.1}}, 7);
+            roof_along(m, &b,
+                       (const double[][2]){{0.3, h - 0.1},
+                                           {0.3, h + 0.1},
+                                           {-0.9, h + 2.7},
+                                           {-d / 2, h + 3.9},
+                                           {0.9 - d, h + 2.7},
+                                           {-d - 0.2, h + 0.1},
+                                           {-d - 0.2, h - 0.1}},
+                       7);
             dormers(m, &b, h + 0.55, -2.2);
         } else if (b.roof == ROOF_GABLE || b.roof == ROOF_STEPPED) {
             gable_roof(m, &b);

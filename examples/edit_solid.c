@@ -1,7 +1,7 @@
 /* A solid that is edited from picture to picture: edit_solid FRAMES OUT-PREFIX [LOOK]
  *
- * A ball and a box have the middle in common; three bores cross it. While the frames are drawn one bore moves through the solid from
- * side to side. Writes OUT-PREFIX000.png and so on. Lengths are millimetres, +z is up. */
+ * A ball and a box have the middle in common; three bores cross it. While the frames are drawn one bore moves through
+ * the solid from side to side. Writes OUT-PREFIX000.png and so on. Lengths are millimetres, +z is up. */
 #include <limner/limner.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,13 +15,14 @@ static const double axes[3][16] = {
     {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1},
     {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1},
 };
-static const float brass[4] = {0.85f, 0.64f, 0.25f, 1}, steel[4] = {0.36f, 0.5f, 0.65f, 1}, red[4] = {0.65f, 0.24f, 0.25f, 1};
+static const float brass[4] = {0.85f, 0.64f, 0.25f, 1}, steel[4] = {0.36f, 0.5f, 0.65f, 1},
+                   red[4] = {0.65f, 0.24f, 0.25f, 1};
 
 /* (ball ∩ box) − bores. Gives the bore that will move. */
 static lmn_status build(lmn_scene *scene, uint32_t *solid, uint32_t *moving, lmn_error *error)
 {
     lmn_shape ball = lmn_shape_sphere(30), box = lmn_shape_box(46, 46, 46), bore = lmn_shape_cylinder(70, 11.5, 11.5);
-    uint32_t middle, part, bores[3];
+    uint32_t  middle, part, bores[3];
     ball.facets.fn = bore.facets.fn = 96;
     box.centred = bore.centred = true;
     lmn_status status = lmn_scene_add_solid(scene, "widget", LMN_DIFFERENCE, solid, error);
@@ -55,15 +56,16 @@ static lmn_status move(lmn_scene *scene, uint32_t solid, uint32_t bore, double s
     return lmn_solid_set_matrix(scene, solid, bore, matrix, error);
 }
 
-static lmn_status draw_frames(lmn_scene *scene, lmn_renderer *renderer, const lmn_look *look, int count, const char *prefix, lmn_error *error)
+static lmn_status draw_frames(lmn_scene *scene, lmn_renderer *renderer, const lmn_look *look, int count,
+                              const char *prefix, lmn_error *error)
 {
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
-    uint32_t solid, bore;
+    uint32_t      solid, bore;
     desc.width = desc.height = 512;
     desc.samples = 4;
     lmn_status status = build(scene, &solid, &bore, error);
     for (int i = 0; i < count && status == LMN_OK; i++) {
-        char path[PATH_ROOM];
+        char         path[PATH_ROOM];
         lmn_drawing *drawing = NULL;
         snprintf(path, sizeof path, "%s%03d.png", prefix, i);
         status = move(scene, solid, bore, (double)i / count, error);
@@ -83,12 +85,12 @@ int main(int argc, char **argv)
         fputs("usage: edit_solid FRAMES OUT-PREFIX [LOOK]     (1 to 1000 frames)\n", stderr);
         return 1;
     }
-    lmn_error error = {0};
-    lmn_scene *scene = NULL;
-    lmn_renderer *renderer = NULL;
-    lmn_look *look = NULL;
+    lmn_error         error = {0};
+    lmn_scene        *scene = NULL;
+    lmn_renderer     *renderer = NULL;
+    lmn_look         *look = NULL;
     lmn_renderer_desc make = LMN_RENDERER_DESC_INIT;
-    lmn_status status = lmn_scene_create(&scene, &error);
+    lmn_status        status = lmn_scene_create(&scene, &error);
     if (status == LMN_OK)
         status = lmn_renderer_create(&renderer, &make, &error);
     if (status == LMN_OK)

@@ -19,7 +19,7 @@ void facade_frames(mesh *m, const facade *f)
 {
     for (int k = 0; k < f->count; k++) {
         const opening *a = &f->openings[k];
-        double         width = a->filling == DOOR ? 0.22 : fmin(0.16, a->radius * 0.4), deep = a->filling == DOOR ? 0.3 : 0.16;
+        double  width = a->filling == DOOR ? 0.22 : fmin(0.16, a->radius * 0.4), deep = a->filling == DOOR ? 0.3 : 0.16;
         outline o = round_headed_frame(a->x, a->sill, a->springing, a->radius - 0.015, width, WINDOW_ROUND);
         elevation(m, &o, NULL, 0, f->front - deep, f->front + 0.05);
         if (a->filling != DOOR)
@@ -34,7 +34,8 @@ void facade_outer_frames(mesh *m, const facade *f)
         const opening *a = &f->openings[k];
         outline        o = round_headed_frame(a->x, a->sill, a->springing, a->radius - 0.015, 0.18, WINDOW_ROUND);
         elevation(m, &o, NULL, 0, f->back - 0.06, f->back + 0.2);
-        box(m, a->x - a->radius - 0.25, a->sill - 0.14, f->back - 0.12, a->x + a->radius + 0.25, a->sill + 0.02, f->back + 0.3);
+        box(m, a->x - a->radius - 0.25, a->sill - 0.14, f->back - 0.12, a->x + a->radius + 0.25, a->sill + 0.02,
+            f->back + 0.3);
     }
 }
 
@@ -45,7 +46,8 @@ static void door_leaf(mesh *m, const opening *a, double back)
     outline o = round_headed(a->x, a->sill - 0.02, a->springing, a->radius + 0.02, WINDOW_ROUND);
     elevation(m, &o, NULL, 0, back, back + 0.06);
     for (int k = 0; k < BOARDS; k++) {
-        double left = a->x - a->radius + 2 * a->radius * k / BOARDS + 0.02, right = left + 2 * a->radius / BOARDS - 0.04;
+        double left = a->x - a->radius + 2 * a->radius * k / BOARDS + 0.02,
+               right = left + 2 * a->radius / BOARDS - 0.04;
         double far = fmax(fabs(left - a->x), fabs(right - a->x));
         double top = a->springing + sqrt(fmax(0, a->radius * a->radius - far * far)) - 0.02;
         box(m, left, a->sill + 0.02, back + 0.04, right, top, back + 0.1);
@@ -107,7 +109,8 @@ void facade_stones(mesh *m, const facade *f, bool front, double from, double to,
             if (!keeps || bottom < from || top > to || left < f->left + 0.1 || right > f->right - 0.1 ||
                 at_opening(f, left, bottom, right, top))
                 continue;
-            box(m, left, bottom, front ? f->front - 0.07 : f->back - out, right, top, front ? f->front + out : f->back + 0.07);
+            box(m, left, bottom, front ? f->front - 0.07 : f->back - out, right, top,
+                front ? f->front + out : f->back + 0.07);
         }
     }
 }

@@ -10,24 +10,43 @@ static const struct {
     const char *name;
     int         material;
 } part_facts[PART_COUNT] = {
-    [GROUND] = {"ground", GRASS},       [PATH] = {"path", STONE},           [STEPS] = {"steps", STONE},
-    [PLINTH] = {"plinth", STONE},       [WALLS] = {"walls", BRICK},         [GABLES] = {"gables", WOOD},
-    [ROOF] = {"roof", TILES},           [RIDGE] = {"ridge", TILES},         [BEAMS] = {"beams", WOOD},
-    [STONES] = {"stones", STONE},       [FRAMES] = {"frames", PAINT},       [SHUTTERS] = {"shutters", WOOD},
-    [DOOR] = {"door", WOOD},            [GLASS_PART] = {"windows", GLASS},  [IRON_PART] = {"iron", IRON},
-    [CHIMNEY] = {"chimney", BRICK},     [POTS] = {"chimney pots", TILES},   [TOWER] = {"tower", BRICK},
-    [TOWER_STONES] = {"tower stones", STONE}, [TOWER_ROOF] = {"tower roof", TILES}, [GARDEN_WALL] = {"garden wall", STONE},
-    [COPING] = {"coping", STONE},       [ROOM] = {"room", PAINT},             [FLOOR] = {"floor", WOOD},
-    [JOISTS] = {"joists", WOOD},        [HEARTH] = {"hearth", BRICK},       [FURNITURE] = {"furniture", WOOD},
+    [GROUND] = {"ground", GRASS},
+    [PATH] = {"path", STONE},
+    [STEPS] = {"steps", STONE},
+    [PLINTH] = {"plinth", STONE},
+    [WALLS] = {"walls", BRICK},
+    [GABLES] = {"gables", WOOD},
+    [ROOF] = {"roof", TILES},
+    [RIDGE] = {"ridge", TILES},
+    [BEAMS] = {"beams", WOOD},
+    [STONES] = {"stones", STONE},
+    [FRAMES] = {"frames", PAINT},
+    [SHUTTERS] = {"shutters", WOOD},
+    [DOOR] = {"door", WOOD},
+    [GLASS_PART] = {"windows", GLASS},
+    [IRON_PART] = {"iron", IRON},
+    [CHIMNEY] = {"chimney", BRICK},
+    [POTS] = {"chimney pots", TILES},
+    [TOWER] = {"tower", BRICK},
+    [TOWER_STONES] = {"tower stones", STONE},
+    [TOWER_ROOF] = {"tower roof", TILES},
+    [GARDEN_WALL] = {"garden wall", STONE},
+    [COPING] = {"coping", STONE},
+    [ROOM] = {"room", PAINT},
+    [FLOOR] = {"floor", WOOD},
+    [JOISTS] = {"joists", WOOD},
+    [HEARTH] = {"hearth", BRICK},
+    [FURNITURE] = {"furniture", WOOD},
     [CROCKERY] = {"crockery", PAINT},
 };
 static const struct {
     const char *name, *picture;
     double      colour[3];
 } material_facts[MATERIAL_COUNT] = {
-    [BRICK] = {"brick", "brick", {1, 1, 1}}, [TILES] = {"tiles", "tiles", {1, 1, 1}},  [WOOD] = {"wood", "wood", {1, 1, 1}},
-    [STONE] = {"stone", "stone", {1, 1, 1}}, [GRASS] = {"grass", "grass", {1, 1, 1}},  [GLASS] = {"glass", "glass", {1, 1, 1}},
-    [PAINT] = {"paint", "paint", {1, 1, 1}},      [IRON] = {"iron", NULL, {0.05, 0.05, 0.06}},
+    [BRICK] = {"brick", "brick", {1, 1, 1}}, [TILES] = {"tiles", "tiles", {1, 1, 1}},
+    [WOOD] = {"wood", "wood", {1, 1, 1}},    [STONE] = {"stone", "stone", {1, 1, 1}},
+    [GRASS] = {"grass", "grass", {1, 1, 1}}, [GLASS] = {"glass", "glass", {1, 1, 1}},
+    [PAINT] = {"paint", "paint", {1, 1, 1}}, [IRON] = {"iron", NULL, {0.05, 0.05, 0.06}},
 };
 
 void give_up(void)
@@ -47,7 +66,7 @@ void sort_numbers(double *numbers, int count)
     qsort(numbers, (size_t)count, sizeof *numbers, compare_numbers);
 }
 
-/* --- faces -------------------------------------------------------------------------------------------------------- */
+/* --- faces ---------------------------------------------------------------------------------------------- */
 
 int add_chart(house *h, double width, double height, double density)
 {
@@ -98,7 +117,8 @@ void put_polygon(house *h, const face *f, const double (*points)[2], int count)
     uint32_t   first = m->vertex_count;
     for (int i = 0; i < count; i++) {
         double u = points[i][0], v = points[i][1];
-        vertex p = {.metres = {(f->turned ? v : u) / tile, (f->turned ? -u : v) / tile}, .unique = {u, v}, .chart = f->chart};
+        vertex p = {
+            .metres = {(f->turned ? v : u) / tile, (f->turned ? -u : v) / tile}, .unique = {u, v}, .chart = f->chart};
         for (int k = 0; k < 3; k++) {
             p.at[k] = f->at[k] + u * f->u[k] + v * f->v[k];
             p.normal[k] = f->u[(k + 1) % 3] * f->v[(k + 2) % 3] - f->u[(k + 2) % 3] * f->v[(k + 1) % 3];
@@ -133,7 +153,8 @@ static void put_side(house *h, int part, const double at[3], const double u[3], 
     }
     f.chart = add_chart(h, width, height, part == GROUND ? 0.35 : part == PATH ? 0.5 : 1);
     double weight = width < 0.6 || height < 0.6 ? 0.4 : 1;
-    outline_chart(h, f.chart, (const double[][2]){{0, 0}, {width, 0}, {width, height}, {0, height}}, 4, part == GROUND ? 0 : weight);
+    outline_chart(h, f.chart, (const double[][2]){{0, 0}, {width, 0}, {width, height}, {0, height}}, 4,
+                  part == GROUND ? 0 : weight);
     f.turned = part_facts[part].material == WOOD && width > 1.5 * height; /* boards lie along */
     put_rectangle(h, &f, 0, 0, width, height);
 }
@@ -147,34 +168,36 @@ void slanted_box(house *h, int part, const double at[3], const double u[3], cons
         far[k] = at[k] + u[k] + w[k];
         from[k] = at[k] + w[k];
     }
-    put_side(h, part, from, u, v);         /* front */
-    put_side(h, part, far, minus_w, v);    /* right */
-    put_side(h, part, at, w, v);           /* left */
+    put_side(h, part, from, u, v);      /* front */
+    put_side(h, part, far, minus_w, v); /* right */
+    put_side(h, part, at, w, v);        /* left */
     for (int k = 0; k < 3; k++)
         from[k] = at[k] + u[k];
-    put_side(h, part, from, minus_u, v);   /* back */
-    put_side(h, part, at, u, w);           /* bottom */
+    put_side(h, part, from, minus_u, v); /* back */
+    put_side(h, part, at, u, w);         /* bottom */
     for (int k = 0; k < 3; k++)
         from[k] = at[k] + v[k] + w[k];
-    put_side(h, part, from, u, minus_w);   /* top */
+    put_side(h, part, from, u, minus_w); /* top */
 }
 
 void box_at(house *h, int part, double left, double bottom, double back, double right, double top, double front)
 {
-    slanted_box(h, part, (const double[3]){left, bottom, back}, (const double[3]){right - left, 0, 0}, (const double[3]){0, top - bottom, 0},
-                (const double[3]){0, 0, front - back});
+    slanted_box(h, part, (const double[3]){left, bottom, back}, (const double[3]){right - left, 0, 0},
+                (const double[3]){0, top - bottom, 0}, (const double[3]){0, 0, front - back});
 }
 
-/* --- tubes -------------------------------------------------------------------------------------------------------- */
+/* --- tubes ---------------------------------------------------------------------------------------------- */
 
 static vertex on_tube(const double at[3], way along, double angle, double t, double radius, double lean)
 {
     double s = sin(angle), c = cos(angle), slope = sqrt(1 + lean * lean);
     vertex p = {0};
     if (along == UP_WAY)
-        p = (vertex){.at = {at[0] + radius * s, at[1] + t, at[2] + radius * c}, .normal = {s / slope, lean / slope, c / slope}};
+        p = (vertex){.at = {at[0] + radius * s, at[1] + t, at[2] + radius * c},
+                     .normal = {s / slope, lean / slope, c / slope}};
     else
-        p = (vertex){.at = {at[0] + t, at[1] + radius * c, at[2] + radius * s}, .normal = {lean / slope, c / slope, s / slope}};
+        p = (vertex){.at = {at[0] + t, at[1] + radius * c, at[2] + radius * s},
+                     .normal = {lean / slope, c / slope, s / slope}};
     return p;
 }
 
@@ -204,15 +227,16 @@ static void tube_end(house *h, int part, const double at[3], way along, double t
     }
 }
 
-void tube(house *h, int part, const double at[3], way along, double length, double from_radius, double to_radius, int segments)
+void tube(house *h, int part, const double at[3], way along, double length, double from_radius, double to_radius,
+          int segments)
 {
     enum { BANDS = 6 };
     part_mesh *m = &h->parts[part];
-    double     tile = metres_a_tile[part_facts[part].material], wide = fmax(from_radius, to_radius), around = 2 * PI * wide;
-    double     lean = (from_radius - to_radius) / length, slant = length * sqrt(1 + lean * lean);
-    int        index = add_chart(h, around, slant, 1), bands = fabs(lean) > 0.02 ? BANDS : 1;
-    double     wraps = fmax(1, floor(around / tile + 0.5));
-    double     weight = slant < 0.6 || wide < 0.3 ? 0.4 : 1;
+    double tile = metres_a_tile[part_facts[part].material], wide = fmax(from_radius, to_radius), around = 2 * PI * wide;
+    double lean = (from_radius - to_radius) / length, slant = length * sqrt(1 + lean * lean);
+    int    index = add_chart(h, around, slant, 1), bands = fabs(lean) > 0.02 ? BANDS : 1;
+    double wraps = fmax(1, floor(around / tile + 0.5));
+    double weight = slant < 0.6 || wide < 0.3 ? 0.4 : 1;
     outline_chart(h, index, (const double[][2]){{0, 0}, {around, 0}}, 2, weight);
     outline_chart(h, index, (const double[][2]){{0, slant}, {around, slant}}, 2, weight);
     for (int b = 0; b < bands; b++) {
@@ -221,7 +245,8 @@ void tube(house *h, int part, const double at[3], way along, double length, doub
         for (int i = 0; i <= segments; i++)
             for (int end = 0; end < 2; end++) {
                 double share = end ? high : low, angle = 2 * PI * i / segments;
-                vertex p = on_tube(at, along, angle, length * share, from_radius + (to_radius - from_radius) * share, lean);
+                vertex p =
+                    on_tube(at, along, angle, length * share, from_radius + (to_radius - from_radius) * share, lean);
                 p.chart = index;
                 p.unique[0] = around * i / segments;
                 p.unique[1] = slant * share;
@@ -240,13 +265,13 @@ void tube(house *h, int part, const double at[3], way along, double length, doub
     tube_end(h, part, at, along, length, to_radius, segments, true);
 }
 
-/* --- the atlas ---------------------------------------------------------------------------------------------------- */
+/* --- the atlas ------------------------------------------------------------------------------------------ */
 
 static const house *sorted_house;
 
 static int taller(const void *a, const void *b)
 {
-    const int i = *(const int *)a, j = *(const int *)b;
+    const int    i = *(const int *)a, j = *(const int *)b;
     const chart *c = &sorted_house->charts[i], *d = &sorted_house->charts[j];
     return c->down != d->down ? (c->down < d->down) - (c->down > d->down) : (i > j) - (i < j);
 }
@@ -281,7 +306,7 @@ static bool pack(house *h, double texels_per_metre)
     return true;
 }
 
-/* --- the file ----------------------------------------------------------------------------------------------------- */
+/* --- the file ------------------------------------------------------------------------------------------- */
 
 typedef struct chunk {
     char  *bytes;
@@ -306,14 +331,16 @@ static void unique_of(const house *h, const vertex *v, double out[2])
         out[k] = ((k ? c->y : c->x) + 0.5 + v->unique[k] * c->density * h->texels_per_metre) / ATLAS_SIDE;
 }
 
-static void put_accessor(FILE *json, int *count, size_t offset, size_t size, uint32_t values, const char *type, chunk *views, const double *bounds)
+static void put_accessor(FILE *json, int *count, size_t offset, size_t size, uint32_t values, const char *type,
+                         chunk *views, const double *bounds)
 {
-    fprintf(views->stream, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu,\"target\":%d}", *count ? "," : "", offset, size,
-            strcmp(type, "SCALAR") == 0 ? 34963 : 34962);
+    fprintf(views->stream, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu,\"target\":%d}", *count ? "," : "",
+            offset, size, strcmp(type, "SCALAR") == 0 ? 34963 : 34962);
     fprintf(json, "%s{\"bufferView\":%d,\"componentType\":%d,\"count\":%u,\"type\":\"%s\"", *count ? "," : "", *count,
             strcmp(type, "SCALAR") == 0 ? 5123 : 5126, values, type);
     if (bounds)
-        fprintf(json, ",\"min\":[%.6g,%.6g,%.6g],\"max\":[%.6g,%.6g,%.6g]", bounds[0], bounds[1], bounds[2], bounds[3], bounds[4], bounds[5]);
+        fprintf(json, ",\"min\":[%.6g,%.6g,%.6g],\"max\":[%.6g,%.6g,%.6g]", bounds[0], bounds[1], bounds[2], bounds[3],
+                bounds[4], bounds[5]);
     fprintf(json, "}");
     ++*count;
 }
@@ -326,7 +353,7 @@ static void put_part(const house *h, const part_mesh *m, chunk *bytes, chunk *vi
         size_t from = (size_t)ftell(bytes->stream);
         for (uint32_t i = 0; i < m->vertex_count; i++) {
             const vertex *v = &m->vertices[i];
-            double two[2];
+            double        two[2];
             unique_of(h, v, two);
             const double *values = set == 0 ? v->at : set == 1 ? v->normal : set == 2 ? v->metres : two;
             for (int k = 0; k < (set < 2 ? 3 : 2); k++) {
@@ -338,7 +365,8 @@ static void put_part(const house *h, const part_mesh *m, chunk *bytes, chunk *vi
                 }
             }
         }
-        put_accessor(accessors, count, from, (size_t)ftell(bytes->stream) - from, m->vertex_count, set < 2 ? "VEC3" : "VEC2", views, set ? NULL : bounds);
+        put_accessor(accessors, count, from, (size_t)ftell(bytes->stream) - from, m->vertex_count,
+                     set < 2 ? "VEC3" : "VEC2", views, set ? NULL : bounds);
     }
     size_t from = (size_t)ftell(bytes->stream);
     for (uint32_t i = 0; i < m->index_count; i++) {
@@ -355,7 +383,9 @@ static void put_materials(FILE *json, const char *folder)
     fputs("\"materials\":[", json);
     for (int i = 0, pictures = 0; i < MATERIAL_COUNT; i++) {
         const double *c = material_facts[i].colour;
-        fprintf(json, "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%g,%g,%g,1],\"metallicFactor\":0,\"roughnessFactor\":0.8",
+        fprintf(json,
+                "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%g,%g,%g,1],\"metallicFactor\":0,"
+                "\"roughnessFactor\":0.8",
                 i ? "," : "", material_facts[i].name, c[0], c[1], c[2]);
         if (material_facts[i].picture)
             fprintf(json, ",\"baseColorTexture\":{\"index\":%d}", pictures++);
@@ -383,7 +413,8 @@ static void put_nodes(FILE *json)
     fputs("],\"meshes\":[", json);
     for (int i = 0; i < PART_COUNT; i++)
         fprintf(json,
-                "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d,\"NORMAL\":%d,\"TEXCOORD_0\":%d,\"TEXCOORD_1\":%d},\"indices\":%d,\"material\":%d}]}",
+                "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d,\"NORMAL\":%d,\"TEXCOORD_0\":%d,\"TEXCOORD_1\":%d}"
+                ",\"indices\":%d,\"material\":%d}]}",
                 i ? "," : "", 5 * i, 5 * i + 1, 5 * i + 2, 5 * i + 3, 5 * i + 4, part_facts[i].material);
     fputs("],", json);
 }
@@ -403,12 +434,16 @@ bool house_write(house *h, const char *path, const char *folder)
         put_part(h, &h->parts[i], bytes, views, accessors->stream, &count);
     for (int k = 1; k < 4; k++)
         fclose(chunks[k].stream);
-    fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner make_house\",\"copyright\":\"CC0-1.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", json->stream);
+    fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner "
+          "make_house\",\"copyright\":\"CC0-1.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],",
+          json->stream);
     put_nodes(json->stream);
     put_materials(json->stream, slash ? slash + 1 : folder);
-    fprintf(json->stream, "\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}", accessors->bytes, views->bytes, bytes->size);
+    fprintf(json->stream, "\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}",
+            accessors->bytes, views->bytes, bytes->size);
     fclose(json->stream);
-    bool saved = glb_write(path, json->bytes, json->size, bytes->bytes, bytes->size) && paint_materials(folder) && paint_indication(h, folder);
+    bool saved = glb_write(path, json->bytes, json->size, bytes->bytes, bytes->size) && paint_materials(folder) &&
+                 paint_indication(h, folder);
     for (int k = 0; k < 4; k++)
         free(chunks[k].bytes);
     for (int i = 0; i < PART_COUNT; i++) {

@@ -1,5 +1,5 @@
-/* A model of flat faces and tubes with two sets of texture coordinates: tiled, in metres over metres a tile, and unique, in charts of an
- * atlas. */
+/* A model of flat faces and tubes with two sets of texture coordinates: tiled, in metres over metres a tile, and
+ * unique, in charts of an atlas. */
 #ifndef EXAMPLES_HOUSE_H
 #define EXAMPLES_HOUSE_H
 
@@ -12,8 +12,37 @@
 enum { CHARTS_MAX = 4096, EDGES_MAX = 24, ATLAS_SIDE = 384 };
 
 /* Parts in the order of the file; house.c has their names and materials. */
-enum { GROUND, PATH, STEPS, PLINTH, WALLS, GABLES, ROOF, RIDGE, BEAMS, STONES, FRAMES, SHUTTERS, DOOR, GLASS_PART, IRON_PART, CHIMNEY, POTS, TOWER,
-       TOWER_STONES, TOWER_ROOF, GARDEN_WALL, COPING, ROOM, FLOOR, JOISTS, HEARTH, FURNITURE, CROCKERY, PART_COUNT };
+enum {
+    GROUND,
+    PATH,
+    STEPS,
+    PLINTH,
+    WALLS,
+    GABLES,
+    ROOF,
+    RIDGE,
+    BEAMS,
+    STONES,
+    FRAMES,
+    SHUTTERS,
+    DOOR,
+    GLASS_PART,
+    IRON_PART,
+    CHIMNEY,
+    POTS,
+    TOWER,
+    TOWER_STONES,
+    TOWER_ROOF,
+    GARDEN_WALL,
+    COPING,
+    ROOM,
+    FLOOR,
+    JOISTS,
+    HEARTH,
+    FURNITURE,
+    CROCKERY,
+    PART_COUNT
+};
 enum { BRICK, TILES, WOOD, STONE, GRASS, GLASS, PAINT, IRON, MATERIAL_COUNT };
 
 typedef enum way { RIGHT_WAY, UP_WAY } way;
@@ -52,7 +81,7 @@ typedef struct face {
 } face;
 
 _Noreturn void give_up(void);
-void sort_numbers(double *numbers, int count);
+void           sort_numbers(double *numbers, int count);
 
 int  add_chart(house *h, double width, double height, double density);
 void outline_chart(house *h, int index, const double (*points)[2], int count, double weight);
@@ -64,14 +93,15 @@ void slanted_box(house *h, int part, const double at[3], const double u[3], cons
 void box_at(house *h, int part, double left, double bottom, double back, double right, double top, double front);
 
 /* A tube or a cone that stands at a place; its ends are closed. */
-void tube(house *h, int part, const double at[3], way along, double length, double from_radius, double to_radius, int segments);
+void tube(house *h, int part, const double at[3], way along, double length, double from_radius, double to_radius,
+          int segments);
 
 bool house_write(house *h, const char *path, const char *folder);
 
 /* house_paint.c */
 extern const double metres_a_tile[MATERIAL_COUNT];
-bool paint_materials(const char *folder);
-bool paint_indication(const house *h, const char *folder);
-bool file_of(const char *folder, const char *name, const char *ending, FILE **out);
+bool                paint_materials(const char *folder);
+bool                paint_indication(const house *h, const char *folder);
+bool                file_of(const char *folder, const char *name, const char *ending, FILE **out);
 
 #endif

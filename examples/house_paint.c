@@ -43,7 +43,7 @@ static double noise(double x, double y, int period)
     return value;
 }
 
-/* --- strokes ------------------------------------------------------------------------------------------------------ */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
 /* y grows upwards. `together`: strokes of one thing come and go one after the other. */
 typedef struct mark {
@@ -65,7 +65,8 @@ static void draw(int layer, double together, double x0, double y0, double x1, do
 }
 
 /* Parallel strokes within a box; `turn` in degrees. `together` below 0: each comes and goes by itself. */
-static void hatch(int layer, double together, double left, double bottom, double right, double top, double turn, double distance)
+static void hatch(int layer, double together, double left, double bottom, double right, double top, double turn,
+                  double distance)
 {
     double c = cos(turn * PI / 180), s = sin(turn * PI / 180), x = (left + right) / 2, y = (bottom + top) / 2;
     double half_x = (right - left) / 2, half_y = (top - bottom) / 2, reach = half_x * fabs(s) + half_y * fabs(c);
@@ -82,7 +83,8 @@ static void hatch(int layer, double together, double left, double bottom, double
             continue;
         from += about(0.06, 0.06) * (to - from);
         to -= about(0.06, 0.06) * (to - from);
-        draw(layer, together < 0 ? chance() : together, x + from * c - d * s, y + from * s + d * c, x + to * c - d * s, y + to * s + d * c);
+        draw(layer, together < 0 ? chance() : together, x + from * c - d * s, y + from * s + d * c, x + to * c - d * s,
+             y + to * s + d * c);
     }
 }
 
@@ -93,7 +95,8 @@ static void draw_brick(void)
     for (int k = 0; k < COURSES; k++)
         for (int i = 0; i < BRICKS; i++) {
             double left = (i + 0.5 * (k & 1)) * wide, bottom = k * high, own = hash(i + 7, k), shade = hash(i, k + 31);
-            draw(0, own, left + about(0.012, 0.01), bottom + about(0, 0.006), left + wide - about(0.012, 0.01), bottom + about(0, 0.006));
+            draw(0, own, left + about(0.012, 0.01), bottom + about(0, 0.006), left + wide - about(0.012, 0.01),
+                 bottom + about(0, 0.006));
             draw(0, own + 0.1, left + about(0, 0.005), bottom + 0.012, left + about(0, 0.005), bottom + high - 0.014);
             if (shade < 0.24)
                 hatch(1, shade, left + 0.02, bottom + 0.018, left + wide - 0.02, bottom + high - 0.018, 55, 0.022);
@@ -108,16 +111,19 @@ static void draw_tiles(void)
     const double high = 1.0 / ROWS, wide = 1.0 / ACROSS;
     for (int k = 0; k < ROWS; k++)
         for (int i = 0; i < ACROSS; i++) {
-            double left = (i + 0.5 * (k & 1)) * wide + about(0, 0.006), bottom = k * high + about(0, 0.008), own = hash(i + 3, k + 11), before[2] = {0};
+            double left = (i + 0.5 * (k & 1)) * wide + about(0, 0.006), bottom = k * high + about(0, 0.008),
+                   own = hash(i + 3, k + 11), before[2] = {0};
             for (int c = 0; c <= CHORDS; c++) { /* its rounded lower edge */
-                double t = (double)c / CHORDS, x = left + t * wide, y = bottom + high * 0.42 * pow(fabs(2 * t - 1), 2.4);
+                double t = (double)c / CHORDS, x = left + t * wide,
+                       y = bottom + high * 0.42 * pow(fabs(2 * t - 1), 2.4);
                 if (c)
                     draw(0, own, before[0], before[1], x, y);
                 before[0] = x, before[1] = y;
             }
             draw(1, own, left + about(0, 0.004), bottom + high * 0.45, left + about(0, 0.004), bottom + high * 0.95);
             for (int j = 1; j < 6; j++) { /* the shade of the tile above */
-                double x = left + wide * (j + about(0, 0.3)) / 6, top = bottom + high * (0.96 + 0.3 * fabs(j - 3.0) / 3);
+                double x = left + wide * (j + about(0, 0.3)) / 6,
+                       top = bottom + high * (0.96 + 0.3 * fabs(j - 3.0) / 3);
                 draw(2, own, x, top, x + about(0, 0.004), top - high * about(0.34, 0.1));
             }
             hatch(3, hash(i, k), left + 0.01, bottom + high * 0.15, left + wide - 0.01, bottom + high, 62, 0.03);
@@ -139,7 +145,8 @@ static void draw_wood(void)
         }
         double x = (i + about(0.5, 0.15)) * wide, y = chance(); /* a knot */
         for (int c = 0; c < 6; c++)
-            draw(1, 0.1, x + 0.022 * cos(c * PI / 3), y + 0.035 * sin(c * PI / 3), x + 0.022 * cos((c + 1) * PI / 3), y + 0.035 * sin((c + 1) * PI / 3));
+            draw(1, 0.1, x + 0.022 * cos(c * PI / 3), y + 0.035 * sin(c * PI / 3), x + 0.022 * cos((c + 1) * PI / 3),
+                 y + 0.035 * sin((c + 1) * PI / 3));
         hatch(2, 0.5 * hash(i, 3), i * wide + 0.012, 0, i * wide + wide - 0.012, 0.5, 28, 0.034);
         hatch(2, 0.5 + 0.5 * hash(i, 4), i * wide + 0.012, 0.5, i * wide + wide - 0.012, 1, 28, 0.034);
         hatch(3, hash(i, 8), i * wide, 0, i * wide + wide, 0.5, 90, 0.033);
@@ -163,7 +170,8 @@ static void draw_stone(void)
         double ends[8];
         int    count = stone_ends(k, ends);
         for (int i = 0; i < count; i++) {
-            double l = ends[i] + 0.012, r = ends[i + 1] - 0.012, b = courses[k] + 0.01, t = courses[k + 1] - 0.01, own = hash(i + 40, k), cut = 0.02;
+            double l = ends[i] + 0.012, r = ends[i + 1] - 0.012, b = courses[k] + 0.01, t = courses[k + 1] - 0.01,
+                   own = hash(i + 40, k), cut = 0.02;
             draw(0, own, l + cut, b, (l + r) / 2, b + about(0, 0.006));
             draw(0, own, (l + r) / 2, b + about(0, 0.006), r - cut, b + 0.004);
             draw(0, own, r, b + cut, r + about(0, 0.008), t - cut);
@@ -186,7 +194,8 @@ static void draw_grass(void)
     for (int k = 0; k < 34; k++) { /* tufts, evenly enough */
         double x = fmod(k * 0.618034, 1) + about(0, 0.03), y = (k + 0.5) / 34, own = hash(k, 77), size = about(1, 0.3);
         for (int j = -2; j <= 2; j++)
-            draw(0, own, x + 0.007 * j, y + 0.004 * j * j, x + size * (0.02 * j + about(0, 0.006)), y + size * (about(0.11, 0.02) - 0.008 * j * j));
+            draw(0, own, x + 0.007 * j, y + 0.004 * j * j, x + size * (0.02 * j + about(0, 0.006)),
+                 y + size * (about(0.11, 0.02) - 0.008 * j * j));
     }
     for (int k = 0; k < 150; k++) {
         double x = fmod(k * 0.754878, 1), y = fmod(k * 0.569840, 1);
@@ -203,7 +212,10 @@ static void draw_glass(void)
     for (int layer = 0; layer < 3; layer++)
         for (int k = 0; k < 16; k++)
             hatch(layer, -1, k % 4 * 0.25 - 0.02, k / 4 * 0.25 - 0.02, k % 4 * 0.25 + 0.27, k / 4 * 0.25 + 0.27,
-                  layer == 0 ? 60 : layer == 1 ? 52 : -35, 0.04);
+                  layer == 0   ? 60
+                  : layer == 1 ? 52
+                               : -35,
+                  0.04);
 }
 
 static void draw_paint(void)
@@ -211,17 +223,21 @@ static void draw_paint(void)
     for (int layer = 0; layer < 3; layer++)
         for (int k = 0; k < 16; k++)
             hatch(layer, -1, k % 4 * 0.25 - 0.02, k / 4 * 0.25 - 0.02, k % 4 * 0.25 + 0.27, k / 4 * 0.25 + 0.27,
-                  layer == 0 ? 45 : layer == 1 ? -45 : 0, 0.05);
+                  layer == 0   ? 45
+                  : layer == 1 ? -45
+                               : 0,
+                  0.05);
 }
 
 static int first_of(const void *a, const void *b)
 {
     const mark *m = a, *n = b;
-    int order = m->layer != n->layer ? m->layer - n->layer : (m->order > n->order) - (m->order < n->order);
+    int         order = m->layer != n->layer ? m->layer - n->layer : (m->order > n->order) - (m->order < n->order);
     return order ? order : m->index - n->index;
 }
 
-/* Layers follow each other, in light as in the distance: joints stay longest. Chords of a curve keep their order in the list. */
+/* Layers follow each other, in light as in the distance: joints stay longest. Chords of a curve keep their order in
+ * the list. */
 static bool write_strokes(const char *folder, const char *name)
 {
     FILE *file = NULL;
@@ -235,12 +251,13 @@ static bool write_strokes(const char *folder, const char *name)
         if (!before || m[0] != before[2] || m[1] != before[3])
             stays = 1 - (i + 0.5) / mark_count;
         double u = floor(m[0]), v = floor(m[1]);
-        fprintf(file, "%.4f %.4f %.4f %.4f %.4f %.4f %d\n", m[0] - u, m[1] - v, m[2] - u, m[3] - v, stays, stays, marks[i].layer);
+        fprintf(file, "%.4f %.4f %.4f %.4f %.4f %.4f %d\n", m[0] - u, m[1] - v, m[2] - u, m[3] - v, stays, stays,
+                marks[i].layer);
     }
     return fclose(file) == 0;
 }
 
-/* --- pictures ----------------------------------------------------------------------------------------------------- */
+/* --- pictures ------------------------------------------------------------------------------------------- */
 
 /* Greys, of which a palette makes colours. x and y from 0 to 1, y upwards. */
 static double brick_at(double x, double y)
@@ -259,8 +276,8 @@ static double tiles_at(double x, double y)
     for (int row = k; row >= k - 1; row--) { /* a tile hangs over the one below */
         double along = u - 0.5 * (row & 1) + 6, t = along - floor(along), low = row + 0.42 * pow(fabs(2 * t - 1), 2.4);
         if (v >= low && v < low + 1)
-            return 0.22 + 0.35 * hash((int)along % 6, (row + 6) % 6) + 0.12 * noise(x * 48, y * 48, 48) + (v - low < 0.07 ? -0.15 : 0) -
-                   0.2 * fmax(0, v - low - 0.7);
+            return 0.22 + 0.35 * hash((int)along % 6, (row + 6) % 6) + 0.12 * noise(x * 48, y * 48, 48) +
+                   (v - low < 0.07 ? -0.15 : 0) - 0.2 * fmax(0, v - low - 0.7);
     }
     return 0.3;
 }
@@ -271,7 +288,8 @@ static double wood_at(double x, double y)
     double u = x * 6 - plank;
     if (u < 0.05)
         return 0.05;
-    return 0.35 + 0.2 * hash(plank, 2) + 0.22 * noise(x * 64, y * 8, 64) + 0.1 * sin(40 * u + 5 * noise(x * 8, y * 8, 8));
+    return 0.35 + 0.2 * hash(plank, 2) + 0.22 * noise(x * 64, y * 8, 64) +
+           0.1 * sin(40 * u + 5 * noise(x * 8, y * 8, 8));
 }
 
 static double stone_at(double x, double y)
@@ -304,7 +322,7 @@ static double paint_at(double x, double y)
     return 0.8 + 0.15 * noise(x * 32, y * 8, 32);
 }
 
-/* --- PNG files: eight bits a pixel, not compressed ---------------------------------------------------------------- */
+/* --- PNG files: eight bits a pixel, not compressed ------------------------------------------------------ */
 
 static uint32_t crc_of(const unsigned char *bytes, size_t size)
 {
@@ -343,7 +361,7 @@ static void put_chunk(FILE *file, const char *name, const unsigned char *bytes, 
 /* `palette`: 256 colours, or NULL for greys. */
 static bool write_png(FILE *file, const unsigned char *pixels, int side, const unsigned char *palette)
 {
-    size_t row = (size_t)side + 1, total = row * (size_t)side;
+    size_t        row = (size_t)side + 1, total = row * (size_t)side;
     unsigned char head[13] = {0}, *data = malloc(total + 16 + 5 * (size_t)side), *to = data;
     if (!data)
         give_up();
@@ -353,7 +371,8 @@ static bool write_png(FILE *file, const unsigned char *pixels, int side, const u
     *to++ = 0x78, *to++ = 0x01;
     uint32_t a = 1, b = 0;
     for (int y = 0; y < side; y++) { /* a block a row, each with the filter 0 */
-        const unsigned char block[6] = {y == side - 1, row & 255, (unsigned char)(row >> 8), ~row & 255, (unsigned char)(~row >> 8), 0};
+        const unsigned char block[6] = {
+            y == side - 1, row & 255, (unsigned char)(row >> 8), ~row & 255, (unsigned char)(~row >> 8), 0};
         memcpy(to, block, 6);
         memcpy(to + 6, pixels + (size_t)y * (size_t)side, (size_t)side);
         for (size_t i = 5; i < 5 + row; i++) {
@@ -383,9 +402,9 @@ bool file_of(const char *folder, const char *name, const char *ending, FILE **ou
 
 static const struct {
     const char *name;
-    double    (*at)(double x, double y);
-    void      (*strokes)(void);
-    double      colours[3][3]; /* of grey 0, ½ and 1, sRGB */
+    double (*at)(double x, double y);
+    void (*strokes)(void);
+    double colours[3][3]; /* of grey 0, ½ and 1, sRGB */
 } paintings[] = {
     [BRICK] = {"brick", brick_at, draw_brick, {{84, 34, 24}, {176, 92, 66}, {214, 204, 188}}},
     [TILES] = {"tiles", tiles_at, draw_tiles, {{66, 30, 24}, {168, 84, 58}, {222, 150, 112}}},
@@ -400,7 +419,8 @@ static void make_palette(unsigned char *out, const double colours[3][3])
 {
     for (int i = 0; i < 256; i++)
         for (int k = 0; k < 3; k++) {
-            double t = i / 127.5, value = t < 1 ? colours[0][k] + t * (colours[1][k] - colours[0][k]) : colours[1][k] + (t - 1) * (colours[2][k] - colours[1][k]);
+            double t = i / 127.5, value = t < 1 ? colours[0][k] + t * (colours[1][k] - colours[0][k])
+                                                : colours[1][k] + (t - 1) * (colours[2][k] - colours[1][k]);
             out[3 * i + k] = (unsigned char)floor(value + 0.5);
         }
 }
@@ -412,19 +432,21 @@ bool paint_materials(const char *folder)
     for (int i = 0; i < (int)(sizeof paintings / sizeof *paintings); i++) {
         for (int y = 0; y < SIDE; y++)
             for (int x = 0; x < SIDE; x++)
-                pixels[y * SIDE + x] = (unsigned char)floor(255 * fmin(1, fmax(0, paintings[i].at((x + 0.5) / SIDE, 1 - (y + 0.5) / SIDE))) + 0.5);
+                pixels[y * SIDE + x] = (unsigned char)floor(
+                    255 * fmin(1, fmax(0, paintings[i].at((x + 0.5) / SIDE, 1 - (y + 0.5) / SIDE))) + 0.5);
         make_palette(palette, paintings[i].colours);
         FILE *file = NULL;
         mark_count = 0;
         seed = (uint32_t)(7 + i);
         paintings[i].strokes();
-        if (!file_of(folder, paintings[i].name, ".png", &file) || !write_png(file, pixels, SIDE, palette) || !write_strokes(folder, paintings[i].name))
+        if (!file_of(folder, paintings[i].name, ".png", &file) || !write_png(file, pixels, SIDE, palette) ||
+            !write_strokes(folder, paintings[i].name))
             return false;
     }
     return true;
 }
 
-/* --- the indication ----------------------------------------------------------------------------------------------- */
+/* --- the indication ------------------------------------------------------------------------------------- */
 
 static double distance_to(const double edge[5], double x, double y)
 {
@@ -436,9 +458,12 @@ static double distance_to(const double edge[5], double x, double y)
 /* Dark along edges, by a width that varies, and here and there a patch amid a wall; light elsewhere. */
 static double indication_at(const chart *c, double x, double y, int own)
 {
-    double wanted = 0, patch = noise(x * 1.1 + own * 3.7 + 40, y * 1.3 + own * 1.9 + 40, 4096), ragged = 0.55 + 0.9 * noise(x * 2.3 + 11 * own, y * 2.3 + 70, 4096);
+    double wanted = 0, patch = noise(x * 1.1 + own * 3.7 + 40, y * 1.3 + own * 1.9 + 40, 4096),
+           ragged = 0.55 + 0.9 * noise(x * 2.3 + 11 * own, y * 2.3 + 70, 4096);
     for (int i = 0; i < c->edge_count; i++)
-        wanted = fmax(wanted, c->edges[i][4] * (c->edges[i][4] > 0 ? exp(-pow(distance_to(c->edges[i], x, y) / (0.38 * ragged), 1.5)) : 0));
+        wanted = fmax(wanted,
+                      c->edges[i][4] *
+                          (c->edges[i][4] > 0 ? exp(-pow(distance_to(c->edges[i], x, y) / (0.38 * ragged), 1.5)) : 0));
     wanted = fmax(wanted, 0.75 * fmin(1, fmax(0, (patch - 0.66) / 0.14)));
     return 0.84 - 0.56 * wanted;
 }
@@ -449,10 +474,11 @@ bool paint_indication(const house *h, const char *folder)
     memset(pixels, 128, sizeof pixels);
     for (int i = 0; i < h->chart_count; i++) {
         const chart *c = &h->charts[i];
-        bool big = c->width > 0.6 && c->height > 0.6;
+        bool         big = c->width > 0.6 && c->height > 0.6;
         for (int y = 0; y < c->down; y++)
             for (int x = 0; x < c->across; x++) {
-                double scale = 1 / (c->density * h->texels_per_metre), wanted = big ? indication_at(c, x * scale, y * scale, i) : 0.5;
+                double scale = 1 / (c->density * h->texels_per_metre),
+                       wanted = big ? indication_at(c, x * scale, y * scale, i) : 0.5;
                 pixels[(c->y + y) * ATLAS_SIDE + c->x + x] = (unsigned char)floor(255 * wanted + 0.5);
             }
     }

@@ -1,7 +1,8 @@
 /* Writes the example model of a medieval cloister: make_cloister OUT.glb
  *
- * The garth with its well lies in the middle, an arcaded walk on each side, a church with a tower in the north and a range in the
- * west. All sides are told as the north one and turned: the walk lies towards −z, the garth towards +z. Metres, +y is up. */
+ * The garth with its well lies in the middle, an arcaded walk on each side, a church with a tower in the north and a
+ * range in the west. All sides are told as the north one and turned: the walk lies towards −z, the garth towards +z.
+ * Metres, +y is up. */
 #include "facade.h"
 #include "model.h"
 #include "pieces.h"
@@ -9,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* --- dimensions that parts share --------------------------------------------------------------------------------- */
+/* --- dimensions that parts share ------------------------------------------------------------------------ */
 
 enum { BAYS = 3, ARCHES = 3, ARCH_ROUND = 18 };
 
@@ -48,7 +49,7 @@ static double roof_height(double distance)
     return eave_height + slope * (distance - eave);
 }
 
-/* --- the arcade -------------------------------------------------------------------------------------------------- */
+/* --- the arcade ----------------------------------------------------------------------------------------- */
 
 static void parapet(mesh *m, double left, double right)
 {
@@ -95,7 +96,7 @@ static void build_arcade(mesh *m)
 /* Corbels under a moulded slab, mitred in the corners with a joint. */
 static void build_cornice(mesh *m)
 {
-    outline slab = {0}, corbel = {0};
+    outline      slab = {0}, corbel = {0};
     const double joint = 0.004, ends[2][2] = {{joint, 1}, {-joint, -1}};
     add_point(&slab, -walk, arcade_top - 0.02);
     add_point(&slab, -garth + 0.02, arcade_top - 0.02);
@@ -131,8 +132,8 @@ static void capital(mesh *m, double x, double z)
 {
     enum { AROUND = 12, STEPS = 3 };
     static const double shape[STEPS][3] = {{1.88, 0.086, 0}, {2.04, 0.103, 0.3}, {2.26, 0.142, 1}};
-    const frame f = {{x, 0, z}, UP};
-    ring        rings[STEPS];
+    const frame         f = {{x, 0, z}, UP};
+    ring                rings[STEPS];
     for (int k = 0; k < STEPS; k++) {
         outline o = {0};
         for (int i = 0; i < AROUND; i++) {
@@ -151,7 +152,7 @@ static void capital(mesh *m, double x, double z)
 /* Two columns one behind the other on a plinth, with an impost over both. */
 static void column_pair(mesh *m, double x)
 {
-    outline impost = impost_outline(0.17, springing - 0.18, springing - 0.02);
+    outline  impost = impost_outline(0.17, springing - 0.18, springing - 0.02);
     uint32_t kept = m->point_count;
     box(m, x - 0.15, coping - 0.02, -arcade - 0.3, x + 0.15, coping + 0.08, -arcade + 0.3);
     for (int side = -1; side <= 1; side += 2) {
@@ -191,7 +192,7 @@ static void build_columns(mesh *m)
 /* The pier between two bays with its buttress, and a corner pier on the left. */
 static void build_piers(mesh *m)
 {
-    outline o = {0};
+    outline      o = {0};
     const double foot = -garth + 0.58, shaft = -garth + 0.5;
     add_point(&o, -garth - 0.3, -0.2);
     add_point(&o, foot, -0.2);
@@ -205,7 +206,8 @@ static void build_piers(mesh *m)
     for (int k = 1; k < BAYS; k++) {
         double middle = bay_start(k) - pier / 2;
         box(m, middle - pier / 2, -0.2, -walk - 0.03, middle + pier / 2, springing - 0.03, -garth + 0.03);
-        box(m, middle - pier / 2 - 0.05, springing - 0.15, -walk - 0.08, middle + pier / 2 + 0.05, springing, -garth + 0.08);
+        box(m, middle - pier / 2 - 0.05, springing - 0.15, -walk - 0.08, middle + pier / 2 + 0.05, springing,
+            -garth + 0.08);
         section(m, &o, middle - 0.29, middle + 0.29);
     }
     const double corner = -arcade;
@@ -214,7 +216,7 @@ static void build_piers(mesh *m)
     box(m, corner - 0.5, springing - 0.15, corner - 0.5, corner + 0.5, springing, corner + 0.5);
 }
 
-/* --- roofs ------------------------------------------------------------------------------------------------------- */
+/* --- roofs ---------------------------------------------------------------------------------------------- */
 
 /* The upper side of a roof from its eave up: courses of tiles, each with its lower edge over the one below. */
 static void add_courses(outline *o, double u, double v, double to_u, double to_v, int courses)
@@ -230,7 +232,7 @@ static void add_courses(outline *o, double u, double v, double to_u, double to_v
 /* Two roofs meet in a valley. Each reaches a little into the other. */
 static void build_walk_roof(mesh *m)
 {
-    outline o = {0};
+    outline      o = {0};
     const double top = wall + 0.06, into = 0.03, ends[2][2] = {{-into, 1}, {into, -1}};
     add_courses(&o, -eave, eave_height, -top, roof_height(top), 9);
     add_point(&o, -top, roof_height(top) - 0.13);
@@ -242,7 +244,8 @@ static void build_rafters(mesh *m)
 {
     const double step = pitch() / 2, top = wall + 0.05;
     box(m, -arcade - 0.12, arcade_top + 0.11, -arcade - 0.12, arcade - 0.12, arcade_top + 0.3, -arcade + 0.12);
-    box(m, -wall - 0.01, roof_height(wall - 0.2) - 0.5, -wall - 0.02, wall - 0.18, roof_height(wall - 0.2) - 0.29, -wall + 0.18);
+    box(m, -wall - 0.01, roof_height(wall - 0.2) - 0.5, -wall - 0.02, wall - 0.18, roof_height(wall - 0.2) - 0.29,
+        -wall + 0.18);
     for (int k = -14; k <= 14; k++) {
         outline o = {0};
         double  x = k * step, low = fmax(arcade - 0.1, fabs(x) + 0.02);
@@ -252,7 +255,8 @@ static void build_rafters(mesh *m)
         add_point(&o, -top, roof_height(top) - 0.32);
         section(m, &o, x - 0.07, x + 0.07);
     }
-    const double low[3] = {-arcade, roof_height(arcade) - 0.26, -arcade}, high[3] = {-top, roof_height(top) - 0.26, -top};
+    const double low[3] = {-arcade, roof_height(arcade) - 0.26, -arcade},
+                 high[3] = {-top, roof_height(top) - 0.26, -top};
     bar(m, low, high, 0.17, 0.17, 4);
 }
 
@@ -277,25 +281,31 @@ static outline gable_roof(double half, double height, double rise, int courses)
     return o;
 }
 
-/* --- the walls at the walks -------------------------------------------------------------------------------------- */
+/* --- the walls at the walks ----------------------------------------------------------------------------- */
 
 static const opening church_openings[] = {
-    {-11.8, 0.18, 2.3, 0.7, DOOR},   {11.2, 0.18, 2.7, 1.0, DOOR},    {-12.5, 7.1, 8.6, 0.42, PANE},
-    {-8.3, 7.1, 8.6, 0.42, PANE},    {-4.1, 7.1, 8.6, 0.42, PANE},    {0.1, 7.1, 8.6, 0.42, PANE},
-    {4.3, 7.1, 8.6, 0.42, PANE},     {8.5, 7.1, 8.6, 0.42, PANE},     {12.7, 7.1, 8.6, 0.42, PANE},
+    {-11.8, 0.18, 2.3, 0.7, DOOR}, {11.2, 0.18, 2.7, 1.0, DOOR}, {-12.5, 7.1, 8.6, 0.42, PANE},
+    {-8.3, 7.1, 8.6, 0.42, PANE},  {-4.1, 7.1, 8.6, 0.42, PANE}, {0.1, 7.1, 8.6, 0.42, PANE},
+    {4.3, 7.1, 8.6, 0.42, PANE},   {8.5, 7.1, 8.6, 0.42, PANE},  {12.7, 7.1, 8.6, 0.42, PANE},
 };
 static const opening range_openings[] = {
-    {0, 0.18, 2.2, 0.85, DOOR},       {-2.75, 1, 2.2, 0.42, PANE},     {-1.75, 1, 2.2, 0.42, PANE},
-    {1.75, 1, 2.2, 0.42, PANE},       {2.75, 1, 2.2, 0.42, PANE},      {-9.5, 0.18, 2.1, 0.65, DOOR},
-    {9, 0.18, 2.1, 0.65, DOOR},       {-11.1, 6.7, 7.5, 0.3, PANE},    {-7.4, 6.7, 7.5, 0.3, PANE},
-    {-3.7, 6.7, 7.5, 0.3, PANE},      {0, 6.7, 7.5, 0.3, PANE},        {3.7, 6.7, 7.5, 0.3, PANE},
-    {7.4, 6.7, 7.5, 0.3, PANE},       {11.1, 6.7, 7.5, 0.3, PANE},
+    {0, 0.18, 2.2, 0.85, DOOR},  {-2.75, 1, 2.2, 0.42, PANE},  {-1.75, 1, 2.2, 0.42, PANE},
+    {1.75, 1, 2.2, 0.42, PANE},  {2.75, 1, 2.2, 0.42, PANE},   {-9.5, 0.18, 2.1, 0.65, DOOR},
+    {9, 0.18, 2.1, 0.65, DOOR},  {-11.1, 6.7, 7.5, 0.3, PANE}, {-7.4, 6.7, 7.5, 0.3, PANE},
+    {-3.7, 6.7, 7.5, 0.3, PANE}, {0, 6.7, 7.5, 0.3, PANE},     {3.7, 6.7, 7.5, 0.3, PANE},
+    {7.4, 6.7, 7.5, 0.3, PANE},  {11.1, 6.7, 7.5, 0.3, PANE},
 };
 static const opening south_openings[] = {
-    {2.7, 0.18, 2.2, 0.75, DOOR}, {-8.05, 1.6, 2.6, 0.4, PANE}, {-2.7, 1.6, 2.6, 0.4, PANE}, {8.05, 1.6, 2.6, 0.4, PANE},
+    {2.7, 0.18, 2.2, 0.75, DOOR},
+    {-8.05, 1.6, 2.6, 0.4, PANE},
+    {-2.7, 1.6, 2.6, 0.4, PANE},
+    {8.05, 1.6, 2.6, 0.4, PANE},
 };
 static const opening east_openings[] = {
-    {-8.05, 0.18, 2.2, 0.7, DOOR}, {-2.7, 1.6, 2.6, 0.4, PANE}, {2.7, 1.6, 2.6, 0.4, PANE}, {8.05, 1.6, 2.6, 0.4, PANE},
+    {-8.05, 0.18, 2.2, 0.7, DOOR},
+    {-2.7, 1.6, 2.6, 0.4, PANE},
+    {2.7, 1.6, 2.6, 0.4, PANE},
+    {8.05, 1.6, 2.6, 0.4, PANE},
 };
 
 /* In the order of the groups. West and east stand between the others. */
@@ -330,23 +340,23 @@ static void bench(mesh *m, const facade *f)
     }
 }
 
-#define WALK_WALL(side, SIDE)                                                                                                      \
-    static void build_##side##_wall(mesh *m)                                                                                       \
-    {                                                                                                                              \
-        facade_wall(m, &walk_walls[SIDE]);                                                                                         \
-    }                                                                                                                              \
-    static void build_##side##_frames(mesh *m)                                                                                     \
-    {                                                                                                                              \
-        facade_frames(m, &walk_walls[SIDE]);                                                                                       \
-        bench(m, &walk_walls[SIDE]);                                                                                               \
-    }                                                                                                                              \
-    static void build_##side##_doors(mesh *m)                                                                                      \
-    {                                                                                                                              \
-        facade_doors(m, &walk_walls[SIDE]);                                                                                        \
-    }                                                                                                                              \
-    static void build_##side##_panes(mesh *m)                                                                                      \
-    {                                                                                                                              \
-        facade_panes(m, &walk_walls[SIDE]);                                                                                        \
+#define WALK_WALL(side, SIDE)                                                                                          \
+    static void build_##side##_wall(mesh *m)                                                                           \
+    {                                                                                                                  \
+        facade_wall(m, &walk_walls[SIDE]);                                                                             \
+    }                                                                                                                  \
+    static void build_##side##_frames(mesh *m)                                                                         \
+    {                                                                                                                  \
+        facade_frames(m, &walk_walls[SIDE]);                                                                           \
+        bench(m, &walk_walls[SIDE]);                                                                                   \
+    }                                                                                                                  \
+    static void build_##side##_doors(mesh *m)                                                                          \
+    {                                                                                                                  \
+        facade_doors(m, &walk_walls[SIDE]);                                                                            \
+    }                                                                                                                  \
+    static void build_##side##_panes(mesh *m)                                                                          \
+    {                                                                                                                  \
+        facade_panes(m, &walk_walls[SIDE]);                                                                            \
     }
 
 WALK_WALL(north, NORTH)
@@ -358,7 +368,7 @@ WALK_WALL(east, EAST)
 static void outer_side(mesh *m, const facade *f, double half)
 {
     const double top = f->top;
-    outline saddle = {0}, buttress = {0};
+    outline      saddle = {0}, buttress = {0};
     add_point(&saddle, -outside - 0.16, top - 0.02);
     add_point(&saddle, -wall + 0.16, top - 0.02);
     add_point(&saddle, -wall + 0.16, top + 0.06);
@@ -389,10 +399,10 @@ static void build_east_outside(mesh *m)
     outer_side(m, &walk_walls[EAST], wall + 0.1);
 }
 
-/* --- floors and the garth ---------------------------------------------------------------------------------------- */
+/* --- floors and the garth ------------------------------------------------------------------------------- */
 
-/* Slabs in three rows along the walk and through the corner on its right. Every other one is of a part of its own, as parts
- * always show a border, and joints that are narrower than a pixel do not. */
+/* Slabs in three rows along the walk and through the corner on its right. Every other one is of a part of its own,
+ * as parts always show a border, and joints that are narrower than a pixel do not. */
 static void slabs(mesh *m, int parity)
 {
     enum { ROWS = 3, LENGTH = 18 };
@@ -431,7 +441,8 @@ static void build_path(mesh *m)
     for (int k = 0; k < 6; k++)
         for (int side = -1; side <= 1; side += 2) {
             double back = -garth + 0.4 + k * 1.04, split = k % 2 ? 0.15 : -0.15;
-            box(m, side < 0 ? -0.85 : split + 0.03, -0.1, back + 0.03, side < 0 ? split - 0.03 : 0.85, 0.06, back + 1.01);
+            box(m, side < 0 ? -0.85 : split + 0.03, -0.1, back + 0.03, side < 0 ? split - 0.03 : 0.85, 0.06,
+                back + 1.01);
         }
 }
 
@@ -439,7 +450,7 @@ static void build_path(mesh *m)
 static void build_hedge(mesh *m)
 {
     static const double rounds[2][2] = {{1.7, 7.6}, {2.15, 7.15}};
-    outline o[2];
+    outline             o[2];
     for (int k = 0; k < 2; k++) {
         double from = rounds[k][0], to = rounds[k][1];
         o[k] = (outline){0};
@@ -469,12 +480,12 @@ static void build_tree(mesh *m)
 
 static void build_well(mesh *m)
 {
-    ring first, last;
+    ring        first, last;
     const frame f = {.along = UP};
     TURNED(m, 0, 0, 0, 8, {-0.1, 0}, {-0.1, 2.15}, {0.14, 2.15}, {0.14, 0});
     TURNED(m, 0, 0, 0, 8, {0.1, 0}, {0.1, 1.62}, {0.3, 1.62}, {0.3, 0});
-    LATHE(m, &f, 8, &first, &last, {0.28, 1.02}, {0.4, 1.02}, {0.46, 0.95}, {1.02, 0.95}, {1.02, 1.06}, {1.16, 1.06}, {1.2, 1.02},
-          {1.2, 0.74}, {1.16, 0.7}, {0.28, 0.7});
+    LATHE(m, &f, 8, &first, &last, {0.28, 1.02}, {0.4, 1.02}, {0.46, 0.95}, {1.02, 0.95}, {1.02, 1.06}, {1.16, 1.06},
+          {1.2, 1.02}, {1.2, 0.74}, {1.16, 0.7}, {0.28, 0.7});
     sew(m, &last, &first);
 }
 
@@ -508,10 +519,11 @@ static void build_well_roof(mesh *m)
     section(m, &o, -1.55, 1.55);
 }
 
-/* --- church, range, tower ---------------------------------------------------------------------------------------- */
+/* --- church, range, tower ------------------------------------------------------------------------------- */
 
 static const opening nave_openings[] = {
-    {-11, 4, 8, 0.6, PANE}, {-5.5, 4, 8, 0.6, PANE}, {0, 4, 8, 0.6, PANE}, {5.5, 4, 8, 0.6, PANE}, {11, 4, 8, 0.6, PANE},
+    {-11, 4, 8, 0.6, PANE}, {-5.5, 4, 8, 0.6, PANE}, {0, 4, 8, 0.6, PANE},
+    {5.5, 4, 8, 0.6, PANE}, {11, 4, 8, 0.6, PANE},
 };
 static const facade nave_wall = {-14.35, 16.21, -0.36, 10.19, -22.58, -21.8, nave_openings, COUNT(nave_openings)};
 
@@ -549,7 +561,7 @@ static void build_nave_panes(mesh *m)
 
 static void build_nave_roof(mesh *m)
 {
-    outline o = gable_roof(4.98, nave_eave - 0.28, 5.55, 13);
+    outline  o = gable_roof(4.98, nave_eave - 0.28, 5.55, 13);
     uint32_t kept = m->point_count;
     section(m, &o, -14.5, nave_east - 0.35);
     place(m, kept, 0, 0, 0, -nave_axis);
@@ -558,8 +570,8 @@ static void build_nave_roof(mesh *m)
 /* The apse: a drum with pilaster strips and windows that are only drawn on it. */
 static void build_apse(mesh *m)
 {
-    TURNED(m, nave_east - 0.4, 0, -nave_axis, 28, {-0.33, 0}, {-0.33, 3.3}, {0.6, 3.3}, {0.7, 3.2}, {6.7, 3.2}, {6.7, 3.36},
-           {6.95, 3.42}, {6.95, 0});
+    TURNED(m, nave_east - 0.4, 0, -nave_axis, 28, {-0.33, 0}, {-0.33, 3.3}, {0.6, 3.3}, {0.7, 3.2}, {6.7, 3.2},
+           {6.7, 3.36}, {6.95, 3.42}, {6.95, 0});
     for (int k = -2; k <= 2; k++) {
         uint32_t kept = m->point_count;
         outline  o = round_headed_frame(0, 2.6, 4.6, 0.36, 0.16, WINDOW_ROUND);
@@ -584,15 +596,16 @@ static void build_apse_roof(mesh *m)
         profile[count][0] = 6.97 + 2.4 * (k + 1) / COURSES;
         profile[count++][1] = k + 1 < COURSES ? 3.62 * (1 - (double)(k + 1) / COURSES) : 0;
     }
-    lathe(m, &(frame){{nave_east - 0.4, 0, -nave_axis}, UP}, (const double (*)[2])profile, count, 28, NULL, NULL);
+    lathe(m, &(frame){{nave_east - 0.4, 0, -nave_axis}, UP}, (const double(*)[2])profile, count, 28, NULL, NULL);
 }
 
 static const opening range_west_openings[] = {
-    {-10, 4.8, 6.2, 0.45, PANE}, {-5, 4.8, 6.2, 0.45, PANE},  {0, 4.8, 6.2, 0.45, PANE},
-    {5, 4.8, 6.2, 0.45, PANE},   {10, 4.8, 6.2, 0.45, PANE},  {-7.5, 1, 1.8, 0.35, PANE},
-    {-2.5, 1, 1.8, 0.35, PANE},  {2.5, 1, 1.8, 0.35, PANE},   {7.5, 1, 1.8, 0.35, PANE},
+    {-10, 4.8, 6.2, 0.45, PANE}, {-5, 4.8, 6.2, 0.45, PANE}, {0, 4.8, 6.2, 0.45, PANE},
+    {5, 4.8, 6.2, 0.45, PANE},   {10, 4.8, 6.2, 0.45, PANE}, {-7.5, 1, 1.8, 0.35, PANE},
+    {-2.5, 1, 1.8, 0.35, PANE},  {2.5, 1, 1.8, 0.35, PANE},  {7.5, 1, 1.8, 0.35, PANE},
 };
-static const facade range_west_wall = {-13.65, 14.6, -0.42, 8.49, -21.6, -20.8, range_west_openings, COUNT(range_west_openings)};
+static const facade range_west_wall = {
+    -13.65, 14.6, -0.42, 8.49, -21.6, -20.8, range_west_openings, COUNT(range_west_openings)};
 static const opening range_gable_openings[] = {
     {-2, 1.2, 2.6, 0.5, PANE}, {2, 1.2, 2.6, 0.5, PANE},  {-2, 5.2, 6.7, 0.45, PANE},
     {0, 5.2, 6.7, 0.45, PANE}, {2, 5.2, 6.7, 0.45, PANE}, {0, 9.6, 10.5, 0.3, PANE},
@@ -643,20 +656,23 @@ static void build_range_panes(mesh *m)
 
 static void build_range_roof(mesh *m)
 {
-    outline o = gable_roof(4.5, range_eave - 0.2, 4.75, 11);
+    outline  o = gable_roof(4.5, range_eave - 0.2, 4.75, 11);
     uint32_t kept = m->point_count;
     section(m, &o, -14.75, 15.0);
     place(m, kept, 90, -range_axis, 0, 0);
 }
 
-static const opening tower_openings[] = {
-    {0, 5, 6, 0.16, OPEN}, {0, 13.6, 14.6, 0.16, OPEN}, {-0.72, 16.7, 18.5, 0.52, OPEN}, {0.72, 16.7, 18.5, 0.52, OPEN}};
+static const opening tower_openings[] = {{0, 5, 6, 0.16, OPEN},
+                                         {0, 13.6, 14.6, 0.16, OPEN},
+                                         {-0.72, 16.7, 18.5, 0.52, OPEN},
+                                         {0.72, 16.7, 18.5, 0.52, OPEN}};
 
 /* Told about its own middle, each face as the back one. */
 static void build_tower(mesh *m)
 {
     const double half = tower_half;
-    const facade face = {-half + 0.9, half, -0.44, tower_top, -half, -half + 0.9, tower_openings, COUNT(tower_openings)};
+    const facade face = {-half + 0.9, half,        -0.44,          tower_top,
+                         -half,       -half + 0.9, tower_openings, COUNT(tower_openings)};
     for (int k = 0; k < 4; k++) {
         uint32_t kept = m->point_count;
         facade_wall(m, &face);
@@ -675,7 +691,8 @@ static void build_tower(mesh *m)
     static const double courses[][3] = {{0.5, 0.25, 0.3}, {12.2, 0.2, 0.2}, {15.6, 0.28, 0.24}, {20.45, 0.3, 0.34}};
     for (int k = 0; k < COUNT(courses); k++) {
         double  far = half + courses[k][2], low = courses[k][0];
-        outline outer = rectangle(-far, -far, far, far), hole = rectangle(-half + 0.5, -half + 0.5, half - 0.5, half - 0.5);
+        outline outer = rectangle(-far, -far, far, far),
+                hole = rectangle(-half + 0.5, -half + 0.5, half - 0.5, half - 0.5);
         plan(m, &outer, &hole, 1, low, low + courses[k][1]);
     }
     box(m, -half + 0.4, 15.9, -half + 0.4, half - 0.4, 16.2, half - 0.4);
@@ -685,7 +702,7 @@ static void build_tower(mesh *m)
 static void build_tower_roof(mesh *m)
 {
     enum { COURSES = 12 };
-    const frame f = {{-tower_axis, 0, -nave_axis}, UP};
+    const frame  f = {{-tower_axis, 0, -nave_axis}, UP};
     const double base = tower_top + 0.12, rise = 5.4, half = tower_half + 0.62;
     ring         before = {0};
     for (int k = 0; k <= 2 * COURSES - 1; k++) {
@@ -736,7 +753,7 @@ static void build_monk(mesh *m)
 
 static void build_bell(mesh *m)
 {
-    ring first, last;
+    ring        first, last;
     const frame f = {{-tower_axis, 0, -nave_axis}, UP};
     LATHE(m, &f, 16, &first, &last, {17.3, 0.66}, {17.42, 0.68}, {17.6, 0.58}, {18.0, 0.46}, {18.35, 0.4}, {18.5, 0.24},
           {18.52, 0.02}, {18.44, 0.02}, {18.42, 0.2}, {18.3, 0.33}, {18.0, 0.39}, {17.55, 0.52}, {17.3, 0.6});
@@ -754,7 +771,7 @@ static void build_terrain(mesh *m)
     box(m, -25.5, -0.8, -26, 23.5, -0.06, 20);
 }
 
-/* --- stones that show ------------------------------------------------------------------------------------------- */
+/* --- stones that show ----------------------------------------------------------------------------------- */
 
 static void build_south_stones(mesh *m)
 {
@@ -800,7 +817,7 @@ static void build_tower_stones(mesh *m)
     place(m, 0, 0, -tower_axis, 0, -nave_axis);
 }
 
-/* --- the assembly ------------------------------------------------------------------------------------------------ */
+/* --- the assembly --------------------------------------------------------------------------------------- */
 
 typedef enum material {
     STONE,
@@ -832,20 +849,26 @@ static const model_material materials[MATERIALS] = {
 enum { GARTH = 4, CHURCH, RANGE, TOWER, SITE, GROUPS };
 
 static const model_group groups[GROUPS] = {
-    [NORTH] = {"north walk", {0}}, [WEST] = {"west walk", {0}, 1},   [SOUTH] = {"south walk", {0}, 2},
-    [EAST] = {"east walk", {0}, 3},   [GARTH] = {"garth", {0}},      [CHURCH] = {"church", {0}},
-    [RANGE] = {"west range", {0}}, [TOWER] = {"bell tower", {0}}, [SITE] = {"site", {0}},
+    [NORTH] = {"north walk", {0}},  [WEST] = {"west walk", {0}, 1}, [SOUTH] = {"south walk", {0}, 2},
+    [EAST] = {"east walk", {0}, 3}, [GARTH] = {"garth", {0}},       [CHURCH] = {"church", {0}},
+    [RANGE] = {"west range", {0}},  [TOWER] = {"bell tower", {0}},  [SITE] = {"site", {0}},
 };
 
-#define SIDE(side, GROUP)                                                                                                          \
-    {#side " arcade", GROUP, STONE, build_arcade, {0}}, {#side " cornice", GROUP, DRESSED, build_cornice, {0}},                    \
-        {#side " columns", GROUP, DRESSED, build_columns, {0}}, {#side " piers", GROUP, STONE, build_piers, {0}},                  \
-        {#side " roof", GROUP, TILE, build_walk_roof, {0}}, {#side " rafters", GROUP, TIMBER, build_rafters, {0}},                 \
-        {#side " floor", GROUP, PAVING, build_walk_floor, {0}},                                                                    \
-        {#side " floor between", GROUP, PAVING_TOO, build_walk_floor_between, {0}},                                              \
-        {#side " wall", GROUP, PLASTER, build_##side##_wall, {0}},                                                               \
-        {#side " frames", GROUP, DRESSED, build_##side##_frames, {0}}, {#side " doors", GROUP, TIMBER, build_##side##_doors, {0}}, \
-        {#side " windows", GROUP, GLASS, build_##side##_panes, {0}}
+#define SIDE(side, GROUP)                                                                                              \
+    {#side " arcade", GROUP, STONE, build_arcade, {0}}, {#side " cornice", GROUP, DRESSED, build_cornice, {0}},        \
+        {#side " columns", GROUP, DRESSED, build_columns, {0}}, {#side " piers", GROUP, STONE, build_piers, {0}},      \
+        {#side " roof", GROUP, TILE, build_walk_roof, {0}}, {#side " rafters", GROUP, TIMBER, build_rafters, {0}},     \
+        {#side " floor", GROUP, PAVING, build_walk_floor, {0}},                                                        \
+        {#side " floor between", GROUP, PAVING_TOO, build_walk_floor_between, {0}},                                    \
+        {#side " wall", GROUP, PLASTER, build_##side##_wall, {0}},                                                     \
+        {#side " frames", GROUP, DRESSED, build_##side##_frames, {0}},                                                 \
+        {#side " doors", GROUP, TIMBER, build_##side##_doors, {0}},                                                    \
+    {                                                                                                                  \
+#side " windows", GROUP, GLASS, build_##side##_panes,                                                          \
+        {                                                                                                              \
+            0                                                                                                          \
+        }                                                                                                              \
+    }
 
 static const model_part parts[] = {
     SIDE(north, NORTH),
@@ -899,6 +922,7 @@ static const model_part parts[] = {
 
 int main(int count, char **arguments)
 {
-    const model cloister = {"make_cloister", "Cloister", 1, materials, MATERIALS, groups, GROUPS, parts, COUNT(parts), NULL};
+    const model cloister = {"make_cloister", "Cloister", 1,     materials,    MATERIALS,
+                            groups,          GROUPS,     parts, COUNT(parts), NULL};
     return count == 2 && model_write(&cloister, arguments[1]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,7 +1,8 @@
 /* Writes the example model of a crank drive: make_crank OUT.glb
  *
- * The shaft of an engine with four cylinders, on a bed with five bearings: flywheel, timing gear and pulley, connecting rods with their caps,
- * pistons. Lengths are millimetres; the shaft runs along z, the flywheel is at −z, +y is up. Pieces of one part reach into each other. */
+ * The shaft of an engine with four cylinders, on a bed with five bearings: flywheel, timing gear and pulley, connecting
+ * rods with their caps, pistons. Lengths are millimetres; the shaft runs along z, the flywheel is at −z, +y is up.
+ * Pieces of one part reach into each other. */
 #include "pieces.h"
 
 #include "model.h"
@@ -11,13 +12,13 @@
 
 enum { ROUND = 56, SMALL_ROUND = 24, CYLINDERS = 4, BEARINGS = 5 };
 
-/* --- dimensions that parts share --------------------------------------------------------------------------------- */
+/* --- dimensions that parts share ------------------------------------------------------------------------ */
 
-static const double spacing = 96;                  /* of the cylinders: a pin, two webs, a journal */
+static const double spacing = 96; /* of the cylinders: a pin, two webs, a journal */
 static const double journal_width = 30, web_thickness = 18;
 static const double journal_radius = 28, pin_radius = 24;
-static const double stroke = 42;                   /* half of it: the pins' distance from the axis */
-static const double crank_angle = 38;              /* of the outer cranks from upright, the inner ones are opposite */
+static const double stroke = 42;      /* half of it: the pins' distance from the axis */
+static const double crank_angle = 38; /* of the outer cranks from upright, the inner ones are opposite */
 static const double rod_length = 152;
 static const double gudgeon_radius = 11;
 static const double piston_radius = 43, piston_low = -34, piston_high = 36; /* from the gudgeon pin */
@@ -58,8 +59,8 @@ static void turn(mesh *m, uint32_t kept, double degrees, double x, double y, dou
 static void bevelled(mesh *m, const outline *drawn_in, const outline *whole, double from, double to, double bevel)
 {
     const frame f = {.along = FRONT};
-    ring rings[4] = {put_ring(m, &f, drawn_in, from), put_ring(m, &f, whole, from + bevel), put_ring(m, &f, whole, to - bevel),
-                     put_ring(m, &f, drawn_in, to)};
+    ring        rings[4] = {put_ring(m, &f, drawn_in, from), put_ring(m, &f, whole, from + bevel),
+                            put_ring(m, &f, whole, to - bevel), put_ring(m, &f, drawn_in, to)};
     for (int k = 0; k < 3; k++)
         sew(m, &rings[k], &rings[k + 1]);
     cap(m, BACK, &rings[0], NULL, 0);
@@ -83,7 +84,7 @@ static void hexagon_head(mesh *m, const frame *f, double across, double height)
           {height + 1.2, across * 0.45}, {height + 2, across * 0.36}, {height + 2, 0});
 }
 
-/* --- crankshaft -------------------------------------------------------------------------------------------------- */
+/* --- crankshaft ----------------------------------------------------------------------------------------- */
 
 /* A crank's web: round about the pin, then waisted, then the counterweight. */
 static outline web_outline(double inset)
@@ -99,7 +100,7 @@ static outline web_outline(double inset)
 static void web(mesh *m, double angle, double from)
 {
     uint32_t kept = m->point_count;
-    outline whole = web_outline(0), drawn_in = web_outline(2);
+    outline  whole = web_outline(0), drawn_in = web_outline(2);
     bevelled(m, &drawn_in, &whole, from, from + web_thickness, 2);
     turn(m, kept, angle, 0, 0, 0);
 }
@@ -107,9 +108,10 @@ static void web(mesh *m, double angle, double from)
 /* Fillets run into the webs on either side. */
 static void journal(mesh *m, double x, double y, double from, double to, double radius)
 {
-    LATHE(m, (&(frame){{x, y, 0}, FRONT}), ROUND, NULL, NULL, {from - 2, 0}, {from - 2, radius + 4}, {from + 0.6, radius + 4},
-          {from + 1, radius + 2.4}, {from + 2, radius + 1}, {from + 3.4, radius}, {to - 3.4, radius}, {to - 2, radius + 1},
-          {to - 1, radius + 2.4}, {to - 0.6, radius + 4}, {to + 2, radius + 4}, {to + 2, 0});
+    LATHE(m, (&(frame){{x, y, 0}, FRONT}), ROUND, NULL, NULL, {from - 2, 0}, {from - 2, radius + 4},
+          {from + 0.6, radius + 4}, {from + 1, radius + 2.4}, {from + 2, radius + 1}, {from + 3.4, radius},
+          {to - 3.4, radius}, {to - 2, radius + 1}, {to - 1, radius + 2.4}, {to - 0.6, radius + 4},
+          {to + 2, radius + 4}, {to + 2, 0});
 }
 
 static void build_crankshaft(mesh *m)
@@ -117,7 +119,8 @@ static void build_crankshaft(mesh *m)
     const frame f = {.along = FRONT};
     for (int i = 0; i < CYLINDERS; i++) {
         double middle = cylinder_place(i), angle = angle_of(i), half = journal_width / 2;
-        journal(m, stroke * sin(angle * PI / 180), stroke * cos(angle * PI / 180), middle - half, middle + half, pin_radius);
+        journal(m, stroke * sin(angle * PI / 180), stroke * cos(angle * PI / 180), middle - half, middle + half,
+                pin_radius);
         web(m, angle, middle - half - web_thickness);
         web(m, angle, middle + half);
     }
@@ -126,17 +129,18 @@ static void build_crankshaft(mesh *m)
         journal(m, 0, 0, middle - journal_width / 2, middle + journal_width / 2, journal_radius);
     }
     /* The ends: a flange for the flywheel, and a stepped nose. */
-    LATHE(m, &f, ROUND, NULL, NULL, {shaft_back - 14, 0}, {shaft_back - 14, 42}, {shaft_back - 13, 43}, {shaft_back - 1, 43},
-          {shaft_back, 42}, {shaft_back, journal_radius + 3}, {shaft_back + 2, journal_radius}, {shaft_back + 26.6, journal_radius},
-          {shaft_back + 28, journal_radius + 1}, {shaft_back + 29.4, journal_radius + 4}, {shaft_back + 32, journal_radius + 4},
-          {shaft_back + 32, 0});
+    LATHE(m, &f, ROUND, NULL, NULL, {shaft_back - 14, 0}, {shaft_back - 14, 42}, {shaft_back - 13, 43},
+          {shaft_back - 1, 43}, {shaft_back, 42}, {shaft_back, journal_radius + 3}, {shaft_back + 2, journal_radius},
+          {shaft_back + 26.6, journal_radius}, {shaft_back + 28, journal_radius + 1},
+          {shaft_back + 29.4, journal_radius + 4}, {shaft_back + 32, journal_radius + 4}, {shaft_back + 32, 0});
     LATHE(m, &f, ROUND, NULL, NULL, {shaft_front - 32, 0}, {shaft_front - 32, journal_radius + 4},
-          {shaft_front - 29.4, journal_radius + 4}, {shaft_front - 28, journal_radius + 1}, {shaft_front - 26.6, journal_radius},
-          {shaft_front, journal_radius}, {shaft_front + 1, journal_radius - 1}, {shaft_front + 1, 22}, {shaft_front + 36, 22},
-          {shaft_front + 37, 21}, {shaft_front + 37, 18}, {shaft_front + 74, 18}, {shaft_front + 75, 17}, {shaft_front + 75, 0});
+          {shaft_front - 29.4, journal_radius + 4}, {shaft_front - 28, journal_radius + 1},
+          {shaft_front - 26.6, journal_radius}, {shaft_front, journal_radius}, {shaft_front + 1, journal_radius - 1},
+          {shaft_front + 1, 22}, {shaft_front + 36, 22}, {shaft_front + 37, 21}, {shaft_front + 37, 18},
+          {shaft_front + 74, 18}, {shaft_front + 75, 17}, {shaft_front + 75, 0});
 }
 
-/* --- flywheel, timing gear, pulley ------------------------------------------------------------------------------- */
+/* --- flywheel, timing gear, pulley ---------------------------------------------------------------------- */
 
 /* Straight-sided teeth; `share` is how much of a tooth's pitch its tip and its foot take. */
 static outline toothed(double root, double tip, int teeth, double tip_share, double foot_share)
@@ -156,19 +160,21 @@ enum { LIGHTENED = 6, FLYWHEEL_BOLTS = 6 };
 static void build_flywheel(mesh *m)
 {
     const double front = shaft_back - 14 - fit, back = front - 16;
-    outline disc = circle(0, 0, 112, 96), holes[LIGHTENED], teeth = toothed(129, 134, 108, 0.36, 0.7), bore = circle(0, 0, 120, 108);
+    outline      disc = circle(0, 0, 112, 96), holes[LIGHTENED], teeth = toothed(129, 134, 108, 0.36, 0.7),
+            bore = circle(0, 0, 120, 108);
     for (int i = 0; i < LIGHTENED; i++) {
         double angle = (i + 0.5) * 2 * PI / LIGHTENED;
         holes[i] = circle(78 * cos(angle), 78 * sin(angle), 17, SMALL_ROUND);
     }
     extrude(m, &disc, holes, LIGHTENED, back + 2, front - 2);
     ring inner, outer; /* the heavy rim */
-    LATHE(m, &(frame){.along = FRONT}, 96, &inner, &outer, {back - 10, 108}, {back - 10, 125}, {back - 8, 127}, {front + 8, 127}, {front + 10, 125},
-          {front + 10, 108}, {front + 8, 106}, {back - 8, 106});
+    LATHE(m, &(frame){.along = FRONT}, 96, &inner, &outer, {back - 10, 108}, {back - 10, 125}, {back - 8, 127},
+          {front + 8, 127}, {front + 10, 125}, {front + 10, 108}, {front + 8, 106}, {back - 8, 106});
     sew(m, &outer, &inner);
     extrude(m, &teeth, &bore, 1, back + 1, front - 3);
-    LATHE(m, &(frame){.along = FRONT}, ROUND, NULL, NULL, {back - 4, 0}, {back - 4, 14}, {back + 3, 14.5}, {back + 3, 40}, {back - 3, 41}, {back - 4, 42},
-          {back - 4, 50}, {back - 3, 52}, {front - 1, 52}, {front, 50}, {front, 0});
+    LATHE(m, &(frame){.along = FRONT}, ROUND, NULL, NULL, {back - 4, 0}, {back - 4, 14}, {back + 3, 14.5},
+          {back + 3, 40}, {back - 3, 41}, {back - 4, 42}, {back - 4, 50}, {back - 3, 52}, {front - 1, 52}, {front, 50},
+          {front, 0});
 }
 
 static void build_flywheel_bolts(mesh *m)
@@ -183,7 +189,7 @@ static void build_flywheel_bolts(mesh *m)
 static void build_timing_gear(mesh *m)
 {
     const double from = shaft_front + 4, to = from + 20;
-    outline teeth = toothed(53.5, 61, 36, 0.3, 0.72), web_hole = circle(0, 0, 45, ROUND), holes[7];
+    outline      teeth = toothed(53.5, 61, 36, 0.3, 0.72), web_hole = circle(0, 0, 45, ROUND), holes[7];
     extrude(m, &teeth, &web_hole, 1, from, to);
     outline disc = circle(0, 0, 46, ROUND);
     holes[0] = circle(0, 0, 22.2, ROUND);
@@ -197,10 +203,11 @@ static void build_timing_gear(mesh *m)
 static void build_pulley(mesh *m)
 {
     const double at = shaft_front + 42;
-    ring inner, outer;
-    LATHE(m, &(frame){.along = FRONT}, 80, &inner, &outer, {at, 18.2}, {at, 40}, {at + 5, 40}, {at + 5, 62}, {at, 62}, {at, 69}, {at + 1, 70},
-          {at + 3, 70}, {at + 8, 61}, {at + 10, 61}, {at + 15, 70}, {at + 17, 70}, {at + 22, 61}, {at + 24, 61}, {at + 29, 70},
-          {at + 31, 70}, {at + 32, 69}, {at + 32, 54}, {at + 14, 54}, {at + 14, 30}, {at + 30, 28}, {at + 30, 18.2});
+    ring         inner, outer;
+    LATHE(m, &(frame){.along = FRONT}, 80, &inner, &outer, {at, 18.2}, {at, 40}, {at + 5, 40}, {at + 5, 62}, {at, 62},
+          {at, 69}, {at + 1, 70}, {at + 3, 70}, {at + 8, 61}, {at + 10, 61}, {at + 15, 70}, {at + 17, 70},
+          {at + 22, 61}, {at + 24, 61}, {at + 29, 70}, {at + 31, 70}, {at + 32, 69}, {at + 32, 54}, {at + 14, 54},
+          {at + 14, 30}, {at + 30, 28}, {at + 30, 18.2});
     sew(m, &outer, &inner);
 }
 
@@ -209,13 +216,13 @@ static void build_nose_bolt(mesh *m)
     hexagon_head(m, &(frame){{0, 0, shaft_front + 75 + 0.5}, FRONT}, 26, 13);
 }
 
-/* --- bed and bearings -------------------------------------------------------------------------------------------- */
+/* --- bed and bearings ----------------------------------------------------------------------------------- */
 
 static const double bearing_width = 21, stud_place = 46;
 
 static void build_bed(mesh *m)
 {
-    outline whole = {0}, holes[8];
+    outline      whole = {0}, holes[8];
     const double length = 214, breadth = 96, corner = 16, forward = 8; /* the flywheel hangs over its back */
     add_arc(&whole, length - corner, breadth - corner, corner, 0, 90, 8);
     add_arc(&whole, corner - length, breadth - corner, corner, 90, 180, 8);
@@ -276,7 +283,7 @@ static void build_bearing_cap(mesh *m)
         hexagon_head(m, &(frame){{side * (stud_place + 2), 19, 0}, UP}, 13, 9);
 }
 
-/* --- connecting rods --------------------------------------------------------------------------------------------- */
+/* --- connecting rods ------------------------------------------------------------------------------------ */
 
 static const double rod_width = 26, ear = 41;
 
@@ -355,16 +362,16 @@ static void build_inner_rod_cap(mesh *m)
     lean(m, crank_angle + 180);
 }
 
-/* --- pistons ----------------------------------------------------------------------------------------------------- */
+/* --- pistons -------------------------------------------------------------------------------------------- */
 
 /* Hollow; three grooves below the crown, and bosses for the pin. */
 static void build_piston(mesh *m)
 {
     const double r = piston_radius, top = piston_high, g = 3.4;
-    LATHE(m, &(frame){.along = UP}, ROUND, NULL, NULL, {top - 9, 0}, {top - 9, 28}, {top - 13, 34}, {piston_low, r - 5}, {piston_low, r - 1},
-          {piston_low + 1, r}, {top - 27, r}, {top - 27, r - g}, {top - 23, r - g}, {top - 23, r}, {top - 18.5, r},
-          {top - 18.5, r - g}, {top - 15.5, r - g}, {top - 15.5, r}, {top - 11, r}, {top - 11, r - g}, {top - 8, r - g}, {top - 8, r},
-          {top - 1.5, r}, {top, r - 1.5}, {top, 27}, {top - 2.5, 24}, {top - 2.5, 0});
+    LATHE(m, &(frame){.along = UP}, ROUND, NULL, NULL, {top - 9, 0}, {top - 9, 28}, {top - 13, 34}, {piston_low, r - 5},
+          {piston_low, r - 1}, {piston_low + 1, r}, {top - 27, r}, {top - 27, r - g}, {top - 23, r - g}, {top - 23, r},
+          {top - 18.5, r}, {top - 18.5, r - g}, {top - 15.5, r - g}, {top - 15.5, r}, {top - 11, r}, {top - 11, r - g},
+          {top - 8, r - g}, {top - 8, r}, {top - 1.5, r}, {top, r - 1.5}, {top, 27}, {top - 2.5, 24}, {top - 2.5, 0});
     for (int side = -1; side <= 1; side += 2) {
         const frame f = {.along = side > 0 ? FRONT : BACK};
         LATHE(m, &f, SMALL_ROUND, NULL, NULL, {14, 0}, {14, 15}, {39, 15}, {39, 0});
@@ -375,7 +382,7 @@ static void build_piston_rings(mesh *m)
 {
     static const double places[3][2] = {{-26.6, 3.2}, {-18.2, 2.4}, {-10.7, 2.4}};
     for (int k = 0; k < 3; k++) {
-        double low = piston_high + places[k][0];
+        double  low = piston_high + places[k][0];
         outline whole = circle(0, 0, piston_radius + 0.5, ROUND), inside = circle(0, 0, piston_radius - 2.8, ROUND);
         extrude_along(m, &(frame){.along = UP}, &whole, &inside, 1, low, low + places[k][1]);
     }
@@ -383,11 +390,12 @@ static void build_piston_rings(mesh *m)
 
 static void build_gudgeon_pin(mesh *m)
 {
-    LATHE(m, &(frame){.along = FRONT}, SMALL_ROUND, NULL, NULL, {-36, 0}, {-36, 6}, {-43.6, 6}, {-43.6, gudgeon_radius - 1}, {-42.6, gudgeon_radius},
-          {42.6, gudgeon_radius}, {43.6, gudgeon_radius - 1}, {43.6, 6}, {36, 6}, {36, 0});
+    LATHE(m, &(frame){.along = FRONT}, SMALL_ROUND, NULL, NULL, {-36, 0}, {-36, 6}, {-43.6, 6},
+          {-43.6, gudgeon_radius - 1}, {-42.6, gudgeon_radius}, {42.6, gudgeon_radius}, {43.6, gudgeon_radius - 1},
+          {43.6, 6}, {36, 6}, {36, 0});
 }
 
-/* --- assembly ---------------------------------------------------------------------------------------------------- */
+/* --- assembly ------------------------------------------------------------------------------------------- */
 
 enum { STEEL, BRIGHT, IRON, ALUMINIUM, BLACK, MATERIALS };
 
@@ -400,7 +408,10 @@ static const model_material materials[MATERIALS] = {
 enum { SHAFT, BED, RODS, PISTONS, GROUPS };
 
 static const model_group groups[GROUPS] = {
-    [SHAFT] = {"shaft", {0}, 0}, [BED] = {"bed plate with bearings", {0}, 0}, [RODS] = {"rods", {0}, 0}, [PISTONS] = {"pistons", {0}, 0},
+    [SHAFT] = {"shaft", {0}, 0},
+    [BED] = {"bed plate with bearings", {0}, 0},
+    [RODS] = {"rods", {0}, 0},
+    [PISTONS] = {"pistons", {0}, 0},
 };
 
 enum { PARTS_MAX = 64, NAME_MAX_SIZE = 24 };
@@ -412,7 +423,8 @@ typedef struct assembly {
 } assembly;
 
 /* number 0: the only one of its name. */
-static void add(assembly *a, const char *name, int number, int group, int material, void (*build)(mesh *), double y, double z)
+static void add(assembly *a, const char *name, int number, int group, int material, void (*build)(mesh *), double y,
+                double z)
 {
     char *own = a->names[a->count];
     snprintf(own, NAME_MAX_SIZE, number ? "%s %d" : "%s", name, number);
@@ -449,6 +461,7 @@ int main(int count, char **arguments)
         return EXIT_FAILURE;
     static assembly a;
     list_parts(&a);
-    const model crank = {"make_crank", "Crank drive", 1000, materials, MATERIALS, groups, GROUPS, a.parts, a.count, NULL};
+    const model crank = {"make_crank", "Crank drive", 1000,    materials, MATERIALS,
+                         groups,       GROUPS,        a.parts, a.count,   NULL};
     return model_write(&crank, arguments[1]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,8 +1,8 @@
 /* Writes the example model of a brick house: make_house OUT.glb FOLDER
  *
- * It shows what halftone screens are for (Freudenberg 2003, figures 5.12 and 6.17 to 6.21). FOLDER, which is named as it stands beside OUT.glb, gets a
- * picture for each material and beside it the strokes that stand for it, and the indication map. Texture coordinates are metres over metres
- * a tile; the second set is unique. Metres, +y is up. */
+ * It shows what halftone screens are for (Freudenberg 2003, figures 5.12 and 6.17 to 6.21). FOLDER, which is named as
+ * it stands beside OUT.glb, gets a picture for each material and beside it the strokes that stand for it, and the
+ * indication map. Texture coordinates are metres over metres a tile; the second set is unique. Metres, +y is up. */
 #include "house.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 static const double half_x = 3.2, half_z = 2.4, eaves = 4.4, ridge = 7.1, plinth = 0.45;
 static const double tower_x = -3.2, tower_z = 2.4, tower_r = 1.45, tower_top = 6.1;
 
-/* --- walls with windows ------------------------------------------------------------------------------------------- */
+/* --- walls with windows --------------------------------------------------------------------------------- */
 
 typedef struct hole {
     double left, bottom, right, top;
@@ -31,7 +31,8 @@ static void out_of(const site *s, double u, double v, double out, double to[3])
 }
 
 /* A box on a wall, between two distances out of it. */
-static void on_wall(house *h, int part, const site *s, double left, double bottom, double right, double top, double from, double to)
+static void on_wall(house *h, int part, const site *s, double left, double bottom, double right, double top,
+                    double from, double to)
 {
     double at[3], u[3], v[3] = {0, top - bottom, 0}, w[3];
     out_of(s, left, bottom, from, at);
@@ -85,7 +86,10 @@ static void panel(house *h, int part, const site *s, double width, double height
     for (int i = 0; i < count; i++) {
         const hole *o = &holes[i];
         cuts[0][n[0]++] = o->left, cuts[0][n[0]++] = o->right, cuts[1][n[1]++] = o->bottom, cuts[1][n[1]++] = o->top;
-        outline_chart(h, f.chart, (const double[][2]){{o->left, o->bottom}, {o->right, o->bottom}, {o->right, o->top}, {o->left, o->top}}, 4, 0.55);
+        outline_chart(
+            h, f.chart,
+            (const double[][2]){{o->left, o->bottom}, {o->right, o->bottom}, {o->right, o->top}, {o->left, o->top}}, 4,
+            0.55);
     }
     sort_numbers(cuts[0], n[0]);
     sort_numbers(cuts[1], n[1]);
@@ -111,8 +115,12 @@ static void inner_wall(house *h, const site *s, double width, const hole *holes,
     out_of(s, width - thick, room_floor, -thick, inside.at);
     for (int i = 0; i < count; i++)
         if (holes[i].top < room_top)
-            mirrored[kept++] = (hole){width - holes[i].right - thick, holes[i].bottom - room_floor + 1e-3, width - holes[i].left - thick,
-                                      holes[i].top - room_floor, false, false};
+            mirrored[kept++] = (hole){width - holes[i].right - thick,
+                                      holes[i].bottom - room_floor + 1e-3,
+                                      width - holes[i].left - thick,
+                                      holes[i].top - room_floor,
+                                      false,
+                                      false};
     panel(h, ROOM, &inside, width - 2 * thick, room_top - room_floor, mirrored, kept);
 }
 
@@ -134,11 +142,15 @@ static void wall(house *h, const site *s, double width, double height, const hol
 static void build_walls(house *h)
 {
     static const hole front[] = {
-        {1.95, 1.15, 2.9, 2.7, false, false}, {3.55, 0.45, 4.6, 3.0, false, true}, {5.15, 1.15, 6.0, 2.7, false, false},
-        {2.05, 3.35, 2.8, 4.1, false, false}, {5.2, 3.35, 5.95, 4.1, false, false},
+        {1.95, 1.15, 2.9, 2.7, false, false}, {3.55, 0.45, 4.6, 3.0, false, true},
+        {5.15, 1.15, 6.0, 2.7, false, false}, {2.05, 3.35, 2.8, 4.1, false, false},
+        {5.2, 3.35, 5.95, 4.1, false, false},
     };
     static const hole side[] = {{0.8, 1.15, 1.7, 2.6, true, false}, {3.1, 1.15, 4.0, 2.6, true, false}};
-    const site sites[4] = {{{-half_x, 0, half_z}, {1, 0}}, {{half_x, 0, half_z}, {0, -1}}, {{half_x, 0, -half_z}, {-1, 0}}, {{-half_x, 0, -half_z}, {0, 1}}};
+    const site        sites[4] = {{{-half_x, 0, half_z}, {1, 0}},
+                                  {{half_x, 0, half_z}, {0, -1}},
+                                  {{half_x, 0, -half_z}, {-1, 0}},
+                                  {{-half_x, 0, -half_z}, {0, 1}}};
     wall(h, &sites[0], 2 * half_x, eaves, front, 5);
     wall(h, &sites[1], 2 * half_z, eaves, side, 2);
     wall(h, &sites[2], 2 * half_x, eaves, front, 1);
@@ -151,7 +163,7 @@ static void build_walls(house *h)
     on_wall(h, PLINTH, &sites[3], 0, 0, 2 * half_z, plinth, -0.1, 0.07);
 }
 
-/* --- gables and roof ---------------------------------------------------------------------------------------------- */
+/* --- gables and roof ------------------------------------------------------------------------------------ */
 
 static void build_gables(house *h)
 {
@@ -175,17 +187,20 @@ static void build_gables(house *h)
 
 static void build_roof(house *h)
 {
-    const double over = 0.45, rise = ridge - eaves, slope = sqrt(rise * rise + half_z * half_z), length = slope * (1 + 0.42 / half_z);
+    const double over = 0.45, rise = ridge - eaves, slope = sqrt(rise * rise + half_z * half_z),
+                 length = slope * (1 + 0.42 / half_z);
     const double c = half_z / slope, s = rise / slope, long_x = 2 * (half_x + over), thick = 0.16;
     for (int side = 0; side < 2; side++) {
         double turn = side ? -1 : 1;
         double at[3] = {-turn * (half_x + over), ridge - length * s + 0.06, turn * length * c};
-        double u[3] = {turn * long_x, 0, 0}, v[3] = {0, length * s, -turn * length * c}, w[3] = {0, thick * c, turn * thick * s};
+        double u[3] = {turn * long_x, 0, 0}, v[3] = {0, length * s, -turn * length * c},
+               w[3] = {0, thick * c, turn * thick * s};
         slanted_box(h, ROOF, at, u, v, w);
         /* Barge boards under the verge. */
         for (int end = -1; end <= 1; end += 2) {
             double from[3] = {end * (half_x + over - 0.06) - 0.04, at[1] - 0.2, turn * length * c};
-            double across[3] = {0.08, 0, 0}, up[3] = {0, length * s, -turn * length * c}, out[3] = {0, 0.2 * c + 0.02, turn * 0.2 * s};
+            double across[3] = {0.08, 0, 0}, up[3] = {0, length * s, -turn * length * c},
+                   out[3] = {0, 0.2 * c + 0.02, turn * 0.2 * s};
             if (turn < 0) {
                 across[0] = -0.08;
                 from[0] += 0.08;
@@ -198,7 +213,7 @@ static void build_roof(house *h)
     tube(h, RIDGE, (const double[3]){-half_x - over - 0.02, ridge + 0.15, 0}, RIGHT_WAY, long_x + 0.04, 0.14, 0.14, 10);
 }
 
-/* --- tower, chimney, steps, garden -------------------------------------------------------------------------------- */
+/* --- tower, chimney, steps, garden ---------------------------------------------------------------------- */
 
 static void build_tower(house *h)
 {
@@ -206,7 +221,8 @@ static void build_tower(house *h)
     tube(h, TOWER, at, UP_WAY, tower_top, tower_r, tower_r, 40);
     tube(h, TOWER_STONES, at, UP_WAY, plinth + 0.1, tower_r + 0.09, tower_r + 0.09, 40);
     for (int k = 0; k < 2; k++)
-        tube(h, TOWER_STONES, (const double[3]){tower_x, k ? 5.75 : 3.25, tower_z}, UP_WAY, k ? 0.34 : 0.16, tower_r + 0.08, tower_r + (k ? 0.24 : 0.08), 40);
+        tube(h, TOWER_STONES, (const double[3]){tower_x, k ? 5.75 : 3.25, tower_z}, UP_WAY, k ? 0.34 : 0.16,
+             tower_r + 0.08, tower_r + (k ? 0.24 : 0.08), 40);
     tube(h, TOWER_ROOF, (const double[3]){tower_x, tower_top, tower_z}, UP_WAY, 3.5, tower_r + 0.4, 0.04, 40);
     tube(h, IRON_PART, (const double[3]){tower_x, tower_top + 3.35, tower_z}, UP_WAY, 0.8, 0.045, 0.02, 8);
     box_at(h, IRON_PART, tower_x, tower_top + 3.9, tower_z - 0.01, tower_x + 0.5, tower_top + 4.1, tower_z + 0.01);
@@ -245,7 +261,8 @@ static void build_garden(house *h)
 {
     const double door_x = -half_x + 4.075, gate = 1.05, wall_z = 5.8, east = 6.1;
     for (int k = 0; k < 3; k++)
-        box_at(h, STEPS, door_x - 0.8 - 0.12 * k, 0, half_z + 0.01, door_x + 0.8 + 0.12 * k, 0.45 - 0.15 * k, half_z + 0.5 + 0.34 * k);
+        box_at(h, STEPS, door_x - 0.8 - 0.12 * k, 0, half_z + 0.01, door_x + 0.8 + 0.12 * k, 0.45 - 0.15 * k,
+               half_z + 0.5 + 0.34 * k);
     box_at(h, PATH, door_x - 0.75, 0, half_z + 1.1, door_x + 0.75, 0.03, 7.2);
     box_at(h, GARDEN_WALL, door_x + gate, 0, wall_z - 0.17, east, 1, wall_z + 0.17);
     box_at(h, COPING, door_x + gate, 0.98, wall_z - 0.23, east, 1.1, wall_z + 0.23);
@@ -261,7 +278,7 @@ static void build_garden(house *h)
     box_at(h, GROUND, -7, -0.25, -4.4, 7.4, 0, 7.2);
 }
 
-/* --- what is inside ----------------------------------------------------------------------------------------------- */
+/* --- what is inside ------------------------------------------------------------------------------------- */
 
 static void stool(house *h, double x, double z)
 {
@@ -305,7 +322,8 @@ static void build_room(house *h)
     /* A shelf and a chest. */
     box_at(h, FURNITURE, -x, y + 1.5, 0, -x + 0.28, y + 1.55, 0.8);
     for (int k = 0; k < 3; k++)
-        tube(h, CROCKERY, (const double[3]){-x + 0.14, y + 1.55, 0.15 + 0.25 * k}, UP_WAY, 0.16 + 0.03 * (k & 1), 0.07, 0.09, 14);
+        tube(h, CROCKERY, (const double[3]){-x + 0.14, y + 1.55, 0.15 + 0.25 * k}, UP_WAY, 0.16 + 0.03 * (k & 1), 0.07,
+             0.09, 14);
     box_at(h, FURNITURE, 1.7, y, -z + 0.02, 2.7, y + 0.5, -z + 0.55);
     box_at(h, FURNITURE, 1.67, y + 0.48, -z + 0.01, 2.73, y + 0.56, -z + 0.58);
 }

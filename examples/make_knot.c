@@ -1,8 +1,9 @@
 /* Writes the example model of a torus knot: make_knot OUT.glb
  *
- * The (3,2) knot of the torus, a trefoil, as Escher drew it: a closed tube, broader than it is high, that winds three times through the
- * torus's hole and twice around its axis. Texture coordinates run along the tube (u) and around it (v), both once from 0 to 1. Numbers
- * are stored in 16 bits (KHR_mesh_quantization), normals from the surface's own derivatives. */
+ * The (3,2) knot of the torus, a trefoil, as Escher drew it: a closed tube, broader than it is high, that winds three
+ * times through the torus's hole and twice around its axis. Texture coordinates run along the tube (u) and around it
+ * (v), both once from 0 to 1. Numbers are stored in 16 bits (KHR_mesh_quantization), normals from the surface's own
+ * derivatives. */
 #include "glb.h"
 
 #include <math.h>
@@ -57,9 +58,9 @@ static triple outward_at(double u)
 static triple surface_at(double u, double v)
 {
     const double step = 1e-5;
-    triple middle = middle_at(u), outward = outward_at(u);
-    triple beside = unit(cross(minus(middle_at(u + step), middle_at(u - step)), outward));
-    double across = half_breadth * cos(2 * PI * v), up = half_height * sin(2 * PI * v);
+    triple       middle = middle_at(u), outward = outward_at(u);
+    triple       beside = unit(cross(minus(middle_at(u + step), middle_at(u - step)), outward));
+    double       across = half_breadth * cos(2 * PI * v), up = half_height * sin(2 * PI * v);
     return (triple){middle.x + across * beside.x + up * outward.x, middle.y + across * beside.y + up * outward.y,
                     middle.z + across * beside.z + up * outward.z};
 }
@@ -87,10 +88,12 @@ static char *put_triple(char *to, triple t, double scale)
 
 enum { VERTEX_SIZE = 8 + 8 + 4, BYTES = VERTICES * VERTEX_SIZE + 2 * INDICES };
 
-/* Positions, normals, texture coordinates, indices. The last row and column are the first ones again, at 1 instead of 0. */
+/* Positions, normals, texture coordinates, indices. The last row and column are the first ones again, at 1 instead
+ * of 0. */
 static void fill(char *bytes)
 {
-    char *positions = bytes, *normals = bytes + 8 * VERTICES, *places = bytes + 16 * VERTICES, *indices = bytes + 20 * VERTICES;
+    char *positions = bytes, *normals = bytes + 8 * VERTICES, *places = bytes + 16 * VERTICES,
+         *indices = bytes + 20 * VERTICES;
     for (int i = 0; i <= ALONG; i++)
         for (int j = 0; j <= AROUND; j++) {
             double u = (double)(i % ALONG) / ALONG, v = (double)(j % AROUND) / AROUND;
@@ -112,7 +115,7 @@ static int describe(char *out, size_t size, const char *bytes)
     for (int i = 0; i < VERTICES; i++)
         for (int k = 0; k < 3; k++) {
             const unsigned char *at = (const unsigned char *)bytes + 8 * i + 2 * k;
-            int value = (int16_t)(at[0] | at[1] << 8);
+            int                  value = (int16_t)(at[0] | at[1] << 8);
             low[k] = value < low[k] ? value : low[k];
             high[k] = value > high[k] ? value : high[k];
         }
@@ -120,10 +123,12 @@ static int describe(char *out, size_t size, const char *bytes)
         out, size,
         "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner make_knot\",\"copyright\":\"CC0-1.0\"},"
         "\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\"],"
-        "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"knot\",\"mesh\":0,\"scale\":[%.9g,%.9g,%.9g]}],"
+        "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"knot\",\"mesh\":0,\"scale\":[%.9g,%.9g,%.9g]}]"
+        ","
         "\"materials\":[{\"name\":\"Clay\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.720,0.640,0.540,1],"
         "\"metallicFactor\":0,\"roughnessFactor\":0.7}}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2},\"indices\":3,\"material\":0}]}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2},\"indices\":3,"
+        "\"material\":0}]}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5122,\"normalized\":true,\"count\":%d,\"type\":\"VEC3\","
         "\"min\":[%d,%d,%d],\"max\":[%d,%d,%d]},"
         "{\"bufferView\":1,\"componentType\":5122,\"normalized\":true,\"count\":%d,\"type\":\"VEC3\"},"
@@ -133,8 +138,9 @@ static int describe(char *out, size_t size, const char *bytes)
         "{\"buffer\":0,\"byteOffset\":%d,\"byteLength\":%d,\"byteStride\":8,\"target\":34962},"
         "{\"buffer\":0,\"byteOffset\":%d,\"byteLength\":%d,\"byteStride\":4,\"target\":34962},"
         "{\"buffer\":0,\"byteOffset\":%d,\"byteLength\":%d,\"target\":34963}],\"buffers\":[{\"byteLength\":%d}]}",
-        extent, extent, extent, VERTICES, low[0], low[1], low[2], high[0], high[1], high[2], VERTICES, VERTICES, INDICES, 8 * VERTICES,
-        8 * VERTICES, 8 * VERTICES, 16 * VERTICES, 4 * VERTICES, 20 * VERTICES, 2 * INDICES, BYTES);
+        extent, extent, extent, VERTICES, low[0], low[1], low[2], high[0], high[1], high[2], VERTICES, VERTICES,
+        INDICES, 8 * VERTICES, 8 * VERTICES, 8 * VERTICES, 16 * VERTICES, 4 * VERTICES, 20 * VERTICES, 2 * INDICES,
+        BYTES);
 }
 
 int main(int count, char **arguments)

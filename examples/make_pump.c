@@ -1,8 +1,8 @@
 /* Writes the example model of a gear pump: make_pump OUT.glb
  *
- * Every part is one closed shell (solid.h), and no part cuts into another: what fits has a clearance of some hundredths. Threads
- * are left out, as on drawings. Lengths are millimetres; the shafts run along z, the driving end is at +z, +y is up. The inlet is
- * at +x, the outlet at −x. */
+ * Every part is one closed shell (solid.h), and no part cuts into another: what fits has a clearance of some
+ * hundredths. Threads are left out, as on drawings. Lengths are millimetres; the shafts run along z, the driving end is
+ * at +z, +y is up. The inlet is at +x, the outlet at −x. */
 #include "model.h"
 
 #include <math.h>
@@ -10,23 +10,23 @@
 
 enum { ROUND = 64, SMALL_ROUND = 40 };
 
-/* --- dimensions that parts share --------------------------------------------------------------------------------- */
+/* --- dimensions that parts share ------------------------------------------------------------------------ */
 
 enum { TEETH = 13, BODY_ARC = 48, CHAMBER_ARC = 72 };
 
 static const double module = 3;
-static const double axle = 19.5;          /* the shafts are at y = ±axle: half of module · TEETH */
+static const double axle = 19.5; /* the shafts are at y = ±axle: half of module · TEETH */
 static const double flange_radius = 37, body_radius = 31;
 static const double chamber_radius = 22.55;
-static const double pocket = 8;           /* half the height of the flat walls in which the ports open */
-static const double joint = 32;           /* housing up to here, then the gasket */
+static const double pocket = 8; /* half the height of the flat walls in which the ports open */
+static const double joint = 32; /* housing up to here, then the gasket */
 static const double cover_back = 33, cover_front = 50;
 static const double bolt_circle = 29, bolt_seat = 49;
 static const double port_z = 8.5;
-static const double valve_z = -13;        /* the relief valve lies between the bearings */
-static const double valve_seat = 11;      /* the seat is the cone r = x + valve_seat */
+static const double valve_z = -13;   /* the relief valve lies between the bearings */
+static const double valve_seat = 11; /* the seat is the cone r = x + valve_seat */
 static const double ball_radius = 4, plug_tip = 21.5;
-static const double fit = 0.03;           /* clearance of parts that sit tight */
+static const double fit = 0.03; /* clearance of parts that sit tight */
 
 static void bolt_place(int index, double at[2])
 {
@@ -45,33 +45,34 @@ static double ball_place(void)
     return -valve_seat + (ball_radius + fit) * sqrt(2);
 }
 
-/* --- housing ----------------------------------------------------------------------------------------------------- */
+/* --- housing -------------------------------------------------------------------------------------------- */
 
-/* The body's rings from the back: its edge, its wall with the foot in the middle, then the flange. Rings 1 to 4 bound the sides. */
+/* The body's rings from the back: its edge, its wall with the foot in the middle, then the flange. Rings 1 to 4
+ * bound the sides. */
 enum { BODY_RINGS = 8, WALL_FIRST = 1, FOOT_BACK = 2, FOOT_FRONT = 3, WALL_LAST = 4 };
 
 enum { SIDE_LEFT = BODY_ARC, LOWER_ARC = BODY_ARC + 1, SIDE_RIGHT = 2 * BODY_ARC + 1 };
 
-/* One port from the outside of its boss into the chamber. `base` is where the boss stands on the side of the body, `mouth` the
- * hole in the chamber's wall. */
+/* One port from the outside of its boss into the chamber. `base` is where the boss stands on the side of the body,
+ * `mouth` the hole in the chamber's wall. */
 static void port(mesh *m, direction side, ring *base, ring *mouth)
 {
     const frame f = {{0, 0, port_z}, side};
-    double wall = chamber_radius * cos(pocket_angle(chamber_radius) * PI / 180);
-    LATHE(m, &f, ROUND, base, mouth, {body_radius, 12.5}, {39, 12.5}, {40, 11.5}, {40, 9.5}, {39, 8.5}, {28, 8.5}, {26.5, 7},
-          {wall, 7});
+    double      wall = chamber_radius * cos(pocket_angle(chamber_radius) * PI / 180);
+    LATHE(m, &f, ROUND, base, mouth, {body_radius, 12.5}, {39, 12.5}, {40, 11.5}, {40, 9.5}, {39, 8.5}, {28, 8.5},
+          {26.5, 7}, {wall, 7});
 }
 
-/* A length of a bore along x whose wall has a hole towards +z, drilled from the floor of the chamber. The wall is a GRID of
- * which a window is left out; the drilled hole's edge has as many points as the window's. */
-static ring branch(mesh *m, const frame *f, const ring *start, double radius, double middle, double half, double drill, int wide,
-                   ring *mouth)
+/* A length of a bore along x whose wall has a hole towards +z, drilled from the floor of the chamber. The wall is a
+ * GRID of which a window is left out; the drilled hole's edge has as many points as the window's. */
+static ring branch(mesh *m, const frame *f, const ring *start, double radius, double middle, double half, double drill,
+                   int wide, ring *mouth)
 {
     enum { STEPS = 6 };
     const frame down = {.along = FRONT};
-    int first = SMALL_ROUND / 4 - wide, last = SMALL_ROUND / 4 + wide;
-    ring rows[STEPS + 1], window = {0};
-    outline o = circle(0, 0, radius, SMALL_ROUND), edge = {0}, top = {0};
+    int         first = SMALL_ROUND / 4 - wide, last = SMALL_ROUND / 4 + wide;
+    ring        rows[STEPS + 1], window = {0};
+    outline     o = circle(0, 0, radius, SMALL_ROUND), edge = {0}, top = {0};
     for (int j = 0; j <= STEPS; j++) {
         rows[j] = put_ring(m, f, &o, middle + half - 2 * half * j / STEPS);
         if (j == 0)
@@ -89,8 +90,8 @@ static ring branch(mesh *m, const frame *f, const ring *start, double radius, do
         window.at[window.count++] = rows[j].at[last];
     for (int i = 0; i < window.count; i++) {
         const int32_t *at = m->points[window.at[i]].at;
-        double angle = atan2(at[1] / GRID, at[0] / GRID - middle);
-        double y = drill * sin(angle);
+        double         angle = atan2(at[1] / GRID, at[0] / GRID - middle);
+        double         y = drill * sin(angle);
         add_point(&edge, middle + drill * cos(angle), y);
         edge.at[i][2] = f->origin[2] + sqrt(radius * radius - y * y);
         add_point(&top, middle + drill * cos(angle), y);
@@ -102,12 +103,12 @@ static ring branch(mesh *m, const frame *f, const ring *start, double radius, do
     return rows[STEPS];
 }
 
-/* The relief valve's bore from the right side of the body: spring room, seat, orifice. Each has a way into the chamber, one on
- * the inlet's side, one on the outlet's. */
+/* The relief valve's bore from the right side of the body: spring room, seat, orifice. Each has a way into the
+ * chamber, one on the inlet's side, one on the outlet's. */
 static void valve_bore(mesh *m, ring *base, ring mouths[2])
 {
     const frame f = {{0, 0, valve_z}, RIGHT};
-    outline o = circle(0, 0, 5, SMALL_ROUND);
+    outline     o = circle(0, 0, 5, SMALL_ROUND);
     *base = put_ring(m, &f, &o, body_radius);
     ring room = branch(m, &f, base, 5, 15.5, 2.6, 2, 4, &mouths[0]);
     ring upper = put_ring(m, &f, &o, 5 - valve_seat);
@@ -121,7 +122,8 @@ static void valve_bore(mesh *m, ring *base, ring mouths[2])
     sew(m, &orifice, &end);
 }
 
-/* What the foot adds to the body's outline, from its left side round the bottom to its right side; the ends are the body's. */
+/* What the foot adds to the body's outline, from its left side round the bottom to its right side; the ends are the
+ * body's. */
 static outline foot_outline(void)
 {
     outline o = {0};
@@ -140,10 +142,10 @@ static outline foot_outline(void)
 static void foot(mesh *m, const ring *back, const ring *front, double from, double to)
 {
     const frame f = {.along = FRONT};
-    outline o = foot_outline();
-    ring ends[2] = {{0}, {0}};
+    outline     o = foot_outline();
+    ring        ends[2] = {{0}, {0}};
     const ring *body[2] = {back, front};
-    int half = o.count / 2, top = 9, pad = half - 3; /* columns of the left half that are flat with holes */
+    int         half = o.count / 2, top = 9, pad = half - 3; /* columns of the left half that are flat with holes */
     for (int e = 0; e < 2; e++) {
         ends[e].count = o.count;
         for (int i = 0; i < o.count; i++)
@@ -167,7 +169,7 @@ static void foot(mesh *m, const ring *back, const ring *front, double from, doub
             LATHE(m, &hole, SMALL_ROUND, &upper[h], &lower[h], {-56, 4.5}, {-66, 4.5});
         }
         for (int level = 0; level < 2; level++) {
-            int c = level ? top : pad, i = side < 0 ? c : o.count - 2 - c;
+            int  c = level ? top : pad, i = side < 0 ? c : o.count - 2 - c;
             ring face = {4, {ends[0].at[i], ends[0].at[i + 1], ends[1].at[i + 1], ends[1].at[i]}};
             cap(m, level ? UP : DOWN, &face, level ? upper : lower, 2);
         }
@@ -189,17 +191,17 @@ static void body_side(mesh *m, const ring rings[BODY_RINGS], direction facing, c
 static void chamber(mesh *m, const ring mouths[2], const ring drilled[2], ring *open)
 {
     const frame f = {.along = FRONT};
-    outline o = double_round(axle, chamber_radius, pocket_angle(chamber_radius), CHAMBER_ARC);
-    ring floor = put_ring(m, &f, &o, 0), holes[4] = {drilled[0], drilled[1]};
+    outline     o = double_round(axle, chamber_radius, pocket_angle(chamber_radius), CHAMBER_ARC);
+    ring        floor = put_ring(m, &f, &o, 0), holes[4] = {drilled[0], drilled[1]};
     *open = put_ring(m, &f, &o, joint);
     sew_columns(m, open, &floor, 0, CHAMBER_ARC);
     sew_columns(m, open, &floor, CHAMBER_ARC + 1, CHAMBER_ARC);
     for (int side = 0; side < 2; side++) {
-        int i = side ? CHAMBER_ARC : 2 * CHAMBER_ARC + 1, j = (i + 1) % o.count;
+        int  i = side ? CHAMBER_ARC : 2 * CHAMBER_ARC + 1, j = (i + 1) % o.count;
         ring face = {4, {floor.at[i], floor.at[j], open->at[j], open->at[i]}};
         cap(m, side ? RIGHT : LEFT, &face, &mouths[side], 1);
         const frame bearing = {{0, side ? -axle : axle, 0}, FRONT};
-        ring bottom;
+        ring        bottom;
         LATHE(m, &bearing, ROUND, &holes[2 + side], &bottom, {0, 12}, {-20.5, 12}, {-20.5, 7.5}, {-22, 6}, {-22, 0});
     }
     cap(m, FRONT, &floor, holes, 4);
@@ -207,9 +209,10 @@ static void chamber(mesh *m, const ring mouths[2], const ring drilled[2], ring *
 
 static void build_housing(mesh *m)
 {
-    static const double shape[BODY_RINGS][2] = {{-28, 29}, {-26, 31}, {-16, 31}, {16, 31}, {22, 31}, {22, 36}, {23, 37}, {32, 37}};
-    const frame f = {.along = FRONT};
-    ring rings[BODY_RINGS], right[2], left, mouths[2], drilled[2], front[7], back[2];
+    static const double shape[BODY_RINGS][2] = {{-28, 29}, {-26, 31}, {-16, 31}, {16, 31},
+                                                {22, 31},  {22, 36},  {23, 37},  {32, 37}};
+    const frame         f = {.along = FRONT};
+    ring                rings[BODY_RINGS], right[2], left, mouths[2], drilled[2], front[7], back[2];
     for (int k = 0; k < BODY_RINGS; k++) {
         outline o = double_round(axle, shape[k][1], 0, BODY_ARC);
         rings[k] = put_ring(m, &f, &o, shape[k][0]);
@@ -242,11 +245,11 @@ static void build_housing(mesh *m)
     cap(m, FRONT, &rings[BODY_RINGS - 1], front, 7);
 }
 
-/* --- cover and gasket -------------------------------------------------------------------------------------------- */
+/* --- cover and gasket ----------------------------------------------------------------------------------- */
 
 static void build_gasket(mesh *m)
 {
-    double radius = chamber_radius + 0.1;
+    double  radius = chamber_radius + 0.1;
     outline outer = double_round(axle, flange_radius - 0.1, 0, BODY_ARC), holes[7];
     holes[0] = double_round(axle, radius, pocket_angle(radius), CHAMBER_ARC);
     for (int b = 0; b < 6; b++) {
@@ -259,9 +262,9 @@ static void build_gasket(mesh *m)
 
 static void build_cover(mesh *m)
 {
-    const frame f = {.along = FRONT}, drive = {{0, axle, 0}, FRONT}, idler = {{0, -axle, 0}, FRONT};
+    const frame         f = {.along = FRONT}, drive = {{0, axle, 0}, FRONT}, idler = {{0, -axle, 0}, FRONT};
     static const double heights[3] = {cover_back, cover_front - 1.2, cover_front};
-    ring rings[3], back[8], front[8];
+    ring                rings[3], back[8], front[8];
     for (int k = 0; k < 3; k++) {
         outline o = double_round(axle, k < 2 ? flange_radius : flange_radius - 1.2, 0, BODY_ARC);
         rings[k] = put_ring(m, &f, &o, heights[k]);
@@ -269,25 +272,25 @@ static void build_cover(mesh *m)
             sew(m, &rings[k - 1], &rings[k]);
     }
     /* From the boss through the seal's room and the bearing; the other bearing is blind. */
-    LATHE(m, &drive, ROUND, &front[0], &back[0], {cover_front, 20}, {58.5, 20}, {60, 18.5}, {60, 14.8}, {59.2, 14}, {49, 14},
-          {49, 9.5}, {46, 9.5}, {46, 12}, {cover_back, 12});
+    LATHE(m, &drive, ROUND, &front[0], &back[0], {cover_front, 20}, {58.5, 20}, {60, 18.5}, {60, 14.8}, {59.2, 14},
+          {49, 14}, {49, 9.5}, {46, 9.5}, {46, 12}, {cover_back, 12});
     LATHE(m, &idler, ROUND, &front[1], NULL, {cover_front, 15}, {52, 15}, {53, 14}, {53, 0});
     LATHE(m, &idler, ROUND, NULL, &back[1], {47.5, 0}, {47.5, 6}, {46, 7.5}, {46, 12}, {cover_back, 12});
     for (int b = 0; b < 6; b++) {
         double at[2];
         bolt_place(b, at);
         const frame hole = {{at[0], at[1], 0}, FRONT};
-        LATHE(m, &hole, SMALL_ROUND, &front[2 + b], &back[2 + b], {cover_front, 6.4}, {bolt_seat, 6.4}, {bolt_seat, 3.8},
-              {bolt_seat - 0.5, 3.3}, {cover_back, 3.3});
+        LATHE(m, &hole, SMALL_ROUND, &front[2 + b], &back[2 + b], {cover_front, 6.4}, {bolt_seat, 6.4},
+              {bolt_seat, 3.8}, {bolt_seat - 0.5, 3.3}, {cover_back, 3.3});
     }
     cap(m, BACK, &rings[0], back, 8);
     cap(m, FRONT, &rings[2], front, 8);
 }
 
-/* --- bolts ------------------------------------------------------------------------------------------------------- */
+/* --- bolts ---------------------------------------------------------------------------------------------- */
 
-/* A hexagon across flats, with points along its sides. Its height falls off outside of `flat`, the way a turned chamfer cuts the
- * corners of a bolt's head. */
+/* A hexagon across flats, with points along its sides. Its height falls off outside of `flat`, the way a turned
+ * chamfer cuts the corners of a bolt's head. */
 static outline hexagon(double across, double flat)
 {
     outline o = {0};
@@ -302,11 +305,12 @@ static outline hexagon(double across, double flat)
 /* The head stands on t = 0, the shank goes down from there. */
 static void bolt(mesh *m, const frame *f, double radius, double length, double across, double head)
 {
-    ring shank;
+    ring   shank;
     double flat = across / 2 * 0.95;
-    LATHE(m, f, SMALL_ROUND, NULL, &shank, {-length, 0}, {-length, radius * 0.85}, {-length + radius * 0.3, radius}, {0, radius});
+    LATHE(m, f, SMALL_ROUND, NULL, &shank, {-length, 0}, {-length, radius * 0.85}, {-length + radius * 0.3, radius},
+          {0, radius});
     outline o = hexagon(across, 0);
-    ring low = put_ring(m, f, &o, 0);
+    ring    low = put_ring(m, f, &o, 0);
     o = hexagon(across, flat);
     ring high = put_ring(m, f, &o, head);
     o = circle(0, 0, flat, o.count);
@@ -327,7 +331,7 @@ static void build_plug(mesh *m)
     bolt(m, &(frame){.along = RIGHT}, 4.97, body_radius - plug_tip, 13, 5);
 }
 
-/* --- shafts, keys, gears, coupling ------------------------------------------------------------------------------- */
+/* --- shafts, keys, gears, coupling ---------------------------------------------------------------------- */
 
 enum { SHAFT_ARC = 60, SLOT_ARC = 6, SLOT_KEEPS = SHAFT_ARC + 1 };
 
@@ -335,7 +339,7 @@ enum { SHAFT_ARC = 60, SLOT_ARC = 6, SLOT_KEEPS = SHAFT_ARC + 1 };
 static outline round_for_key(double radius, double half)
 {
     outline o = {0};
-    double gap = asin(half / radius) * 180 / PI;
+    double  gap = asin(half / radius) * 180 / PI;
     add_arc(&o, 0, 0, radius, 90 + gap, 450 - gap, SHAFT_ARC);
     for (int i = 1; i < SLOT_ARC; i++) {
         double angle = (90 - gap + 2 * gap * i / SLOT_ARC) * PI / 180;
@@ -369,12 +373,13 @@ static ring keyway_end(mesh *m, direction facing, const frame *f, const ring *wh
 }
 
 /* A keyway from where the shaft has got to; returns the ring behind it. */
-static ring keyway(mesh *m, const frame *f, const ring *start, double radius, double half, double bottom, double from, double to)
+static ring keyway(mesh *m, const frame *f, const ring *start, double radius, double half, double bottom, double from,
+                   double to)
 {
     outline whole = round_for_key(radius, half), keyed = keyed_round(radius, half, bottom);
-    ring first = keyway_end(m, FRONT, f, start, &keyed, from);
-    ring end = put_ring(m, f, &whole, to);
-    ring last = keyway_end(m, BACK, f, &end, &keyed, to);
+    ring    first = keyway_end(m, FRONT, f, start, &keyed, from);
+    ring    end = put_ring(m, f, &whole, to);
+    ring    last = keyway_end(m, BACK, f, &end, &keyed, to);
     sew(m, &first, &last);
     return end;
 }
@@ -384,11 +389,11 @@ static const double key_half = 2.5;
 static void build_drive_shaft(mesh *m)
 {
     static const double start[][2] = {{-19.5, 7}, {-18.5, 8}, {3.9, 8}}, middle[][2] = {{61, 8}, {62, 7}, {68, 7}};
-    const frame f = {.along = FRONT};
-    ring at = {0};
+    const frame         f = {.along = FRONT};
+    ring                at = {0};
     for (int k = 0; k < 3; k++) {
         outline o = round_for_key(start[k][1], key_half);
-        ring next = put_ring(m, &f, &o, start[k][0]);
+        ring    next = put_ring(m, &f, &o, start[k][0]);
         if (k == 0)
             cap(m, BACK, &next, NULL, 0);
         else
@@ -398,13 +403,13 @@ static void build_drive_shaft(mesh *m)
     at = keyway(m, &f, &at, 8, key_half, 5, 3.9, 29.1);
     for (int k = 0; k < 3; k++) {
         outline o = round_for_key(middle[k][1], key_half);
-        ring next = put_ring(m, &f, &o, middle[k][0]);
+        ring    next = put_ring(m, &f, &o, middle[k][0]);
         sew(m, &at, &next);
         at = next;
     }
     at = keyway(m, &f, &at, 7, key_half, 4, 68, 86);
     outline o = round_for_key(6, key_half);
-    ring last = put_ring(m, &f, &o, 87);
+    ring    last = put_ring(m, &f, &o, 87);
     sew(m, &at, &last);
     cap(m, FRONT, &last, NULL, 0);
 }
@@ -440,12 +445,13 @@ static void add_polar(outline *o, double radius, double angle)
     add_point(o, radius * cos(angle), radius * sin(angle));
 }
 
-/* Involute teeth; a tooth points down and, as their number is odd, a gap up, so that two of these mesh one over the other. */
+/* Involute teeth; a tooth points down and, as their number is odd, a gap up, so that two of these mesh one over the
+ * other. */
 static outline gear_outline(void)
 {
     enum { FLANK = 8, FILLET = 4 };
     const double pitch = module * TEETH / 2, root = pitch - 1.25 * module, tip = pitch + module, round = 1.1;
-    outline o = {0};
+    outline      o = {0};
     for (int k = 0; k < TEETH; k++) {
         double middle = -PI / 2 + 2 * PI * k / TEETH, foot = half_tooth(root), next = middle + 2 * PI / TEETH;
         for (int i = 0; i < FLANK; i++) {
@@ -487,8 +493,8 @@ static void build_idler_gear(mesh *m)
 static void build_coupling(mesh *m)
 {
     const frame f = {.along = FRONT};
-    outline o = keyed_round(7 + fit, key_half, 9 + fit);
-    ring back = put_ring(m, &f, &o, 67), front = put_ring(m, &f, &o, 88), low, high, holes[4] = {front};
+    outline     o = keyed_round(7 + fit, key_half, 9 + fit);
+    ring        back = put_ring(m, &f, &o, 67), front = put_ring(m, &f, &o, 88), low, high, holes[4] = {front};
     LATHE(m, &f, ROUND, &low, &high, {67, 12}, {68, 13}, {78, 13}, {78, 21}, {79, 22}, {87, 22}, {88, 21});
     sew(m, &front, &back);
     cap(m, BACK, &low, &back, 1);
@@ -504,12 +510,12 @@ static void build_coupling(mesh *m)
     cap(m, FRONT, &high, holes, 4);
 }
 
-/* --- bearings, seal, valve --------------------------------------------------------------------------------------- */
+/* --- bearings, seal, valve ------------------------------------------------------------------------------ */
 
 static void bush(mesh *m, double length)
 {
-    const frame f = {.along = FRONT};
-    ring first, last;
+    const frame  f = {.along = FRONT};
+    ring         first, last;
     const double in = 8 + fit, out = 12 - fit, edge = 0.6;
     LATHE(m, &f, ROUND, &first, &last, {0, out - edge}, {edge, out}, {length - edge, out}, {length, out - edge},
           {length, in + edge}, {length - edge, in}, {edge, in}, {0, in + edge});
@@ -530,9 +536,9 @@ static void build_short_bush(mesh *m)
 static void build_seal(mesh *m)
 {
     const frame f = {.along = FRONT};
-    ring first, last;
-    LATHE(m, &f, ROUND, &first, &last, {0, 14 - fit}, {7, 14 - fit}, {7, 9.2}, {5.2, 9.2}, {3.6, 8 + fit}, {3, 8 + fit}, {1.2, 9},
-          {1.2, 10.4}, {4.6, 10.8}, {4.6, 12.6}, {0, 12.6});
+    ring        first, last;
+    LATHE(m, &f, ROUND, &first, &last, {0, 14 - fit}, {7, 14 - fit}, {7, 9.2}, {5.2, 9.2}, {3.6, 8 + fit}, {3, 8 + fit},
+          {1.2, 9}, {1.2, 10.4}, {4.6, 10.8}, {4.6, 12.6}, {0, 12.6});
     sew(m, &last, &first);
 }
 
@@ -544,17 +550,20 @@ static void build_ball(mesh *m)
         profile[i][0] = -ball_radius * cos(PI * i / STACKS);
         profile[i][1] = ball_radius * sin(PI * i / STACKS);
     }
-    lathe(m, &(frame){.along = RIGHT}, (const double (*)[2])profile, STACKS + 1, SMALL_ROUND, NULL, NULL);
+    lathe(m, &(frame){.along = RIGHT}, (const double(*)[2])profile, STACKS + 1, SMALL_ROUND, NULL, NULL);
 }
 
 static const double coil = 3.2, wire = 0.6, turns = 8;
 
-/* How far along x the spring's wire is after so many turns: the first and the last turn lie close, as ground springs have it. */
+/* How far along x the spring's wire is after so many turns: the first and the last turn lie close, as ground
+ * springs have it. */
 static double spring_rise(double turn)
 {
     double from = sqrt(pow(ball_radius + wire + fit, 2) - coil * coil), to = plug_tip - ball_place() - wire - fit;
     double tight = 2 * wire + 0.1, rise = (to - from - 2 * tight) / (turns - 2);
-    return from + (turn < 1 ? tight * turn : turn > turns - 1 ? to - from - tight * (turns - turn) : tight + rise * (turn - 1));
+    return from + (turn < 1           ? tight * turn
+                   : turn > turns - 1 ? to - from - tight * (turns - turn)
+                                      : tight + rise * (turn - 1));
 }
 
 /* Its origin is the ball's middle. */
@@ -562,12 +571,12 @@ static void build_spring(mesh *m)
 {
     enum { STEPS = 32, AROUND = 12 };
     const frame f = {.along = RIGHT};
-    ring before = {0};
-    int rows = STEPS * (int)turns;
+    ring        before = {0};
+    int         rows = STEPS * (int)turns;
     for (int k = 0; k <= rows; k++) {
         double at = (double)k / STEPS, angle = 2 * PI * at, x = spring_rise(at);
         double slope = atan2((spring_rise(at + 0.01) - spring_rise(at - 0.01)) / 0.02, 2 * PI * coil);
-        ring here = {.count = AROUND};
+        ring   here = {.count = AROUND};
         for (int i = 0; i < AROUND; i++) {
             double part = 2 * PI * i / AROUND, out = coil + wire * cos(part), side = wire * sin(part);
             here.at[i] = put_point(m, &f, out * cos(angle) - side * sin(slope) * -sin(angle),
@@ -583,7 +592,7 @@ static void build_spring(mesh *m)
     }
 }
 
-/* --- the assembly ------------------------------------------------------------------------------------------------ */
+/* --- the assembly --------------------------------------------------------------------------------------- */
 
 typedef enum material { CASTING, COVER, STEEL, GEAR, BRASS, RUBBER, IRON, ZINC, FIBRE, MATERIALS } material;
 
@@ -591,15 +600,15 @@ static const model_material materials[MATERIALS] = {
     [CASTING] = {"Casting", {0.110, 0.180, 0.270}}, [COVER] = {"Machined casting", {0.190, 0.270, 0.350}},
     [STEEL] = {"Steel", {0.520, 0.540, 0.570}},     [GEAR] = {"Hardened steel", {0.350, 0.370, 0.410}},
     [BRASS] = {"Brass", {0.600, 0.390, 0.120}},     [RUBBER] = {"Rubber", {0.025, 0.025, 0.030}},
-    [IRON] = {"Black iron", {0.060, 0.065, 0.075}},
-    [ZINC] = {"Zinc-plated steel", {0.420, 0.410, 0.360}}, [FIBRE] = {"Fibre", {0.260, 0.090, 0.050}},
+    [IRON] = {"Black iron", {0.060, 0.065, 0.075}}, [ZINC] = {"Zinc-plated steel", {0.420, 0.410, 0.360}},
+    [FIBRE] = {"Fibre", {0.260, 0.090, 0.050}},
 };
 
 typedef enum group { CASING, DRIVE, IDLER, BEARINGS, VALVE, GROUPS } group;
 
 /* Drive and idler have their axles as origins, so that they can be turned. */
 static const model_group groups[GROUPS] = {
-    [CASING] = {"Casing", {0}},     [DRIVE] = {"Drive", {0, 19.5, 0}},  [IDLER] = {"Idler", {0, -19.5, 0}},
+    [CASING] = {"Casing", {0}},     [DRIVE] = {"Drive", {0, 19.5, 0}},       [IDLER] = {"Idler", {0, -19.5, 0}},
     [BEARINGS] = {"Bearings", {0}}, [VALVE] = {"Relief valve", {0, 0, -13}},
 };
 
@@ -643,12 +652,13 @@ static void list_parts(assembly *a)
     a->parts[a->count++] = (model_part){"Valve plug", VALVE, ZINC, build_plug, {body_radius + fit, 0, 0}};
 }
 
-/* One turn of both shafts in four seconds, the driving one the way that brings the oil from the inlet (at +x) to the outlet. */
+/* One turn of both shafts in four seconds, the driving one the way that brings the oil from the inlet (at +x) to
+ * the outlet. */
 static void animate(glb *g, FILE *json)
 {
     enum { KEYS = 4 };
     static const float times[KEYS] = {0, (float)4 / 3, (float)8 / 3, 4};
-    int input = glb_put_floats(g, times, KEYS, 1, "SCALAR", 0);
+    int                input = glb_put_floats(g, times, KEYS, 1, "SCALAR", 0);
     fprintf(json, "\"animations\":[{\"name\":\"Run\",\"samplers\":[");
     for (int way = 1; way >= -1; way -= 2) {
         float values[KEYS][4] = {0};
@@ -672,6 +682,7 @@ int main(int count, char **arguments)
         return EXIT_FAILURE;
     assembly a = {.count = 0};
     list_parts(&a);
-    const model pump = {"make_pump", "Gear pump", 1000, materials, MATERIALS, groups, GROUPS, a.parts, a.count, animate};
+    const model pump = {"make_pump", "Gear pump", 1000,    materials, MATERIALS,
+                        groups,      GROUPS,      a.parts, a.count,   animate};
     return model_write(&pump, arguments[1]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

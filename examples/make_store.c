@@ -1,29 +1,29 @@
 /* Writes the example model of a department store: make_store OUT.glb
  *
- * It stands on a corner, which is round and where one enters. Four storeys of glass between floor slabs, fins before the straight
- * fronts, a set-back storey on the roof's terrace. Metres, +y is up; the fronts look to +z and +x.
+ * It stands on a corner, which is round and where one enters. Four storeys of glass between floor slabs, fins before
+ * the straight fronts, a set-back storey on the roof's terrace. Metres, +y is up; the fronts look to +z and +x.
  *
- * Whatever runs along the fronts is told by a way: metres before the round corner (negative), degrees along it (0 to 90), 90 and
- * metres behind it; and by how far it is set back from the slabs' edges. */
+ * Whatever runs along the fronts is told by a way: metres before the round corner (negative), degrees along it (0 to
+ * 90), 90 and metres behind it; and by how far it is set back from the slabs' edges. */
 #include "model.h"
 #include "pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* --- dimensions that parts share --------------------------------------------------------------------------------- */
+/* --- dimensions that parts share ------------------------------------------------------------------------ */
 
 enum { STOREYS = 4, ESCALATOR_STEPS = 21 };
 
 static const double left = -20, back = -13, corner_x = 8, corner_z = 5, corner_radius = 8;
 static const double way_begin = -27.8, way_end = 107.8; /* between the walls at the neighbours */
-static const double module = 1.5;                        /* from mullion to mullion; on the corner an eighth of it */
+static const double module = 1.5;                       /* from mullion to mullion; on the corner an eighth of it */
 static const double levels[STOREYS + 1] = {0.16, 5.2, 9.4, 13.6, 17.8};
 static const double slab = 0.42, glass = 0.45, pavement = 0.12;
 static const double void_left = -6, void_right = 4, void_half = 4; /* the hall through which the escalators rise */
 static const double pavilion = 5, pavilion_top = 21.5;
 
-/* --- along the fronts -------------------------------------------------------------------------------------------- */
+/* --- along the fronts ----------------------------------------------------------------------------------- */
 
 static void add_way_point(outline *o, double way, double set_back)
 {
@@ -76,7 +76,12 @@ static void post(mesh *m, double way, double width, double outer, double inner, 
 }
 
 /* The mullions' ways: from the left wall to the corner, along it, and on to the wall at the back. */
-enum { FRONT_MODULES = 18, CORNER_MODULES = 8, SIDE_MODULES = 11, STATIONS = FRONT_MODULES + CORNER_MODULES + SIDE_MODULES + 1 };
+enum {
+    FRONT_MODULES = 18,
+    CORNER_MODULES = 8,
+    SIDE_MODULES = 11,
+    STATIONS = FRONT_MODULES + CORNER_MODULES + SIDE_MODULES + 1
+};
 
 static double station(int k)
 {
@@ -96,7 +101,7 @@ static outline footprint(double set_back, double from_left, double from_back)
     return o;
 }
 
-/* --- structure --------------------------------------------------------------------------------------------------- */
+/* --- structure ------------------------------------------------------------------------------------------ */
 
 static void build_slabs(mesh *m)
 {
@@ -124,7 +129,8 @@ static void build_columns(mesh *m)
     static const double xs[] = {-16, -11, -6.7, 4.7, 10}, zs[] = {-8.8, -4.7, 4.7, 9.2};
     for (int i = 0; i < COUNT(xs); i++)
         for (int j = 0; j < COUNT(zs); j++)
-            TURNED(m, xs[i], 0, zs[j], 14, {0.1, 0}, {0.1, 0.26}, {levels[STOREYS] - 0.2, 0.26}, {levels[STOREYS] - 0.2, 0});
+            TURNED(m, xs[i], 0, zs[j], 14, {0.1, 0}, {0.1, 0.26}, {levels[STOREYS] - 0.2, 0.26},
+                   {levels[STOREYS] - 0.2, 0});
     for (int k = 0; k < 6; k++) /* the pavilion's */
         TURNED(m, -15 + 4.6 * k, 0, 6.6, 12, {levels[STOREYS] - 0.1, 0}, {levels[STOREYS] - 0.1, 0.14},
                {pavilion_top - 0.2, 0.14}, {pavilion_top - 0.2, 0});
@@ -151,7 +157,7 @@ static void build_lift_doors(mesh *m)
             }
 }
 
-/* --- fronts ------------------------------------------------------------------------------------------------------ */
+/* --- fronts --------------------------------------------------------------------------------------------- */
 
 static void build_glass_ground(mesh *m)
 {
@@ -189,7 +195,8 @@ static void build_mullions(mesh *m)
             if (storey > 0 || (k % 2 == 0 && k != FRONT_MODULES + CORNER_MODULES / 2))
                 post(m, station(k), 0.07, glass - 0.06, glass + 0.12, low, high);
         if (storey > 0) {
-            strip(m, way_begin + 0.03, way_end - 0.03, glass - 0.05, glass + 0.09, levels[storey] + 0.92, levels[storey] + 0.98);
+            strip(m, way_begin + 0.03, way_end - 0.03, glass - 0.05, glass + 0.09, levels[storey] + 0.92,
+                  levels[storey] + 0.98);
             continue;
         }
         for (int side = 0; side < 2; side++) {
@@ -217,7 +224,7 @@ static void build_bands(mesh *m)
         strip(m, 1, 89, -0.3, 0.2, levels[k] - slab - 0.06, levels[k] + 0.08);
 }
 
-/* --- entrance ---------------------------------------------------------------------------------------------------- */
+/* --- entrance ------------------------------------------------------------------------------------------- */
 
 static void build_canopy(mesh *m)
 {
@@ -238,9 +245,9 @@ static void build_canopy_columns(mesh *m)
 /* A revolving door: drum, three wings. */
 static void build_revolving_door(mesh *m)
 {
-    ring          first, last;
-    const frame   f = {.along = UP};
-    const double  low = levels[0] - 0.02;
+    ring         first, last;
+    const frame  f = {.along = UP};
+    const double low = levels[0] - 0.02;
     LATHE(m, &f, 32, &first, &last, {2.5, 1.16}, {2.95, 1.16}, {2.95, 1.02}, {2.5, 1.02});
     sew(m, &last, &first);
     TURNED(m, 0, 0, 0, 32, {2.8, 0}, {2.8, 1.1}, {2.9, 1.1}, {2.9, 0});
@@ -263,8 +270,8 @@ static void build_revolving_door(mesh *m)
 /* Letters of the height 1 as outlines; R has its eye as a second one. */
 static const double letter_l[][2] = {{0, 0}, {0.62, 0}, {0.62, 0.2}, {0.22, 0.2}, {0.22, 1}, {0, 1}};
 static const double letter_i[][2] = {{0.2, 0}, {0.42, 0}, {0.42, 1}, {0.2, 1}};
-static const double letter_m[][2] = {{-0.08, 0}, {0.12, 0}, {0.12, 0.62}, {0.31, 0.26}, {0.5, 0.62}, {0.5, 0}, {0.7, 0}, {0.7, 1},
-                                     {0.52, 1}, {0.31, 0.58}, {0.1, 1}, {-0.08, 1}};
+static const double letter_m[][2] = {{-0.08, 0}, {0.12, 0}, {0.12, 0.62}, {0.31, 0.26}, {0.5, 0.62}, {0.5, 0},
+                                     {0.7, 0},   {0.7, 1},  {0.52, 1},    {0.31, 0.58}, {0.1, 1},    {-0.08, 1}};
 static const double letter_n[][2] = {{0, 0},    {0.2, 0},  {0.2, 0.62},  {0.44, 0}, {0.64, 0},
                                      {0.64, 1}, {0.44, 1}, {0.44, 0.38}, {0.2, 1},  {0, 1}};
 static const double letter_e[][2] = {{0, 0},      {0.6, 0},    {0.6, 0.2},  {0.22, 0.2}, {0.22, 0.41}, {0.52, 0.41},
@@ -306,14 +313,15 @@ static void build_letters(mesh *m)
     place_on_way(m, 0, -2.25, 0);
 }
 
-/* --- inside ------------------------------------------------------------------------------------------------------ */
+/* --- inside --------------------------------------------------------------------------------------------- */
 
-/* A moving staircase from one floor to the next over z = 0. Both of its landings reach onto the slabs around the hall. */
+/* A moving staircase from one floor to the next over z = 0. Both of its landings reach onto the slabs around the
+ * hall. */
 static void escalator(mesh *m, double low, double high)
 {
     const double run = (high - low) / tan(PI / 6), from = -run / 2, flat = (void_right - void_left - run) / 2 + 0.3,
                  tread = run / ESCALATOR_STEPS;
-    outline      o = {0};
+    outline o = {0};
     add_point(&o, from - flat, low - 0.35);
     add_point(&o, from + 0.45, low - 0.35);
     add_point(&o, -from + 0.4, high - 0.72);
@@ -372,7 +380,7 @@ static void build_balustrades(mesh *m)
 static void build_counters(mesh *m)
 {
     static const double rows[] = {-7.2, -2.2, 2.6, 7.2, 10.6};
-    uint32_t seed = 5;
+    uint32_t            seed = 5;
     for (int storey = 0; storey < STOREYS; storey++)
         for (int i = 0; i < 11; i++)
             for (int j = 0; j < COUNT(rows); j++) {
@@ -384,11 +392,12 @@ static void build_counters(mesh *m)
                 if (hall || entrance || far > 6.8 || chance(&seed) < 0.25)
                     continue;
                 box(m, x, levels[storey] - 0.02, z, x + 1.7, levels[storey] + high, z + 0.6);
-                box(m, x - 0.04, levels[storey] + high - 0.02, z - 0.04, x + 1.74, levels[storey] + high + 0.05, z + 0.64);
+                box(m, x - 0.04, levels[storey] + high - 0.02, z - 0.04, x + 1.74, levels[storey] + high + 0.05,
+                    z + 0.64);
             }
 }
 
-/* --- the roof's terrace ------------------------------------------------------------------------------------------ */
+/* --- the roof's terrace --------------------------------------------------------------------------------- */
 
 static void build_parapet(mesh *m)
 {
@@ -415,7 +424,8 @@ static void build_pavilion_glass(mesh *m)
 static void build_pavilion_mullions(mesh *m)
 {
     for (int k = 0; k < STATIONS; k++)
-        if (station(k) > -25 && station(k) < 103 && (k < FRONT_MODULES || k > FRONT_MODULES + CORNER_MODULES || k % 2 == 0))
+        if (station(k) > -25 && station(k) < 103 &&
+            (k < FRONT_MODULES || k > FRONT_MODULES + CORNER_MODULES || k % 2 == 0))
             post(m, station(k), 0.07, pavilion - 0.06, pavilion + 0.12, levels[STOREYS] - 0.03, pavilion_top - 0.27);
     strip(m, -24.96, 102.96, pavilion - 0.05, pavilion + 0.1, levels[STOREYS] + 2.3, levels[STOREYS] + 2.36);
 }
@@ -424,7 +434,8 @@ static void build_pavilion_walls(mesh *m)
 {
     box(m, corner_x - 25.2, levels[STOREYS] - 0.05, back + 3, corner_x - 24.9, pavilion_top - 0.2,
         corner_z + corner_radius - pavilion + 0.2);
-    box(m, corner_x - 24.95, levels[STOREYS] - 0.06, -8.2, corner_x + corner_radius - pavilion + 0.2, pavilion_top - 0.21, -7.9);
+    box(m, corner_x - 24.95, levels[STOREYS] - 0.06, -8.2, corner_x + corner_radius - pavilion + 0.2,
+        pavilion_top - 0.21, -7.9);
 }
 
 static void build_pavilion_roof(mesh *m)
@@ -441,8 +452,8 @@ static void build_plant_room(mesh *m)
     box(m, -15, low, -10.5, -6, low + 2.5, -2.5);
     box(m, -15.15, low + 2.45, -10.65, -5.85, low + 2.62, -2.35);
     for (int k = 0; k < 2; k++)
-        TURNED(m, -13 + 4 * k, 0, -6.5, 24, {low + 2.55, 0}, {low + 2.55, 1}, {low + 3.1, 1}, {low + 3.1, 0.85}, {low + 2.9, 0.8},
-               {low + 2.9, 0});
+        TURNED(m, -13 + 4 * k, 0, -6.5, 24, {low + 2.55, 0}, {low + 2.55, 1}, {low + 3.1, 1}, {low + 3.1, 0.85},
+               {low + 2.9, 0.8}, {low + 2.9, 0});
 }
 
 static void build_louvres(mesh *m)
@@ -470,8 +481,8 @@ static void build_tables(mesh *m)
 {
     for (int k = 0; k < 6; k++) {
         double x = -15.5 + 4.1 * k, z = 10.6 + 0.5 * (k % 2), y = levels[STOREYS];
-        TURNED(m, x, y, z, 16, {-0.02, 0}, {-0.02, 0.28}, {0.03, 0.28}, {0.04, 0.035}, {0.71, 0.035}, {0.71, 0.45}, {0.75, 0.45},
-               {0.75, 0});
+        TURNED(m, x, y, z, 16, {-0.02, 0}, {-0.02, 0.28}, {0.03, 0.28}, {0.04, 0.035}, {0.71, 0.035}, {0.71, 0.45},
+               {0.75, 0.45}, {0.75, 0});
         for (int side = -1; side <= 1; side += 2) {
             double seat = x + 0.75 * side;
             box(m, seat - 0.2, y - 0.02, z - 0.2, seat + 0.2, y + 0.45, z + 0.2);
@@ -495,7 +506,7 @@ static void build_plants(mesh *m)
     }
 }
 
-/* --- the street -------------------------------------------------------------------------------------------------- */
+/* --- the street ----------------------------------------------------------------------------------------- */
 
 static void build_street(mesh *m)
 {
@@ -513,7 +524,8 @@ static void build_kerb(mesh *m)
     strip(m, -32.4, 111.4, -6.75, -6.45, -0.28, pavement + 0.015);
 }
 
-/* Every other panel of the pavement is of darker stone, in two rows. They alone make a border; joints would make two lines each.
+/* Every other panel of the pavement is of darker stone, in two rows. They alone make a border; joints would make two
+ * lines each.
  */
 static void build_paving_panels(mesh *m)
 {
@@ -568,7 +580,7 @@ static void build_tree_grates(mesh *m)
     }
 }
 
-/* --- people ------------------------------------------------------------------------------------------------------ */
+/* --- people --------------------------------------------------------------------------------------------- */
 
 static const double walking[][2] = {
     {0, 1.79},     {0.09, 1.75}, {0.115, 1.66}, {0.085, 1.56},  {0.07, 1.49},   {0.17, 1.44},  {0.235, 1.32},
@@ -579,11 +591,12 @@ static const double walking[][2] = {
     {-0.25, 1.2},  {-0.19, 1.4}, {-0.07, 1.49}, {-0.085, 1.57}, {-0.105, 1.67}, {-0.08, 1.75},
 };
 static const double standing[][2] = {
-    {0, 1.72},      {0.09, 1.67},   {0.1, 1.57},    {0.11, 1.46},   {0.06, 1.42},   {0.15, 1.38},   {0.21, 1.3},    {0.25, 1.05},
-    {0.25, 0.84},   {0.2, 0.8},     {0.18, 0.98},   {0.2, 0.72},    {0.25, 0.48},   {0.14, 0.46},   {0.12, 0.2},    {0.16, 0.03},
-    {0.14, 0.0},    {0.03, 0.0},    {0.03, 0.22},   {0, 0.45},      {-0.03, 0.22},  {-0.03, 0.0},   {-0.14, 0.0},   {-0.16, 0.03},
-    {-0.12, 0.2},   {-0.14, 0.46},  {-0.25, 0.48},  {-0.2, 0.72},   {-0.18, 0.98},  {-0.2, 0.8},    {-0.25, 0.84},  {-0.25, 1.05},
-    {-0.21, 1.3},   {-0.15, 1.38},  {-0.06, 1.42},  {-0.11, 1.46},  {-0.1, 1.57},   {-0.09, 1.67},
+    {0, 1.72},     {0.09, 1.67}, {0.1, 1.57},   {0.11, 1.46},  {0.06, 1.42},  {0.15, 1.38},  {0.21, 1.3},
+    {0.25, 1.05},  {0.25, 0.84}, {0.2, 0.8},    {0.18, 0.98},  {0.2, 0.72},   {0.25, 0.48},  {0.14, 0.46},
+    {0.12, 0.2},   {0.16, 0.03}, {0.14, 0.0},   {0.03, 0.0},   {0.03, 0.22},  {0, 0.45},     {-0.03, 0.22},
+    {-0.03, 0.0},  {-0.14, 0.0}, {-0.16, 0.03}, {-0.12, 0.2},  {-0.14, 0.46}, {-0.25, 0.48}, {-0.2, 0.72},
+    {-0.18, 0.98}, {-0.2, 0.8},  {-0.25, 0.84}, {-0.25, 1.05}, {-0.21, 1.3},  {-0.15, 1.38}, {-0.06, 1.42},
+    {-0.11, 1.46}, {-0.1, 1.57}, {-0.09, 1.67},
 };
 
 /* A flat figure, as cut out of card. */
@@ -620,14 +633,14 @@ static void build_customers(mesh *m)
     for (int storey = 0; storey < STOREYS; storey++)
         for (int k = 0; k < COUNT(places); k++)
             if ((k + storey) % 2 == 0)
-                figure(m, k % 3 == 1, 1 - 0.03 * k / 2, places[k][2] + 30 * storey, places[k][0] - 0.7 * storey, levels[storey],
-                       places[k][1] - 0.3 * storey);
+                figure(m, k % 3 == 1, 1 - 0.03 * k / 2, places[k][2] + 30 * storey, places[k][0] - 0.7 * storey,
+                       levels[storey], places[k][1] - 0.3 * storey);
     figure(m, false, 1, 45, 12.4, levels[STOREYS], 10.1);
     figure(m, false, 0.95, 60, 13.1, levels[STOREYS], 9.5);
     figure(m, true, 1, 10, 3, levels[STOREYS], 12);
 }
 
-/* --- the assembly ------------------------------------------------------------------------------------------------ */
+/* --- the assembly --------------------------------------------------------------------------------------- */
 
 typedef enum material {
     CONCRETE,
@@ -648,16 +661,24 @@ typedef enum material {
     MATERIALS
 } material;
 
-/* The glass is opaque, as most looks have no layers to show what is behind it; a rule for [material=Glass] can see through it. */
+/* The glass is opaque, as most looks have no layers to show what is behind it; a rule for [material=Glass] can see
+ * through it. */
 static const model_material materials[MATERIALS] = {
-    [CONCRETE] = {"Concrete", {0.560, 0.550, 0.530}},  [WHITE] = {"White render", {0.800, 0.790, 0.760}},
-    [GLASS] = {"Glass", {0.420, 0.580, 0.640}},      [ALUMINIUM] = {"Bronze aluminium", {0.420, 0.320, 0.220}},
-    [STEEL] = {"Steel", {0.120, 0.130, 0.140}},        [WARM] = {"Oak", {0.560, 0.390, 0.220}},
-    [SIGN] = {"Sign", {0.560, 0.060, 0.050}},          [LETTERS] = {"Letters", {0.870, 0.860, 0.820}},
+    [CONCRETE] = {"Concrete", {0.560, 0.550, 0.530}},
+    [WHITE] = {"White render", {0.800, 0.790, 0.760}},
+    [GLASS] = {"Glass", {0.420, 0.580, 0.640}},
+    [ALUMINIUM] = {"Bronze aluminium", {0.420, 0.320, 0.220}},
+    [STEEL] = {"Steel", {0.120, 0.130, 0.140}},
+    [WARM] = {"Oak", {0.560, 0.390, 0.220}},
+    [SIGN] = {"Sign", {0.560, 0.060, 0.050}},
+    [LETTERS] = {"Letters", {0.870, 0.860, 0.820}},
     [PANELS] = {"Darker paving", {0.510, 0.490, 0.455}},
-    [PAVING] = {"Paving", {0.600, 0.580, 0.540}},      [STONE] = {"Granite", {0.380, 0.370, 0.350}},
-    [ASPHALT] = {"Asphalt", {0.300, 0.300, 0.310}},    [BARK] = {"Bark", {0.230, 0.160, 0.110}},
-    [LEAVES] = {"Leaves", {0.150, 0.290, 0.090}},      [PERSON] = {"Card", {0.230, 0.220, 0.240}},
+    [PAVING] = {"Paving", {0.600, 0.580, 0.540}},
+    [STONE] = {"Granite", {0.380, 0.370, 0.350}},
+    [ASPHALT] = {"Asphalt", {0.300, 0.300, 0.310}},
+    [BARK] = {"Bark", {0.230, 0.160, 0.110}},
+    [LEAVES] = {"Leaves", {0.150, 0.290, 0.090}},
+    [PERSON] = {"Card", {0.230, 0.220, 0.240}},
 };
 
 enum { STRUCTURE, FRONTS, ENTRANCE, INSIDE, ROOF, STREET, PEOPLE, GROUPS };
@@ -717,6 +738,7 @@ static const model_part parts[] = {
 
 int main(int count, char **arguments)
 {
-    const model store = {"make_store", "Department store", 1, materials, MATERIALS, groups, GROUPS, parts, COUNT(parts), NULL};
+    const model store = {"make_store", "Department store", 1,   materials, MATERIALS, groups, GROUPS,
+                         parts,        COUNT(parts),       NULL};
     return count == 2 && model_write(&store, arguments[1]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

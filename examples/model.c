@@ -66,8 +66,8 @@ int glb_put_floats(glb *g, const float *values, uint32_t count, int components, 
 
 static int put_indices(glb *g, const mesh *m)
 {
-    bool small = m->point_count <= UINT16_MAX;
-    size_t size = small ? sizeof(uint16_t) : sizeof(uint32_t);
+    bool           small = m->point_count <= UINT16_MAX;
+    size_t         size = small ? sizeof(uint16_t) : sizeof(uint32_t);
     unsigned char *bytes = malloc(m->index_count * size);
     if (!bytes)
         give_up();
@@ -142,12 +142,12 @@ static void put_rotation(FILE *json, int quarter_turns)
 static void put_camera_node(FILE *json, const model *m, int index)
 {
     const model_camera *c = &m->cameras[index];
-    double d[3] = {c->target[0] - c->at[0], c->target[1] - c->at[1], c->target[2] - c->at[2]};
-    double turn = atan2(-d[0], -d[2]) / 2, tilt = atan2(d[1], hypot(d[0], d[2])) / 2;
+    double              d[3] = {c->target[0] - c->at[0], c->target[1] - c->at[1], c->target[2] - c->at[2]};
+    double              turn = atan2(-d[0], -d[2]) / 2, tilt = atan2(d[1], hypot(d[0], d[2])) / 2;
     fprintf(json, ",{\"name\":\"%s\",\"camera\":%d", c->name, index);
     put_translation(json, c->at, m->units_per_metre);
-    fprintf(json, ",\"rotation\":[%.6f,%.6f,%.6f,%.6f]}", cos(turn) * sin(tilt), sin(turn) * cos(tilt), -sin(turn) * sin(tilt),
-            cos(turn) * cos(tilt));
+    fprintf(json, ",\"rotation\":[%.6f,%.6f,%.6f,%.6f]}", cos(turn) * sin(tilt), sin(turn) * cos(tilt),
+            -sin(turn) * sin(tilt), cos(turn) * cos(tilt));
 }
 
 /* Node 0 is the whole, then come the groups, then the parts, then the cameras. Every group has a part. */
@@ -182,8 +182,8 @@ static void put_nodes(FILE *json, const model *m, const int *mesh_of)
 static void put_cameras(FILE *json, const model *m)
 {
     for (int i = 0; i < m->camera_count; i++)
-        fprintf(json, "%s{\"name\":\"%s\",\"type\":\"perspective\",\"perspective\":{\"yfov\":%.5f,\"znear\":0.1}}", i ? "," : "\"cameras\":[",
-                m->cameras[i].name, m->cameras[i].fov_y * PI / 180);
+        fprintf(json, "%s{\"name\":\"%s\",\"type\":\"perspective\",\"perspective\":{\"yfov\":%.5f,\"znear\":0.1}}",
+                i ? "," : "\"cameras\":[", m->cameras[i].name, m->cameras[i].fov_y * PI / 180);
     if (m->camera_count)
         fprintf(json, "],");
 }
@@ -193,22 +193,25 @@ static void put_materials(FILE *json, const model *m)
     fprintf(json, "\"materials\":[");
     for (int k = 0; k < m->material_count; k++) {
         const model_material *one = &m->materials[k];
-        fprintf(json,
-                "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],\"metallicFactor\":0,"
-                "\"roughnessFactor\":0.6}}",
-                k ? "," : "", one->name, one->colour[0], one->colour[1], one->colour[2]);
+        fprintf(
+            json,
+            "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],\"metallicFactor\":0,"
+            "\"roughnessFactor\":0.6}}",
+            k ? "," : "", one->name, one->colour[0], one->colour[1], one->colour[2]);
     }
     fprintf(json, "],");
 }
 
 bool model_write(const model *m, const char *path)
 {
-    glb g = {0};
+    glb  g = {0};
     text json, *lists[] = {&g.bytes, &g.views, &g.accessors, &g.meshes, &json};
     for (int k = 0; k < 5; k++)
         text_start(lists[k]);
-    fprintf(json.stream, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner %s\",\"copyright\":\"CC0-1.0\"},"
-                         "\"scene\":0,\"scenes\":[{\"nodes\":[0", m->generator);
+    fprintf(json.stream,
+            "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Limner %s\",\"copyright\":\"CC0-1.0\"},"
+            "\"scene\":0,\"scenes\":[{\"nodes\":[0",
+            m->generator);
     for (int i = 0; i < m->camera_count; i++)
         fprintf(json.stream, ",%d", 1 + m->group_count + m->part_count + i);
     fprintf(json.stream, "]}],");

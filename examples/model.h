@@ -1,5 +1,5 @@
-/* A model of parts, each a mesh, in groups that can be turned, and the binary glTF it is written as. Positions alone are written:
- * normals follow from the angles between faces, flat at edges and smooth along curves. */
+/* A model of parts, each a mesh, in groups that can be turned, and the binary glTF it is written as. Positions
+ * alone are written: normals follow from the angles between faces, flat at edges and smooth along curves. */
 #ifndef EXAMPLES_MODEL_H
 #define EXAMPLES_MODEL_H
 
@@ -21,10 +21,10 @@ typedef struct model_group {
 typedef struct model_part {
     const char *name;
     int         group, material;
-    void      (*build)(mesh *); /* parts with the same one share a mesh, and so have the same material */
-    double      at[3];
-    void      (*build_one)(mesh *, int number); /* instead of `build`, for parts that are many of a kind */
-    int         number;
+    void (*build)(mesh *); /* parts with the same one share a mesh, and so have the same material */
+    double at[3];
+    void (*build_one)(mesh *, int number); /* instead of `build`, for parts that are many of a kind */
+    int number;
 } model_part;
 
 typedef struct model_camera {
@@ -43,9 +43,9 @@ typedef struct model {
     int                   group_count;
     const model_part     *parts;
     int                   part_count;
-    void                (*animate)(glb *, FILE *json); /* writes "animations":[…], or NULL; group k is node 1 + k */
-    const model_camera   *cameras;
-    int                   camera_count;
+    void (*animate)(glb *, FILE *json); /* writes "animations":[…], or NULL; group k is node 1 + k */
+    const model_camera *cameras;
+    int                 camera_count;
 } model;
 
 bool model_write(const model *m, const char *path);

@@ -11,7 +11,7 @@ void box(mesh *m, double left, double bottom, double back, double right, double 
     extrude(m, &o, NULL, 0, back, front);
 }
 
-/* --- prisms ------------------------------------------------------------------------------------------------------ */
+/* --- prisms --------------------------------------------------------------------------------------------- */
 
 static outline reversed(const outline *o)
 {
@@ -69,7 +69,7 @@ void plan(mesh *m, const outline *o, const outline *holes, int hole_count, doubl
 void mitred_section(mesh *m, const outline *o, const double from[2], const double to[2])
 {
     const frame f = {.along = RIGHT};
-    outline ends[2] = {exchanged(o), exchanged(o)};
+    outline     ends[2] = {exchanged(o), exchanged(o)};
     for (int i = 0; i < o->count; i++) {
         ends[0].at[i][2] = from[1] * ends[0].at[i][1];
         ends[1].at[i][2] = to[1] * ends[1].at[i][1];
@@ -80,7 +80,7 @@ void mitred_section(mesh *m, const outline *o, const double from[2], const doubl
     cap(m, RIGHT, &high, NULL, 0);
 }
 
-/* --- bars and foliage -------------------------------------------------------------------------------------------- */
+/* --- bars and foliage ----------------------------------------------------------------------------------- */
 
 static void fan(mesh *m, const ring *r, bool back)
 {
@@ -109,8 +109,8 @@ static void across(const double d[3], double p[3], double q[3])
 void bar(mesh *m, const double from[3], const double to[3], double from_radius, double to_radius, int sides)
 {
     const frame f = {.along = FRONT};
-    double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, p[3], q[3];
-    ring ends[2] = {{.count = sides}, {.count = sides}};
+    double      d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, p[3], q[3];
+    ring        ends[2] = {{.count = sides}, {.count = sides}};
     across(d, p, q);
     for (int e = 0; e < 2; e++)
         for (int i = 0; i < sides; i++) {
@@ -127,13 +127,14 @@ void bar(mesh *m, const double from[3], const double to[3], double from_radius, 
 void hoop(mesh *m, const double middle[3], double radius, double thickness, int segments, int sides)
 {
     double profile[ROUND_MAX][2];
-    ring first, last;
+    ring   first, last;
     for (int i = 0; i <= sides; i++) {
         double angle = 2 * PI * i / sides;
         profile[i][0] = thickness * sin(angle);
         profile[i][1] = radius + thickness * cos(angle);
     }
-    lathe(m, &(frame){{middle[0], middle[1], middle[2]}, UP}, (const double (*)[2])profile, sides, segments, &first, &last);
+    lathe(m, &(frame){{middle[0], middle[1], middle[2]}, UP}, (const double(*)[2])profile, sides, segments, &first,
+          &last);
     sew(m, &last, &first);
 }
 
@@ -147,15 +148,15 @@ void foliage(mesh *m, const double middle[3], double radius, double height, uint
 {
     enum { STACKS = 9, AROUND = 16 };
     const frame f = {.along = FRONT};
-    double turns[3];
+    double      turns[3];
     for (int k = 0; k < 3; k++)
         turns[k] = 2 * PI * chance(&seed);
-    ring before = {0};
+    ring     before = {0};
     uint32_t tips[2];
     for (int e = 0; e < 2; e++)
         tips[e] = put_point(m, &f, middle[0], middle[1] + (e ? height : -height), middle[2]);
     for (int j = 1; j < STACKS; j++) {
-        ring here = {.count = AROUND};
+        ring   here = {.count = AROUND};
         double up = -cos(PI * j / STACKS), out = sin(PI * j / STACKS);
         for (int i = 0; i < AROUND; i++) {
             double angle = 2 * PI * i / AROUND;
@@ -175,7 +176,8 @@ void foliage(mesh *m, const double middle[3], double radius, double height, uint
 }
 
 /* A limb and what grows from it. It bends upwards, the more the higher its order is. */
-static void limb(mesh *m, const double from[3], const double way[3], double length, double radius, int order, uint32_t *seed)
+static void limb(mesh *m, const double from[3], const double way[3], double length, double radius, int order,
+                 uint32_t *seed)
 {
     double to[3], p[3], q[3];
     for (int k = 0; k < 3; k++)
@@ -190,14 +192,15 @@ static void limb(mesh *m, const double from[3], const double way[3], double leng
         double angle = begin + 2.4 * i, spread = i == twigs - 1 ? 0.12 : 0.62 + 0.3 * chance(seed);
         double share = i == twigs - 1 ? 1 : 0.5 + 0.5 * i / (twigs - 1), next[3], start[3], size = 0;
         for (int k = 0; k < 3; k++) {
-            next[k] = way[k] * cos(spread) + (p[k] * cos(angle) + q[k] * sin(angle)) * sin(spread) + (k == 1 ? 0.18 : 0);
+            next[k] =
+                way[k] * cos(spread) + (p[k] * cos(angle) + q[k] * sin(angle)) * sin(spread) + (k == 1 ? 0.18 : 0);
             size += next[k] * next[k];
             start[k] = from[k] + (share - 0.02) * length * way[k];
         }
         for (int k = 0; k < 3; k++)
             next[k] /= sqrt(size);
-        limb(m, start, next, length * (0.62 + 0.16 * chance(seed)), radius * (i == twigs - 1 ? 0.61 : 0.72 - 0.29 * share),
-             order - 1, seed);
+        limb(m, start, next, length * (0.62 + 0.16 * chance(seed)),
+             radius * (i == twigs - 1 ? 0.61 : 0.72 - 0.29 * share), order - 1, seed);
     }
 }
 
@@ -219,7 +222,7 @@ void place(mesh *m, uint32_t kept, double degrees, double x, double y, double z)
     }
 }
 
-/* --- outlines ---------------------------------------------------------------------------------------------------- */
+/* --- outlines ------------------------------------------------------------------------------------------- */
 
 outline round_headed(double middle, double sill, double springing, double radius, int segments)
 {
@@ -233,7 +236,7 @@ outline round_headed(double middle, double sill, double springing, double radius
 outline round_headed_frame(double middle, double sill, double springing, double radius, double width, int segments)
 {
     outline o = {0};
-    bool jambs = sill < springing;
+    bool    jambs = sill < springing;
     if (jambs)
         add_point(&o, middle + radius + width, sill);
     add_arc(&o, middle, springing, radius + width, 0, 180, segments);

@@ -1,5 +1,6 @@
-/* What buildings are put together from. Lengths are metres, +y is up; every piece is one closed shell that is added to a mesh.
- * Pieces of one mesh reach into each other by a centimetre or more, so that no two faces lie in one plane. */
+/* What buildings are put together from. Lengths are metres, +y is up; every piece is one closed shell that is added
+ * to a mesh. Pieces of one mesh reach into each other by a centimetre or more, so that no two faces lie in one
+ * plane. */
 #ifndef EXAMPLES_PIECES_H
 #define EXAMPLES_PIECES_H
 
@@ -9,8 +10,8 @@
 
 void box(mesh *m, double left, double bottom, double back, double right, double top, double front);
 
-/* Prisms over an outline, which may run either way: over an elevation (x, y) between two z, over a section (z, y) between two x,
- * over a plan (x, z) between two heights. */
+/* Prisms over an outline, which may run either way: over an elevation (x, y) between two z, over a section (z, y)
+ * between two x, over a plan (x, z) between two heights. */
 void elevation(mesh *m, const outline *o, const outline *holes, int hole_count, double from, double to);
 void section(mesh *m, const outline *o, double from, double to);
 void plan(mesh *m, const outline *o, const outline *holes, int hole_count, double from, double to);

@@ -76,7 +76,7 @@ void sew(mesh *m, const ring *a, const ring *b)
     sew_columns(m, a, b, 0, a->count);
 }
 
-/* --- flat faces -------------------------------------------------------------------------------------------------- */
+/* --- flat faces ----------------------------------------------------------------------------------------- */
 
 typedef struct corner {
     int64_t  u, v;
@@ -124,7 +124,7 @@ static bool blocks(corner p, corner q, corner a, corner b)
     if (at_a && at_b)
         return false;
     if (at_a || at_b) {
-        corner shared = at_a ? a : b, other = at_a ? b : a, far = same(shared, p) ? q : p;
+        corner  shared = at_a ? a : b, other = at_a ? b : a, far = same(shared, p) ? q : p;
         int64_t ahead = (far.u - shared.u) * (other.u - shared.u) + (far.v - shared.v) * (other.v - shared.v);
         return turn(p, q, other) == 0 && ahead > 0;
     }
@@ -180,11 +180,11 @@ static bool hidden(const loop *main, const loop *holes, int hole_count, corner p
 static void bridge_hole(loop *main, loop *holes, int hole_count)
 {
     int64_t best = INT64_MAX;
-    int hole = -1, from = 0, to = 0;
+    int     hole = -1, from = 0, to = 0;
     for (int h = 0; h < hole_count; h++)
         for (int i = 0; i < main->count; i++)
             for (int j = 0; j < holes[h].count; j++) {
-                corner p = main->at[i], q = holes[h].at[j];
+                corner  p = main->at[i], q = holes[h].at[j];
                 int64_t length = distance_squared(p, q);
                 if (length >= best || !begins_inside(main, i, q) || !begins_inside(&holes[h], j, p) ||
                     hidden(main, holes, hole_count, p, q))
@@ -208,10 +208,10 @@ static void bridge_hole(loop *main, loop *holes, int hole_count)
 static void clip_ear(mesh *m, loop *l)
 {
     int64_t best = INT64_MAX;
-    int ear = -1;
+    int     ear = -1;
     for (int i = 0; i < l->count; i++) {
-        int h = (i + l->count - 1) % l->count, j = (i + 1) % l->count;
-        corner a = l->at[h], b = l->at[i], c = l->at[j];
+        int     h = (i + l->count - 1) % l->count, j = (i + 1) % l->count;
+        corner  a = l->at[h], b = l->at[i], c = l->at[j];
         int64_t length = distance_squared(a, c);
         if (length >= best || turn(a, b, c) <= 0)
             continue;
@@ -239,7 +239,7 @@ void cap(mesh *m, direction facing, const ring *outer, const ring *holes, int ho
         clip_ear(m, &main);
 }
 
-/* --- outlines and solids of revolution --------------------------------------------------------------------------- */
+/* --- outlines and solids of revolution ------------------------------------------------------------------ */
 
 void add_point(outline *o, double u, double v)
 {
@@ -288,9 +288,9 @@ void lathe(mesh *m, const frame *f, const double (*profile)[2], int count, int s
 {
     ring before = {0};
     for (int k = 0; k < count; k++) {
-        double t = profile[k][0], radius = profile[k][1];
+        double  t = profile[k][0], radius = profile[k][1];
         outline o = circle(0, 0, radius, segments);
-        ring here = {.count = segments};
+        ring    here = {.count = segments};
         if (radius > 0) {
             here = put_ring(m, f, &o, t);
         } else {
@@ -313,12 +313,14 @@ void lathe(mesh *m, const frame *f, const double (*profile)[2], int count, int s
         *last = before;
 }
 
-void extrude_along(mesh *m, const frame *f, const outline *outer, const outline *holes, int hole_count, double from, double to)
+void extrude_along(mesh *m, const frame *f, const outline *outer, const outline *holes, int hole_count, double from,
+                   double to)
 {
     static const direction opposites[] = {
         [RIGHT] = LEFT, [LEFT] = RIGHT, [UP] = DOWN, [DOWN] = UP, [FRONT] = BACK, [BACK] = FRONT,
     };
-    ring low = put_ring(m, f, outer, from), high = put_ring(m, f, outer, to), low_holes[HOLES_MAX], high_holes[HOLES_MAX];
+    ring low = put_ring(m, f, outer, from), high = put_ring(m, f, outer, to), low_holes[HOLES_MAX],
+         high_holes[HOLES_MAX];
     sew(m, &low, &high);
     for (int h = 0; h < hole_count; h++) {
         low_holes[h] = put_ring(m, f, &holes[h], from);

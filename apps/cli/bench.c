@@ -23,11 +23,13 @@ static const option options[] = {
     {"look", 'l', OPTION_LIST, AT(looks), "NAME|FILE", "Look to measure; may be repeated. Default: all that ship."},
     {"size", 0, OPTION_SIZE, AT(size), "WxH", "Picture size in pixels. Default: 1024x1024.", 1, 16384},
     {"repeat", 0, OPTION_WHOLE, AT(repeat), "N", "Frames of each look; the median counts. Default: 9.", 1, 100000},
-    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.", .choices = views},
+    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.",
+     .choices = views},
     {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
     {"target", 0, OPTION_VECTOR, AT(target), "X,Y,Z", "What the viewer looks at. Default: the scene's middle."},
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
-    {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.", .choices = up_axis_choices},
+    {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.",
+     .choices = up_axis_choices},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "Write JSON (docs/reference/bench.md)."},
     TASK_OPTIONS(bench_values),
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No progress."},
@@ -35,17 +37,19 @@ static const option options[] = {
 
 static void print_table(const json_t *root)
 {
-    const char *name;
-    json_t *look, *pass;
-    size_t i;
+    const char   *name;
+    json_t       *look, *pass;
+    size_t        i;
     const json_t *size = json_object_get(root, "size");
-    printf("%s, %.0f triangles, %.0f x %.0f pixels\n", text_at(json_object_get(root, "gpu"), "renderer", "unknown driver"),
-           number_at(root, "triangles", 0), json_number_value(json_array_get(size, 0)),
-           json_number_value(json_array_get(size, 1)));
-    printf("\n%-20s %10s %8s  passes (ms)\n%-20s %10.2f %8s\n", "look", "ms", "ratio", "plain", number_at(root, "plain_ms", 0), "1.00");
-    json_object_foreach (json_object_get(root, "looks"), name, look) {
+    printf("%s, %.0f triangles, %.0f x %.0f pixels\n",
+           text_at(json_object_get(root, "gpu"), "renderer", "unknown driver"), number_at(root, "triangles", 0),
+           json_number_value(json_array_get(size, 0)), json_number_value(json_array_get(size, 1)));
+    printf("\n%-20s %10s %8s  passes (ms)\n%-20s %10.2f %8s\n", "look", "ms", "ratio", "plain",
+           number_at(root, "plain_ms", 0), "1.00");
+    json_object_foreach(json_object_get(root, "looks"), name, look)
+    {
         printf("%-20s %10.2f %8.2f ", name, number_at(look, "ms", 0), number_at(look, "ratio", 0));
-        json_array_foreach (json_object_get(look, "passes"), i, pass)
+        json_array_foreach(json_object_get(look, "passes"), i, pass)
             printf(" %s %.2f", text_at(pass, "name", ""), number_at(pass, "ms", 0));
         printf("\n");
     }
@@ -66,12 +70,12 @@ static void place_view(const bench_values *v, const lmn_scene *scene, lmn_draw_d
 
 static int measure(const bench_values *v, const lmn_scene *scene, progress *bar, char **out)
 {
-    lmn_error error = {0};
-    lmn_renderer *renderer = NULL;
+    lmn_error         error = {0};
+    lmn_renderer     *renderer = NULL;
     lmn_renderer_desc renderer_desc = LMN_RENDERER_DESC_INIT;
-    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
-    word_list all = {0};
-    int status = EXIT_DONE;
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    word_list         all = {0};
+    int               status = EXIT_DONE;
     for (size_t i = 0; i < lmn_look_count() && v->looks.count == 0 && status == EXIT_DONE; i++)
         if (!word_list_add(&all, lmn_look_name_at(i)))
             status = message_out_of_memory();
@@ -101,10 +105,10 @@ static int measure(const bench_values *v, const lmn_scene *scene, progress *bar,
 static int run(const word_list *inputs, const void *values)
 {
     const bench_values *v = values;
-    lmn_scene *scene = NULL;
-    lmn_task *task;
-    char *text = NULL;
-    progress bar;
+    lmn_scene          *scene = NULL;
+    lmn_task           *task;
+    char               *text = NULL;
+    progress            bar;
     progress_begin(&bar, v->quiet);
     int status = task_begin(&task, &v->task, &bar);
     if (status == EXIT_DONE)
@@ -126,7 +130,13 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_bench = {
-    .name = "bench", .inputs = "INPUT", .summary = "Measure looks against the plain one.",
-    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(bench_values),
-    .inputs_min = 1, .inputs_max = 1, .run = run,
+    .name = "bench",
+    .inputs = "INPUT",
+    .summary = "Measure looks against the plain one.",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(bench_values),
+    .inputs_min = 1,
+    .inputs_max = 1,
+    .run = run,
 };

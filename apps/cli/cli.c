@@ -8,7 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-static const command *const commands[] = {&command_draw, &command_info, &command_looks, &command_strokes, &command_bench, &command_doctor};
+static const command *const commands[] = {&command_draw,    &command_info,  &command_looks,
+                                          &command_strokes, &command_bench, &command_doctor};
 
 const char *const up_axis_choices[] = {"y", "z", NULL};
 
@@ -30,7 +31,8 @@ int check_programs(const word_list *inputs, const program_options *programs)
         any = any || is_program(inputs->items[i]);
     if (any || (!programs->defines->count && !programs->strict))
         return EXIT_DONE;
-    return message_usage(NULL, "--%s goes with OpenSCAD programs (.scad); '%s' is none", programs->strict ? "strict" : "define", inputs->items[0]);
+    return message_usage(NULL, "--%s goes with OpenSCAD programs (.scad); '%s' is none",
+                         programs->strict ? "strict" : "define", inputs->items[0]);
 }
 
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p)
@@ -39,9 +41,10 @@ int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_
     return scene_of_programs(out, paths, count, up, &(program_options){&none, false}, p);
 }
 
-int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_options *programs, progress *p)
+int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,
+                      const program_options *programs, progress *p)
 {
-    lmn_error error = {0};
+    lmn_error     error = {0};
     lmn_load_desc desc = LMN_LOAD_DESC_INIT;
     desc.up_axis = up;
     desc.progress = progress_report;
@@ -74,7 +77,7 @@ int print_and_free(char *text)
 {
     if (!text)
         return message_out_of_memory();
-    int status = store_text("-", text);
+    int    status = store_text("-", text);
     size_t length = strlen(text);
     if (status == EXIT_DONE && (length == 0 || text[length - 1] != '\n'))
         status = store_text("-", "\n");
@@ -121,8 +124,8 @@ static void print_usage(void)
 static int run_command(const command *c, int count, char **arguments)
 {
     word_list inputs = {0};
-    bool help = false;
-    void *values = calloc(1, c->values_size ? c->values_size : 1);
+    bool      help = false;
+    void     *values = calloc(1, c->values_size ? c->values_size : 1);
     if (!values)
         return message_out_of_memory();
     int status = options_parse(c, count, arguments, values, &inputs, &help);
@@ -137,7 +140,7 @@ static int run_command(const command *c, int count, char **arguments)
 
 static int unknown_command(const char *name)
 {
-    char hint[128] = "`limner --help` lists the commands";
+    char        hint[128] = "`limner --help` lists the commands";
     const char *near = options_nearest(name, command_name_at, NULL);
     if (near)
         snprintf(hint, sizeof hint, "did you mean 'limner %s'?", near);
@@ -173,7 +176,8 @@ static int run(int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-    /* A limit on the size of files is an error of the write that meets it. Drivers write caches of their own, in threads of their own. */
+    /* A limit on the size of files is an error of the write that meets it. Drivers write caches of their own, in
+     * threads of their own. */
     signal(SIGXFSZ, SIG_IGN);
     int status = run(count, arguments);
     progress_end();

@@ -12,18 +12,20 @@ extern const command command_draw, command_info, command_looks, command_bench, c
 
 /* "y" and "z" for --up-axis; index −1 … 1 gives the axis of the same place. */
 extern const char *const up_axis_choices[];
-lmn_up_axis up_axis_of(int choice);
+lmn_up_axis              up_axis_of(int choice);
 
 /* Loads files into a new scene. Errors are printed; returns the exit status. */
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p);
 
-/* The same; definitions and strictness are for OpenSCAD programs (.scad) among them, and refused when there is none. */
+/* The same; definitions and strictness are for OpenSCAD programs (.scad) among them, and refused when there is
+ * none. */
 typedef struct program_options {
     const word_list *defines; /* NAME=VALUE */
     bool             strict;
 } program_options;
 int check_programs(const word_list *inputs, const program_options *programs);
-int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, const program_options *programs, progress *p);
+int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,
+                      const program_options *programs, progress *p);
 
 /* Writes text into a file, whole or not at all; "-" is standard output. Prints what goes wrong; exit status. */
 int store_text(const char *path, const char *text);

@@ -36,7 +36,7 @@ static bool is_there(const need *n)
         return handle != NULL;
     }
     glob_t found = {0};
-    bool any = glob(n->files, 0, NULL, &found) == 0;
+    bool   any = glob(n->files, 0, NULL, &found) == 0;
     globfree(&found);
     return any;
 }
@@ -54,10 +54,11 @@ static json_t *find_missing(void)
 /* "sudo apt-get install a b": what is missing, or all that drawing without a GPU needs. */
 static void put_remedy(json_t *root, const json_t *missing)
 {
-    char line[256] = "sudo apt-get install";
-    size_t i;
+    char    line[256] = "sudo apt-get install";
+    size_t  i;
     json_t *item;
-    json_array_foreach ((json_t *)missing, i, item) {
+    json_array_foreach((json_t *)missing, i, item)
+    {
         size_t length = strlen(line);
         snprintf(line + length, sizeof line - length, " %s", text_at(item, "package", ""));
     }
@@ -70,9 +71,10 @@ static void put_remedy(json_t *root, const json_t *missing)
 static void print_values(const json_t *value, int indent)
 {
     const char *key;
-    json_t *item;
-    size_t i;
-    json_object_foreach ((json_t *)value, key, item) {
+    json_t     *item;
+    size_t      i;
+    json_object_foreach((json_t *)value, key, item)
+    {
         printf("%*s%-*s", indent, "", indent ? 28 : 30, key);
         if (json_is_object(item)) {
             printf("\n");
@@ -88,7 +90,8 @@ static void print_values(const json_t *value, int indent)
         else
             printf(" %s", json_is_true(item) ? "yes" : json_is_false(item) ? "no" : "none");
         json_t *element;
-        json_array_foreach (item, i, element) {
+        json_array_foreach(item, i, element)
+        {
             if (json_is_string(element))
                 printf("%s%s", i ? ", " : "", json_string_value(element));
             else if (json_is_number(element))
@@ -101,19 +104,21 @@ static void print_values(const json_t *value, int indent)
 /* {"time": {"standard": "600s", "safe": "30s", "doc": …}, …} */
 static json_t *list_limits(void)
 {
-    json_t *list = json_object();
+    json_t        *list = json_object();
     lmn_limit_info info;
     for (size_t i = 0; lmn_limit_at(i, &info); i++)
-        json_object_set_new(list, info.name, json_pack("{s:s, s:s, s:s}", "standard", info.standard, "safe", info.safe, "doc", info.doc));
+        json_object_set_new(
+            list, info.name,
+            json_pack("{s:s, s:s, s:s}", "standard", info.standard, "safe", info.safe, "doc", info.doc));
     return list;
 }
 
 static void print_limits(const json_t *list)
 {
     const char *name;
-    json_t *limit;
+    json_t     *limit;
     printf("\nlimits (--limit NAME=VALUE)    standard   --safe\n");
-    json_object_foreach ((json_t *)list, name, limit)
+    json_object_foreach((json_t *)list, name, limit)
         printf("  %-28s %-10s %s\n", name, text_at(limit, "standard", ""), text_at(limit, "safe", ""));
 }
 
@@ -121,7 +126,7 @@ static int print_report(json_t *root, bool as_json, bool usable)
 {
     if (as_json) {
         char *text = json_dumps(root, JSON_INDENT(2));
-        int status = text ? store_text("-", text) : message_out_of_memory();
+        int   status = text ? store_text("-", text) : message_out_of_memory();
         free(text);
         return status == EXIT_DONE ? store_text("-", "\n") : status;
     }
@@ -134,10 +139,10 @@ static int print_report(json_t *root, bool as_json, bool usable)
         printf("\nLimner can draw here.\n");
         return EXIT_DONE;
     }
-    size_t i;
+    size_t  i;
     json_t *item;
     printf("Limner cannot draw here: %s\n", text_at(root, "error", ""));
-    json_array_foreach (json_object_get(root, "missing"), i, item)
+    json_array_foreach(json_object_get(root, "missing"), i, item)
         printf("missing: %s (%s)\n", text_at(item, "what", ""), text_at(item, "package", ""));
     printf("to get it: %s\n", text_at(root, "remedy", ""));
     return EXIT_DONE;
@@ -147,10 +152,10 @@ static int run(const word_list *inputs, const void *values)
 {
     const doctor_values *v = values;
     (void)inputs;
-    lmn_error error = {0};
-    lmn_renderer *renderer = NULL;
+    lmn_error         error = {0};
+    lmn_renderer     *renderer = NULL;
     lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
-    json_t *root = json_pack("{s:s}", "limner", lmn_version()), *missing = NULL;
+    json_t           *root = json_pack("{s:s}", "limner", lmn_version()), *missing = NULL;
     if (!root)
         return message_out_of_memory();
     bool usable = lmn_renderer_create(&renderer, &desc, &error) == LMN_OK;
@@ -176,7 +181,12 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_doctor = {
-    .name = "doctor", .summary = "Tell whether Limner works here, with which driver, and what is missing.",
-    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(doctor_values),
-    .inputs_min = 0, .inputs_max = 0, .run = run,
+    .name = "doctor",
+    .summary = "Tell whether Limner works here, with which driver, and what is missing.",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(doctor_values),
+    .inputs_min = 0,
+    .inputs_max = 0,
+    .run = run,
 };

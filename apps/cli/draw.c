@@ -31,24 +31,29 @@ static const char *const angles[] = {"third", "first", NULL};
 static void write_format_doc(char *out, size_t size)
 {
     char pixels[FORMAT_LIST_SIZE], vectors[FORMAT_LIST_SIZE];
-    snprintf(out, size, "Format whatever the ending: %s, or as vectors %s.", format_list(pixels, FORMATS_PIXELS, false), format_list(vectors, FORMATS_VECTORS, false));
+    snprintf(out, size, "Format whatever the ending: %s, or as vectors %s.", format_list(pixels, FORMATS_PIXELS, false),
+             format_list(vectors, FORMATS_VECTORS, false));
 }
 
 #define AT(field) offsetof(draw_values, field)
 
 static const option options[] = {
     {"output", 'o', OPTION_TEXT, AT(output), "OUT",
-     "Picture to write; its ending is the format. {name} gives one picture for each INPUT, {frame} is the frame's number, - is "
+     "Picture to write; its ending is the format. {name} gives one picture for each INPUT, {frame} is the frame's "
+     "number, - is "
      "standard output. Default: the first INPUT's stem and .png."},
     {"format", 0, OPTION_TEXT, AT(format), "FORMAT", .write_doc = write_format_doc},
     {"look", 'l', OPTION_TEXT, AT(look), "NAME|FILE", "Look: one of `limner looks`, or a file. Default: edges."},
     {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
-    {"select", 0, OPTION_TEXT, AT(select), "SEL", "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
+    {"select", 0, OPTION_TEXT, AT(select), "SEL",
+     "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
     {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",
-     "Cut a section: x, -z=40%, 1,1,0@0,0,5 or box=50%,0%,50%:100%,100%,100%, several separated by ';'. The same as --set scene.cut=SPEC."},
+     "Cut a section: x, -z=40%, 1,1,0@0,0,5 or box=50%,0%,50%:100%,100%,100%, several separated by ';'. The same as "
+     "--set scene.cut=SPEC."},
     {"size", 0, OPTION_SIZE, AT(size), "WxH", "Picture size in pixels. Default: 1024x1024.", 1, 16384},
-    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.", .choices = views},
+    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.",
+     .choices = views},
     {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
     {"target", 0, OPTION_VECTOR, AT(target), "X,Y,Z", "What the viewer looks at. Default: the scene's middle."},
     {"up", 0, OPTION_VECTOR, AT(up), "X,Y,Z", "Which way is up in the picture. Default: the scene's up axis."},
@@ -56,29 +61,45 @@ static const option options[] = {
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
     {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
     {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Share of the frame that the model fills. Default: 0.9.", 0.01, 10},
-    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "Time of what changes by itself (perturb.boil, surface.change); animations are not posed yet. Default: 0.", -1e9, 1e9},
-    {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS", "One picture a frame; frame i is at i/FPS seconds, and something must change with time."},
+    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS",
+     "Time of what changes by itself (perturb.boil, surface.change); animations are not posed yet. Default: 0.", -1e9,
+     1e9},
+    {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS",
+     "One picture a frame; frame i is at i/FPS seconds, and something must change with time."},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
-    {"samples", 0, OPTION_WHOLE, AT(samples), "N", "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1.", 1, 64},
+    {"samples", 0, OPTION_WHOLE, AT(samples), "N", "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1.", 1,
+     64},
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
-    {"page", 0, OPTION_TEXT, AT(page), "PAGE", "Of vector drawings: A4, A3-landscape, letter or 210x120mm. Default: the picture's size at 96 pixels an inch."},
-    {"scale", 0, OPTION_TEXT, AT(scale), "PAPER:MODEL", "Of vector drawings, in parallel projection: 1:20, 2:1. Default: as large as fits."},
-    {"unit", 0, OPTION_TEXT, AT(unit), "UNIT", "Of the model, for scales: mm, cm, m or in. Default: the format's (glTF metres, others millimetres)."},
-    {"views", 0, OPTION_TEXT, AT(views), "VIEW,VIEW…", "Of vector drawings: several views on one sheet, aligned and at one scale, for example front,top,right,iso."},
-    {"projection", 0, OPTION_CHOICE, AT(angle), "third|first", "How --views lie: in third angle the top view is above, in first angle below. Default: third.", .choices = angles},
+    {"page", 0, OPTION_TEXT, AT(page), "PAGE",
+     "Of vector drawings: A4, A3-landscape, letter or 210x120mm. Default: the picture's size at 96 pixels an inch."},
+    {"scale", 0, OPTION_TEXT, AT(scale), "PAPER:MODEL",
+     "Of vector drawings, in parallel projection: 1:20, 2:1. Default: as large as fits."},
+    {"unit", 0, OPTION_TEXT, AT(unit), "UNIT",
+     "Of the model, for scales: mm, cm, m or in. Default: the format's (glTF metres, others millimetres)."},
+    {"views", 0, OPTION_TEXT, AT(views), "VIEW,VIEW…",
+     "Of vector drawings: several views on one sheet, aligned and at one scale, for example front,top,right,iso."},
+    {"projection", 0, OPTION_CHOICE, AT(angle), "third|first",
+     "How --views lie: in third angle the top view is above, in first angle below. Default: third.", .choices = angles},
     {"title", 0, OPTION_TEXT, AT(title), "TEXT", "Title of a vector drawing."},
-    {"frame", 0, OPTION_FLAG, AT(frame), NULL, "Frame and title block around a vector drawing; its scale is one of the usual ones."},
-    {"plotter", 0, OPTION_FLAG, AT(plotter), NULL, "Vector drawings of lines alone, pen by pen, in an order that makes the pen's way short."},
-    {"fill", 0, OPTION_FLAG, AT(fill), NULL, "Fill parts of vector drawings with their colour instead of a picture below the lines."},
-    {"verify", 0, OPTION_FLAG, AT(verify), NULL, "Check the visibility of a vector drawing's lines by casting rays; the report has the result."},
-    {"aov", 0, OPTION_TEXT, AT(maps), "DIR", "Write depth, normal, id, edge and shade maps into this folder, of sketches the field of uncertainty, too."},
+    {"frame", 0, OPTION_FLAG, AT(frame), NULL,
+     "Frame and title block around a vector drawing; its scale is one of the usual ones."},
+    {"plotter", 0, OPTION_FLAG, AT(plotter), NULL,
+     "Vector drawings of lines alone, pen by pen, in an order that makes the pen's way short."},
+    {"fill", 0, OPTION_FLAG, AT(fill), NULL,
+     "Fill parts of vector drawings with their colour instead of a picture below the lines."},
+    {"verify", 0, OPTION_FLAG, AT(verify), NULL,
+     "Check the visibility of a vector drawing's lines by casting rays; the report has the result."},
+    {"aov", 0, OPTION_TEXT, AT(maps), "DIR",
+     "Write depth, normal, id, edge and shade maps into this folder, of sketches the field of uncertainty, too."},
     {"report", 0, OPTION_TEXT, AT(report), "FILE|-", "Write what was drawn as JSON."},
     TASK_OPTIONS(draw_values),
-    {"define", 'D', OPTION_LIST, AT(defines), "NAME=VALUE", "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
+    {"define", 'D', OPTION_LIST, AT(defines), "NAME=VALUE",
+     "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
     {"strict", 0, OPTION_FLAG, AT(strict), NULL, "Of OpenSCAD programs: warnings are errors."},
-    {"lenient", 0, OPTION_FLAG, AT(lenient), NULL, "Draw what can be drawn and warn of the rest, instead of refusing it."},
+    {"lenient", 0, OPTION_FLAG, AT(lenient), NULL,
+     "Draw what can be drawn and warn of the rest, instead of refusing it."},
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No warnings and no progress."},
     {"verbose", 'v', OPTION_FLAG, AT(verbose), NULL, "Say what is done and how long it takes."},
 };
@@ -110,17 +131,17 @@ static double now_ms(void)
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec / 1e6;
 }
 
-/* --- arguments ------------------------------------------------------------------------------------------------- */
+/* --- arguments ------------------------------------------------------------------------------------------ */
 
 static int parse_frames(const char *text, frame_range *out)
 {
-    int used = 0;
+    int  used = 0;
     bool plain = isdigit((unsigned char)*text) != 0;
     *out = (frame_range){.given = true};
     if (!plain || sscanf(text, "%6ld:%6ld:%lf%n", &out->first, &out->last, &out->rate, &used) != 3 || text[used] ||
         out->last < out->first || !(out->rate > 0 && out->rate <= 1e6))
-        return message_usage("for example --frames 0:47:24", "--frames is '%s'; allowed is FIRST:LAST:FPS with FIRST up to LAST",
-                             text);
+        return message_usage("for example --frames 0:47:24",
+                             "--frames is '%s'; allowed is FIRST:LAST:FPS with FIRST up to LAST", text);
     return EXIT_DONE;
 }
 
@@ -128,7 +149,7 @@ static int parse_frames(const char *text, frame_range *out)
 static void find_format(session *s)
 {
     const draw_values *v = s->values;
-    const char *dot = v->output ? strrchr(v->output, '.') : NULL;
+    const char        *dot = v->output ? strrchr(v->output, '.') : NULL;
     if (v->format)
         snprintf(s->ending, sizeof s->ending, "%s%s", *v->format == '.' ? "" : ".", v->format);
     else if (!v->output || strcmp(v->output, "-") == 0)
@@ -143,9 +164,9 @@ static void find_format(session *s)
 static int check_format(const session *s)
 {
     const draw_values *v = s->values;
-    const char *dot = v->output ? strrchr(v->output, '.') : NULL;
-    lmn_format_info named;
-    char list[FORMAT_LIST_SIZE], hint[2 * FORMAT_LIST_SIZE];
+    const char        *dot = v->output ? strrchr(v->output, '.') : NULL;
+    lmn_format_info    named;
+    char               list[FORMAT_LIST_SIZE], hint[2 * FORMAT_LIST_SIZE];
     if (s->known && v->format && dot && format_find(&named, dot) && strcmp(dot, s->ending) != 0)
         return message_usage(NULL, "the name '%s' says %s and --format says %s", v->output, dot + 1, s->ending + 1);
     if (s->known)
@@ -154,14 +175,15 @@ static int check_format(const session *s)
         snprintf(hint, sizeof hint, "the format is %s", format_list(list, FORMATS_ALL, false));
         return message_usage(hint, "--format is '%s'; there is no such format", v->format);
     }
-    snprintf(hint, sizeof hint, "the ending says the format: %s; --format says it whatever the ending", format_list(list, FORMATS_ALL, true));
+    snprintf(hint, sizeof hint, "the ending says the format: %s; --format says it whatever the ending",
+             format_list(list, FORMATS_ALL, true));
     return message_usage(hint, "%s: cannot tell the format from '%s'", v->output, *s->ending ? s->ending : v->output);
 }
 
 /* Options for which the format has no room. */
 static int check_room(const session *s)
 {
-    const draw_values *v = s->values;
+    const draw_values     *v = s->values;
     const lmn_format_info *f = &s->format;
     if (v->background && !f->ground)
         return message_usage(NULL, "--background does not go with %s, which has no ground", f->ending);
@@ -175,13 +197,14 @@ static int check_room(const session *s)
 /* Options that the others given leave without effect. */
 static int check_effect(const session *s)
 {
-    const draw_values *v = s->values;
+    const draw_values     *v = s->values;
     const lmn_format_info *f = &s->format;
     const struct {
         bool        given;
         const char *name, *why;
     } rows[] = {
-        {v->samples.given && f->vectors && (!f->pictures || v->plotter || v->fill), "samples", "goes with pictures; here are lines and areas alone"},
+        {v->samples.given && f->vectors && (!f->pictures || v->plotter || v->fill), "samples",
+         "goes with pictures; here are lines and areas alone"},
         {v->fill && v->plotter, "fill", "does not go with --plotter, which draws lines alone"},
         {v->angle >= 0 && !v->views, "projection", "says how --views lie, and there are none"},
         {v->verify && !v->report, "verify", "puts its result into the report; add --report FILE"},
@@ -204,12 +227,15 @@ static int check_vectors(const session *s)
     const struct {
         const char *name;
         bool        given;
-    } sheet_only[] = {{"page", v->page != NULL}, {"scale", v->scale != NULL}, {"unit", v->unit != NULL}, {"views", v->views != NULL}, {"projection", v->angle >= 0},
-                      {"title", v->title != NULL}, {"frame", v->frame}, {"plotter", v->plotter}, {"fill", v->fill}, {"verify", v->verify}};
+    } sheet_only[] = {{"page", v->page != NULL},   {"scale", v->scale != NULL},   {"unit", v->unit != NULL},
+                      {"views", v->views != NULL}, {"projection", v->angle >= 0}, {"title", v->title != NULL},
+                      {"frame", v->frame},         {"plotter", v->plotter},       {"fill", v->fill},
+                      {"verify", v->verify}};
     char list[FORMAT_LIST_SIZE];
     for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->format.vectors; i++)
         if (sheet_only[i].given)
-            return message_usage("for example -o drawing.svg", "--%s goes with vector drawings: %s", sheet_only[i].name, format_list(list, FORMATS_VECTORS, true));
+            return message_usage("for example -o drawing.svg", "--%s goes with vector drawings: %s", sheet_only[i].name,
+                                 format_list(list, FORMATS_VECTORS, true));
     if (s->format.vectors && v->maps)
         return message_usage("draw a .png for them", "--aov goes with pictures");
     int status = check_room(s);
@@ -233,7 +259,8 @@ static int check_samples(const option_number *samples)
     for (int side = 1; side <= 8; side++)
         if (!samples->given || (int)samples->value == side * side)
             return EXIT_DONE;
-    return message_usage(NULL, "--samples is '%d'; allowed is a square number: 1, 4, 9, 16, 25, 36, 49 or 64", (int)samples->value);
+    return message_usage(NULL, "--samples is '%d'; allowed is a square number: 1, 4, 9, 16, 25, 36, 49 or 64",
+                         (int)samples->value);
 }
 
 /* {word} in a name is one of its places. */
@@ -244,15 +271,18 @@ static int check_places(const char *option_name, const char *pattern)
     if (!place)
         return EXIT_DONE;
     if (strncmp(place, "{view}", 6) == 0)
-        return message_usage("draw one view at a time with --view, or a sheet with --views", "--%s has {view}, but there is one picture for all views", option_name);
-    return message_usage("allowed are " NAME_PLACE " and " FRAME_PLACE, "--%s has %.*s, which stands for nothing", option_name, length < 60 ? length : 60, place);
+        return message_usage("draw one view at a time with --view, or a sheet with --views",
+                             "--%s has {view}, but there is one picture for all views", option_name);
+    return message_usage("allowed are " NAME_PLACE " and " FRAME_PLACE, "--%s has %.*s, which stands for nothing",
+                         option_name, length < 60 ? length : 60, place);
 }
 
 static bool is_same_file(const char *a, const char *b)
 {
     struct stat one, other;
     return a && b && strcmp(a, "-") != 0 && strcmp(b, "-") != 0 &&
-           (strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 && S_ISREG(one.st_mode) && one.st_dev == other.st_dev && one.st_ino == other.st_ino));
+           (strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 && S_ISREG(one.st_mode) &&
+                                  one.st_dev == other.st_dev && one.st_ino == other.st_ino));
 }
 
 /* What is written must not be what is read, nor be written over. */
@@ -288,7 +318,7 @@ static int check_side_name(const session *s, const char *option_name, const char
 static int check_output(const session *s, const word_list *inputs)
 {
     const draw_values *v = s->values;
-    bool to_standard = v->output && strcmp(v->output, "-") == 0;
+    bool               to_standard = v->output && strcmp(v->output, "-") == 0;
     if (to_standard && v->report && strcmp(v->report, "-") == 0)
         return message_usage("write one of them into a file", "picture and report cannot both go to standard output");
     if (to_standard && s->frames.given)
@@ -299,7 +329,8 @@ static int check_output(const session *s, const word_list *inputs)
         return message_usage("for example --frames 0:47:24", "-o has {frame}, but there is no --frames");
     unsigned long same = name_has_name(v->output) ? name_find_same_stem(inputs->items, inputs->count) : 0;
     if (same)
-        return message_usage("draw them in two runs, or rename one", "%s: another input has the same {name}", inputs->items[same]);
+        return message_usage("draw them in two runs, or rename one", "%s: another input has the same {name}",
+                             inputs->items[same]);
     int status = check_format(s);
     if (status == EXIT_DONE)
         status = check_vectors(s);
@@ -331,11 +362,12 @@ static int check_camera(const draw_values *v)
 
 static int set_one(lmn_look *look, const char *assignment)
 {
-    lmn_error error = {0};
+    lmn_error   error = {0};
     const char *equals = strchr(assignment, '=');
-    char key[256];
+    char        key[256];
     if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof key)
-        return message_usage("for example --set lines.width=3", "--set is '%.120s'; allowed is KIND.PARAM=VALUE", assignment);
+        return message_usage("for example --set lines.width=3", "--set is '%.120s'; allowed is KIND.PARAM=VALUE",
+                             assignment);
     snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
     if (lmn_look_set(look, key, equals + 1, &error) == LMN_OK)
         return EXIT_DONE;
@@ -380,7 +412,7 @@ static int load_look(session *s)
 static void fill_desc(session *s)
 {
     const draw_values *v = s->values;
-    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
+    lmn_draw_desc      d = LMN_DRAW_DESC_INIT;
     if (v->size.given) {
         d.width = v->size.width;
         d.height = v->size.height;
@@ -408,7 +440,7 @@ static void fill_desc(session *s)
 static void place_eye(session *s, const lmn_scene *scene)
 {
     const draw_values *v = s->values;
-    lmn_scene_info info = lmn_scene_info_of(scene);
+    lmn_scene_info     info = lmn_scene_info_of(scene);
     s->desc.eye_given = v->eye.given;
     for (int i = 0; i < 3; i++) {
         s->desc.eye[i] = v->eye.value[i];
@@ -417,7 +449,7 @@ static void place_eye(session *s, const lmn_scene *scene)
     }
 }
 
-/* --- one picture ----------------------------------------------------------------------------------------------- */
+/* --- one picture ---------------------------------------------------------------------------------------- */
 
 /* The library's report knows neither where the picture went nor how long the files took to read. */
 static int store_report(char *drawn, const char *report, const char *picture, uint64_t bytes, double load_ms)
@@ -456,8 +488,9 @@ static void print_warnings(const result *r, bool verbose)
 {
     size_t count = r->sheet ? lmn_sheet_warning_count(r->sheet) : lmn_drawing_warning_count(r->drawing);
     for (size_t i = 0; i < count; i++) {
-        size_t times = 1;
-        const char *code = NULL, *text = r->sheet ? lmn_sheet_warning_at(r->sheet, i, &code, &times) : lmn_drawing_warning_at(r->drawing, i, &code, &times);
+        size_t      times = 1;
+        const char *code = NULL, *text = r->sheet ? lmn_sheet_warning_at(r->sheet, i, &code, &times)
+                                                  : lmn_drawing_warning_at(r->drawing, i, &code, &times);
         if (text && (verbose || strcmp(code, "layer-memory") != 0))
             message_warning(text, times);
     }
@@ -466,22 +499,24 @@ static void print_warnings(const result *r, bool verbose)
 static int store_result(const session *s, const result *r, const char *input, long frame, double load_ms)
 {
     const draw_values *v = s->values;
-    lmn_error error = {0};
-    uint64_t bytes = 0;
-    int status = EXIT_DONE;
+    lmn_error          error = {0};
+    uint64_t           bytes = 0;
+    int                status = EXIT_DONE;
     char *path = name_expand(s->pattern, input, frame), *maps = v->maps ? name_expand(v->maps, input, frame) : NULL;
     char *report = v->report ? name_expand(v->report, input, frame) : NULL;
     if (!path || (v->maps && !maps) || (v->report && !report))
         status = message_out_of_memory();
     lmn_status stored = LMN_OK;
     if (status == EXIT_DONE)
-        stored = r->sheet ? lmn_sheet_write(r->sheet, path, s->ending, &bytes, &error) : lmn_drawing_write(r->drawing, path, s->ending, &bytes, &error);
+        stored = r->sheet ? lmn_sheet_write(r->sheet, path, s->ending, &bytes, &error)
+                          : lmn_drawing_write(r->drawing, path, s->ending, &bytes, &error);
     if (stored != LMN_OK)
         status = message_error(&error);
     if (status == EXIT_DONE && maps)
         status = store_maps(r->drawing, maps);
     if (status == EXIT_DONE && report)
-        status = store_report(r->sheet ? lmn_sheet_report_json(r->sheet) : lmn_drawing_report_json(r->drawing), report, path, bytes, load_ms);
+        status = store_report(r->sheet ? lmn_sheet_report_json(r->sheet) : lmn_drawing_report_json(r->drawing), report,
+                              path, bytes, load_ms);
     if (status == EXIT_DONE && v->verbose)
         message_note("wrote %s (%llu bytes)", path, (unsigned long long)bytes);
     free(path);
@@ -493,7 +528,7 @@ static int store_result(const session *s, const result *r, const char *input, lo
 static lmn_status draw_sheet(session *s, const lmn_scene *scene, lmn_sheet **out, lmn_error *error)
 {
     const draw_values *v = s->values;
-    lmn_sheet_desc d = LMN_SHEET_DESC_INIT;
+    lmn_sheet_desc     d = LMN_SHEET_DESC_INIT;
     d.page = v->page;
     d.scale = v->scale;
     d.unit = v->unit;
@@ -511,11 +546,12 @@ static lmn_status draw_sheet(session *s, const lmn_scene *scene, lmn_sheet **out
 static int draw_picture(session *s, const lmn_scene *scene, const char *input, long frame, double load_ms)
 {
     lmn_error error = {0};
-    result drawn = {NULL, NULL};
-    double start = now_ms();
+    result    drawn = {NULL, NULL};
+    double    start = now_ms();
     if (s->frames.given)
         s->desc.time_s = (double)frame / s->frames.rate;
-    lmn_status done = s->format.vectors ? draw_sheet(s, scene, &drawn.sheet, &error) : lmn_draw(&drawn.drawing, s->renderer, scene, s->look, &s->desc, &error);
+    lmn_status done = s->format.vectors ? draw_sheet(s, scene, &drawn.sheet, &error)
+                                        : lmn_draw(&drawn.drawing, s->renderer, scene, s->look, &s->desc, &error);
     progress_erase(&s->progress);
     if (done != LMN_OK)
         return message_error(&error);
@@ -529,7 +565,7 @@ static int draw_picture(session *s, const lmn_scene *scene, const char *input, l
     return status;
 }
 
-/* --- all pictures ---------------------------------------------------------------------------------------------- */
+/* --- all pictures --------------------------------------------------------------------------------------- */
 
 static int worse_of(int a, int b)
 {
@@ -550,13 +586,14 @@ static int check_last_frame(const session *s, const lmn_scene *scene)
     if (!s->frames.given)
         return EXIT_DONE;
     last.time_s = (double)s->frames.last / s->frames.rate;
-    return lmn_draw_check(scene, s->look, &last, s->format.vectors, &error) == LMN_OK ? EXIT_DONE : message_error(&error);
+    return lmn_draw_check(scene, s->look, &last, s->format.vectors, &error) == LMN_OK ? EXIT_DONE
+                                                                                      : message_error(&error);
 }
 
 static int draw_scene(session *s, const char *const *paths, size_t count)
 {
-    lmn_scene *scene = NULL;
-    double start = now_ms();
+    lmn_scene            *scene = NULL;
+    double                start = now_ms();
     const program_options programs = {&s->values->defines, s->values->strict};
     int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
@@ -564,10 +601,11 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
     double load_ms = now_ms() - start;
     if (s->values->verbose)
         message_note("%s: read in %.0f ms", paths[0], load_ms);
-    bool pixels = !s->format.vectors || (lmn_look_needs_pixels(s->look) && !s->values->plotter && !s->values->fill && s->format.pictures);
+    bool pixels = !s->format.vectors ||
+                  (lmn_look_needs_pixels(s->look) && !s->values->plotter && !s->values->fill && s->format.pictures);
     /* Made when first needed, so that a missing input is told even where there is no OpenGL, and kept for the rest. */
     if (!s->renderer && pixels) {
-        lmn_error error = {0};
+        lmn_error         error = {0};
         lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
         if (lmn_renderer_create(&s->renderer, &desc, &error) != LMN_OK)
             status = message_error(&error);
@@ -594,7 +632,7 @@ static int draw_all(session *s, const word_list *inputs)
 
 static int run(const word_list *inputs, const void *values)
 {
-    session s = {.values = values};
+    session            s = {.values = values};
     const draw_values *v = values;
     find_format(&s);
     int status = check_camera(v);
@@ -625,10 +663,16 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_draw = {
-    .name = "draw", .inputs = "INPUT…", .summary = "Draw models into a picture or as vectors.",
+    .name = "draw",
+    .inputs = "INPUT…",
+    .summary = "Draw models into a picture or as vectors.",
     .detail = "Several INPUTs make one scene, unless OUT contains {name}: then one picture each.\n"
               "Exit status: 0 done, 1 wrong argument, 2 wrong input, 3 no OpenGL, 4 output not written, 5 cancelled,\n"
               "6 out of memory or a defect.",
-    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(draw_values),
-    .inputs_min = 1, .inputs_max = (size_t)-1, .run = run,
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(draw_values),
+    .inputs_min = 1,
+    .inputs_max = (size_t)-1,
+    .run = run,
 };

@@ -29,7 +29,7 @@ const char *format_standard(bool vectors)
 const char *format_list(char out[FORMAT_LIST_SIZE], format_sort sort, bool dots)
 {
     lmn_format_info f;
-    size_t count = 0, written = 0, used = 0;
+    size_t          count = 0, written = 0, used = 0;
     for (size_t i = 0; lmn_format_at(i, &f); i++)
         count += is_of(&f, sort);
     out[0] = '\0';

@@ -17,7 +17,8 @@ static const option options[] = {
     TASK_OPTIONS(info_values),
     {"up-axis", 0, OPTION_CHOICE, offsetof(info_values, up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
-    {"define", 'D', OPTION_LIST, offsetof(info_values, defines), "NAME=VALUE", "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
+    {"define", 'D', OPTION_LIST, offsetof(info_values, defines), "NAME=VALUE",
+     "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
     {"strict", 0, OPTION_FLAG, offsetof(info_values, strict), NULL, "Of OpenSCAD programs: warnings are errors."},
 };
 
@@ -31,19 +32,20 @@ static void print_bounds(const json_t *bounds, const char *indent)
         l[i] = json_number_value(json_array_get(low, i));
         h[i] = json_number_value(json_array_get(high, i));
     }
-    printf("%sbounds      %.6g %.6g %.6g  to  %.6g %.6g %.6g  (%.6g x %.6g x %.6g)\n", indent, l[0], l[1], l[2], h[0], h[1], h[2],
-           h[0] - l[0], h[1] - l[1], h[2] - l[2]);
+    printf("%sbounds      %.6g %.6g %.6g  to  %.6g %.6g %.6g  (%.6g x %.6g x %.6g)\n", indent, l[0], l[1], l[2], h[0],
+           h[1], h[2], h[0] - l[0], h[1] - l[1], h[2] - l[2]);
 }
 
 /* "animations  2: walk (1.5 s), run" */
 static void print_names(const json_t *root, const char *key)
 {
     const json_t *list = json_object_get(root, key), *item;
-    size_t i;
+    size_t        i;
     if (json_array_size(list) == 0)
         return;
     printf("%-11s %zu: ", key, json_array_size(list));
-    json_array_foreach ((json_t *)list, i, item) {
+    json_array_foreach((json_t *)list, i, item)
+    {
         printf("%s%s", i ? ", " : "", text_at(item, "name", "(no name)"));
         if (json_object_get(item, "duration"))
             printf(" (%.3g s)", number_at(item, "duration", 0));
@@ -64,8 +66,8 @@ static bool is_same_operand(const json_t *a, const json_t *b)
 static void print_tree(const json_t *node, int level, size_t count)
 {
     const json_t *children = json_object_get(node, "children");
-    const char *kind = text_at(node, "kind", ""), *name = text_at(node, "name", "");
-    double line = number_at(node, "line", 0);
+    const char   *kind = text_at(node, "kind", ""), *name = text_at(node, "name", "");
+    double        line = number_at(node, "line", 0);
     printf("%29s%*s%s", "", 2 * level, "", kind);
     if (*name && strcmp(name, kind) != 0)
         printf(" %s", name);
@@ -81,7 +83,7 @@ static void print_tree(const json_t *node, int level, size_t count)
     size_t i = 0, shown = 0, total = json_array_size(children);
     for (; i < total && shown < TREE_SIBLINGS; shown++) {
         const json_t *child = json_array_get(children, i);
-        size_t same = 1;
+        size_t        same = 1;
         while (i + same < total && is_same_operand(child, json_array_get(children, i + same)))
             same++;
         print_tree(child, level + 1, same);
@@ -107,15 +109,15 @@ static void print_solid(const json_t *solid)
 static void print_part(const json_t *part)
 {
     const json_t *materials = json_object_get(part, "materials"), *item;
-    size_t i;
-    printf("%5.0f  %9.0f  %9.0f  %s", number_at(part, "id", 0), number_at(part, "triangles", 0), number_at(part, "instances", 1),
-           text_at(part, "path", text_at(part, "name", "")));
-    json_array_foreach ((json_t *)materials, i, item)
+    size_t        i;
+    printf("%5.0f  %9.0f  %9.0f  %s", number_at(part, "id", 0), number_at(part, "triangles", 0),
+           number_at(part, "instances", 1), text_at(part, "path", text_at(part, "name", "")));
+    json_array_foreach((json_t *)materials, i, item)
         printf("%s%s", i ? ", " : "  [", json_is_string(item) ? json_string_value(item) : "(no name)");
     printf("%s\n", json_array_size(materials) ? "]" : "");
     const char *key;
-    json_t *value;
-    json_object_foreach (json_object_get(part, "attributes"), key, value)
+    json_t     *value;
+    json_object_foreach(json_object_get(part, "attributes"), key, value)
         printf("%29s%s = %s\n", "", key, json_is_string(value) ? json_string_value(value) : "");
     if (json_object_get(part, "solid"))
         print_solid(json_object_get(part, "solid"));
@@ -125,18 +127,18 @@ static void print_part(const json_t *part)
 static void print_removed(const json_t *removed)
 {
     const json_t *item;
-    size_t i;
+    size_t        i;
     if (json_array_size(removed) > 0)
         printf("\nremoved (drawn where a look selects @removed)\n");
-    json_array_foreach ((json_t *)removed, i, item)
-        printf("%5.0f  %9.0f  %9.0f  %s\n", number_at(item, "id", 0), number_at(item, "triangles", 0), number_at(item, "instances", 1),
-               text_at(item, "path", ""));
+    json_array_foreach((json_t *)removed, i, item)
+        printf("%5.0f  %9.0f  %9.0f  %s\n", number_at(item, "id", 0), number_at(item, "triangles", 0),
+               number_at(item, "instances", 1), text_at(item, "path", ""));
 }
 
 static void print_table(const json_t *root)
 {
     const json_t *parts = json_object_get(root, "parts"), *item;
-    size_t i;
+    size_t        i;
     printf("up axis     %s\n", text_at(root, "up", "y"));
     printf("parts       %zu\n", json_array_size(parts));
     printf("triangles   %.0f\n", number_at(root, "triangles", 0));
@@ -148,18 +150,17 @@ static void print_table(const json_t *root)
     print_names(root, "lights");
     print_names(root, "skins");
     printf("\n   id  triangles  instances  part\n");
-    json_array_foreach ((json_t *)parts, i, item)
-        print_part(item);
+    json_array_foreach((json_t *)parts, i, item) print_part(item);
     print_removed(json_object_get(root, "removed"));
-    json_array_foreach (json_object_get(root, "warnings"), i, item)
+    json_array_foreach(json_object_get(root, "warnings"), i, item)
         message_warning(text_at(item, "text", ""), (size_t)number_at(item, "count", 1));
 }
 
 static int tell(const word_list *inputs, const info_values *v, progress *bar)
 {
-    lmn_scene *scene = NULL;
+    lmn_scene            *scene = NULL;
     const program_options programs = {&v->defines, v->strict};
-    int status = check_programs(inputs, &programs);
+    int                   status = check_programs(inputs, &programs);
     if (status == EXIT_DONE)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, bar);
     if (status != EXIT_DONE)
@@ -181,8 +182,8 @@ static int tell(const word_list *inputs, const info_values *v, progress *bar)
 static int run(const word_list *inputs, const void *values)
 {
     const info_values *v = values;
-    lmn_task *task;
-    progress bar;
+    lmn_task          *task;
+    progress           bar;
     progress_begin(&bar, v->json);
     int status = task_begin(&task, &v->task, &bar);
     if (status == EXIT_DONE)
@@ -192,7 +193,13 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_info = {
-    .name = "info", .inputs = "INPUT…", .summary = "Tell what is in a model: parts, triangles, bounds, animations.",
-    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(info_values),
-    .inputs_min = 1, .inputs_max = (size_t)-1, .run = run,
+    .name = "info",
+    .inputs = "INPUT…",
+    .summary = "Tell what is in a model: parts, triangles, bounds, animations.",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(info_values),
+    .inputs_min = 1,
+    .inputs_max = (size_t)-1,
+    .run = run,
 };

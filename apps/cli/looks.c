@@ -10,7 +10,8 @@ typedef struct looks_values {
 
 static const option options[] = {
     {"json", 0, OPTION_FLAG, offsetof(looks_values, json), NULL, "Write JSON (docs/reference/looks.md)."},
-    {"markdown", 0, OPTION_FLAG, offsetof(looks_values, markdown), NULL, "Write the reference page of all looks and techniques."},
+    {"markdown", 0, OPTION_FLAG, offsetof(looks_values, markdown), NULL,
+     "Write the reference page of all looks and techniques."},
 };
 
 enum { TEXT_SIZE = 256 };
@@ -18,7 +19,7 @@ enum { TEXT_SIZE = 256 };
 /* A value as people write it after --set: without quotes and brackets. */
 static void print_value(const json_t *value, const char *separator, char out[TEXT_SIZE])
 {
-    size_t length = 0, i;
+    size_t  length = 0, i;
     json_t *item;
     out[0] = '\0';
     if (json_is_string(value)) {
@@ -28,7 +29,8 @@ static void print_value(const json_t *value, const char *separator, char out[TEX
     } else if (json_is_number(value)) {
         snprintf(out, TEXT_SIZE, "%.6g", json_number_value(value));
     }
-    json_array_foreach (value, i, item) {
+    json_array_foreach(value, i, item)
+    {
         char one[TEXT_SIZE];
         print_value(item, separator, one);
         int written = snprintf(out + length, TEXT_SIZE - length, "%s%s", i ? separator : "", one);
@@ -43,7 +45,7 @@ static void print_allowed(const json_t *p, char out[TEXT_SIZE])
 {
     const char *type = text_at(p, "type", "");
     const char *unit = text_at(p, "unit", ""), *or_auto = json_is_true(json_object_get(p, "auto")) ? ", auto" : "";
-    bool shown = strcmp(unit, "px") == 0 || strcmp(unit, "deg") == 0;
+    bool        shown = strcmp(unit, "px") == 0 || strcmp(unit, "deg") == 0;
     const char *form = strcmp(type, "bool") == 0        ? "true, false"
                        : strcmp(type, "direction") == 0 ? "X,Y,Z"
                        : strcmp(type, "palette") == 0   ? "colours with commas"
@@ -59,40 +61,40 @@ static void print_allowed(const json_t *p, char out[TEXT_SIZE])
 
 static void print_use(const json_t *use)
 {
-    size_t i;
+    size_t  i;
     json_t *p;
     printf("\n  %s: %s. %s\n", text_at(use, "kind", ""), text_at(use, "technique", ""), text_at(use, "doc", ""));
-    json_array_foreach (json_object_get(use, "parameters"), i, p) {
+    json_array_foreach(json_object_get(use, "parameters"), i, p)
+    {
         char value[TEXT_SIZE], allowed[TEXT_SIZE], standard[TEXT_SIZE];
         print_value(json_object_get(p, "value"), ",", value);
         print_value(json_object_get(p, "default"), ",", standard);
         print_allowed(p, allowed);
         bool changed = strcmp(value, standard) != 0;
-        printf("    %-26s = %-10s  (%s%s%s)\n%33s%s\n", text_at(p, "name", ""), value, allowed, changed ? "; default " : "",
-               changed ? standard : "", "", text_at(p, "doc", ""));
+        printf("    %-26s = %-10s  (%s%s%s)\n%33s%s\n", text_at(p, "name", ""), value, allowed,
+               changed ? "; default " : "", changed ? standard : "", "", text_at(p, "doc", ""));
     }
 }
 
 static void print_look(const json_t *root)
 {
-    size_t i, k;
+    size_t  i, k;
     json_t *rule, *use;
     printf("%s: %s\n", text_at(root, "name", ""), text_at(root, "doc", ""));
-    json_array_foreach (json_object_get(root, "uses"), k, use)
-        print_use(use);
-    json_array_foreach (json_object_get(root, "rules"), i, rule) {
+    json_array_foreach(json_object_get(root, "uses"), k, use) print_use(use);
+    json_array_foreach(json_object_get(root, "rules"), i, rule)
+    {
         if (json_array_size(json_object_get(root, "rules")) > 1)
             printf("\n  rule %s for %s\n", text_at(rule, "name", "without name"), text_at(rule, "select", "*"));
-        json_array_foreach (json_object_get(rule, "uses"), k, use)
-            print_use(use);
+        json_array_foreach(json_object_get(rule, "uses"), k, use) print_use(use);
     }
 }
 
 static void print_list(const json_t *root)
 {
-    size_t i;
+    size_t  i;
     json_t *look;
-    json_array_foreach (json_object_get(root, "looks"), i, look)
+    json_array_foreach(json_object_get(root, "looks"), i, look)
         printf("%-18s %s\n", text_at(look, "name", ""), text_at(look, "doc", ""));
     printf("\n`limner looks NAME` lists the parameters of one.\n");
 }
@@ -106,12 +108,13 @@ static void print_cell(const char *text)
 
 static void print_parameters(const json_t *list)
 {
-    size_t i;
+    size_t  i;
     json_t *p;
     if (json_array_size(list) == 0)
         return;
     printf("\n| parameter | type | allowed | default | |\n|---|---|---|---|---|\n");
-    json_array_foreach (list, i, p) {
+    json_array_foreach(list, i, p)
+    {
         char allowed[TEXT_SIZE], standard[TEXT_SIZE];
         print_allowed(p, allowed);
         print_value(json_object_get(p, "default"), ",", standard);
@@ -125,8 +128,8 @@ static void print_parameters(const json_t *list)
 
 static void print_kind(const json_t *kind)
 {
-    size_t i;
-    json_t *t;
+    size_t      i;
+    json_t     *t;
     const char *name = text_at(kind, "name", "");
     printf("\n## %s\n\n%s", name, text_at(kind, "doc", ""));
     if (json_is_true(json_object_get(kind, "look_wide")))
@@ -141,7 +144,8 @@ static void print_kind(const json_t *kind)
     if (json_array_size(json_object_get(kind, "common")))
         printf("\nAll techniques of this kind have:\n");
     print_parameters(json_object_get(kind, "common"));
-    json_array_foreach (json_object_get(kind, "techniques"), i, t) {
+    json_array_foreach(json_object_get(kind, "techniques"), i, t)
+    {
         printf("\n### %s: %s\n\n%s\n", name, text_at(t, "name", ""), text_at(t, "doc", ""));
         print_parameters(json_object_get(t, "parameters"));
         if (json_object_get(t, "example"))
@@ -151,25 +155,25 @@ static void print_kind(const json_t *kind)
 
 static void print_markdown(const json_t *root)
 {
-    size_t i;
+    size_t  i;
     json_t *item;
     printf("# Looks and techniques\n\n"
            "This page is made by `limner looks --markdown` from the tables in the code; a test holds it against them.\n"
-           "A look is a JSON file; its rules give sets of parts one technique of each kind. `limner draw --look NAME` takes a look\n"
+           "A look is a JSON file; its rules give sets of parts one technique of each kind. `limner draw --look NAME` "
+           "takes a look\n"
            "that ships, `--look FILE.json` your own, `--set KIND.PARAM=VALUE` changes a parameter.\n\n"
            "| look | |\n|---|---|\n");
-    json_array_foreach (json_object_get(root, "looks"), i, item)
+    json_array_foreach(json_object_get(root, "looks"), i, item)
         printf("| `%s` | %s |\n", text_at(item, "name", ""), text_at(item, "doc", ""));
-    json_array_foreach (json_object_get(root, "kinds"), i, item)
-        print_kind(item);
+    json_array_foreach(json_object_get(root, "kinds"), i, item) print_kind(item);
 }
 
 static int run(const word_list *inputs, const void *values)
 {
     const looks_values *v = values;
-    const char *name = inputs->count ? inputs->items[0] : NULL;
-    lmn_error error = {0};
-    char *text = NULL;
+    const char         *name = inputs->count ? inputs->items[0] : NULL;
+    lmn_error           error = {0};
+    char               *text = NULL;
     if (v->markdown && (name || v->json))
         return message_usage(NULL, "--markdown goes with neither a NAME nor --json");
     if (lmn_look_reference_json(&text, name, &error) != LMN_OK)
@@ -190,7 +194,13 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_looks = {
-    .name = "looks", .inputs = "[NAME]", .summary = "List looks, or the parameters of one.",
-    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(looks_values),
-    .inputs_min = 0, .inputs_max = 1, .run = run,
+    .name = "looks",
+    .inputs = "[NAME]",
+    .summary = "List looks, or the parameters of one.",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(looks_values),
+    .inputs_min = 0,
+    .inputs_max = 1,
+    .run = run,
 };

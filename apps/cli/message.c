@@ -13,9 +13,9 @@ enum { CANCEL_NS = 150000000 };
 
 /* What a signal handler may write: that there was a signal, and who waits for one. */
 static volatile sig_atomic_t interrupted;
-static sem_t wake;
-static pthread_t guard_thread;
-static bool guarded;
+static sem_t                 wake;
+static pthread_t             guard_thread;
+static bool                  guarded;
 
 int message_exit_status(lmn_status status)
 {
@@ -113,7 +113,7 @@ static void on_interrupt(int signal_number)
 static void *guard(void *unused)
 {
     static const char line[] = "\r\033[Klimner: cancelled\n";
-    struct timespec left = {0, CANCEL_NS};
+    struct timespec   left = {0, CANCEL_NS};
     (void)unused;
     while (sem_wait(&wake) != 0)
         ;
@@ -121,7 +121,7 @@ static void *guard(void *unused)
         return NULL; /* the command is done */
     while (nanosleep(&left, &left) != 0)
         ;
-    bool terminal = isatty(STDERR_FILENO) != 0;
+    bool   terminal = isatty(STDERR_FILENO) != 0;
     size_t skip = terminal ? 0 : strlen("\r\033[K");
     if (write(STDERR_FILENO, line + skip, sizeof line - 1 - skip) < 0)
         _exit(EXIT_CANCELLED);
@@ -137,7 +137,8 @@ void progress_begin(progress *p, bool quiet)
     guarded = sem_init(&wake, 0, 0) == 0 && pthread_create(&guard_thread, NULL, guard, NULL) == 0;
     if (!guarded)
         action.sa_flags |= (int)SA_RESETHAND; /* a second signal ends the command at once then */
-    /* nohup sets SIGHUP aside, and it stays so; shells do it with SIGINT for what runs in the background, where somebody who sends it means it. */
+    /* nohup sets SIGHUP aside, and it stays so; shells do it with SIGINT for what runs in the background, where
+     * somebody who sends it means it. */
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
         if (sigaction(signals[i], NULL, &before) == 0 && (signals[i] != SIGHUP || before.sa_handler != SIG_IGN))
             sigaction(signals[i], &action, NULL);
@@ -163,11 +164,11 @@ bool progress_report(double fraction, const char *stage, void *user)
 {
     enum { WIDTH = 30 };
     progress *p = user;
-    int permille = (int)(fraction * 1000.0 + 0.5);
+    int       permille = (int)(fraction * 1000.0 + 0.5);
     permille = permille < 0 ? 0 : permille > 1000 ? 1000 : permille;
     if (p->shown && permille != p->last_permille) {
         char bar[WIDTH + 1];
-        int filled = permille * WIDTH / 1000;
+        int  filled = permille * WIDTH / 1000;
         memset(bar, '#', (size_t)filled);
         memset(bar + filled, '.', (size_t)(WIDTH - filled));
         bar[WIDTH] = '\0';

@@ -37,14 +37,14 @@ void message_note(const char *format, ...) __attribute__((format(printf, 1, 2)))
 
 /* The progress callback's state: a bar when standard error is a terminal, and cancelling by Ctrl-C in any case. */
 typedef struct progress {
-    bool        shown;       /* draw a bar */
-    bool        visible;     /* a bar stands on the terminal */
-    const char *label;       /* what is worked on; borrowed */
+    bool        shown;   /* draw a bar */
+    bool        visible; /* a bar stands on the terminal */
+    const char *label;   /* what is worked on; borrowed */
     int         last_permille;
 } progress;
 
-/* From here on SIGINT, SIGTERM and SIGHUP cancel. What does not end by itself within 0.15 s, such as a driver that compiles, or a
- * pipe that nobody reads, ends with the process; files are whole or not there in any case. */
+/* From here on SIGINT, SIGTERM and SIGHUP cancel. What does not end by itself within 0.15 s, such as a driver that
+ * compiles, or a pipe that nobody reads, ends with the process; files are whole or not there in any case. */
 void progress_begin(progress *p, bool quiet);
 /* Before the process ends: nobody waits for signals any more. */
 void progress_end(void);

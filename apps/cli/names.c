@@ -18,7 +18,8 @@ const char *name_unknown_place(const char *pattern, int *length)
 {
     for (const char *at = pattern ? strchr(pattern, '{') : NULL; at; at = strchr(at + 1, '{')) {
         size_t letters = strspn(at + 1, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-");
-        bool   known = strncmp(at, NAME_PLACE, strlen(NAME_PLACE)) == 0 || strncmp(at, FRAME_PLACE, strlen(FRAME_PLACE)) == 0;
+        bool   known =
+            strncmp(at, NAME_PLACE, strlen(NAME_PLACE)) == 0 || strncmp(at, FRAME_PLACE, strlen(FRAME_PLACE)) == 0;
         *length = (int)letters + 2;
         if (letters > 0 && at[letters + 1] == '}' && !known)
             return at;
@@ -44,9 +45,9 @@ static const char *stem_at(const char *path, size_t *length)
 
 char *name_stem(const char *path)
 {
-    size_t length;
+    size_t      length;
     const char *start = stem_at(path, &length);
-    char *stem = malloc(length + 1);
+    char       *stem = malloc(length + 1);
     if (stem) {
         memcpy(stem, start, length);
         stem[length] = '\0';
@@ -56,8 +57,8 @@ char *name_stem(const char *path)
 
 char *name_expand(const char *pattern, const char *input, long frame)
 {
-    char number[24];
-    size_t stem_length, number_length, size = 1;
+    char        number[24];
+    size_t      stem_length, number_length, size = 1;
     const char *stem = stem_at(input, &stem_length);
     snprintf(number, sizeof number, "%04ld", frame);
     number_length = strlen(number);
@@ -86,7 +87,7 @@ unsigned long name_find_same_stem(const char *const *paths, unsigned long count)
 {
     for (unsigned long i = 1; i < count; i++)
         for (unsigned long k = 0; k < i; k++) {
-            size_t a_length, b_length;
+            size_t      a_length, b_length;
             const char *a = stem_at(paths[i], &a_length), *b = stem_at(paths[k], &b_length);
             if (a_length == b_length && strncmp(a, b, a_length) == 0)
                 return i;

@@ -60,10 +60,11 @@ static size_t distance_of(const char *a, const char *b)
     return row[b_size];
 }
 
-const char *options_nearest(const char *name, const char *(*candidate)(size_t index, const void *user), const void *user)
+const char *options_nearest(const char *name, const char *(*candidate)(size_t index, const void *user),
+                            const void *user)
 {
     const char *best = NULL, *word;
-    size_t best_distance = strlen(name) / 3 + 2;
+    size_t      best_distance = strlen(name) / 3 + 2;
     for (size_t i = 0; (word = candidate(i, user)); i++) {
         size_t distance = distance_of(name, word);
         if (distance < best_distance && distance < strlen(word)) {
@@ -101,11 +102,11 @@ static int wrong_value(const option *o, const char *value, const char *allowed)
     return message_usage(NULL, "--%s is '%s'; allowed is %s", o->name, value, allowed);
 }
 
-/* One number at the start of the text; the end of it, or NULL. strtod takes the C locale's point, since the command never
- * sets another; hexadecimal numbers, inf and nan are refused. */
+/* One number at the start of the text; the end of it, or NULL. strtod takes the C locale's point, since the command
+ * never sets another; hexadecimal numbers, inf and nan are refused. */
 static const char *parse_number(const char *text, double *out)
 {
-    char *end;
+    char  *end;
     size_t length = strspn(text, "+-0123456789.eE");
     if (length == 0 || text[length] == 'x')
         return NULL;
@@ -115,14 +116,15 @@ static const char *parse_number(const char *text, double *out)
 
 static int set_number(const option *o, const char *value, option_number *out)
 {
-    char allowed[96];
+    char        allowed[96];
     const char *end = parse_number(value, &out->value);
     if (end && *end == '\0' && out->value >= o->min && out->value <= o->max &&
         (o->type == OPTION_NUMBER || out->value == floor(out->value))) {
         out->given = true;
         return 0;
     }
-    snprintf(allowed, sizeof allowed, "a %snumber from %.10g to %.10g", o->type == OPTION_WHOLE ? "whole " : "", o->min, o->max);
+    snprintf(allowed, sizeof allowed, "a %snumber from %.10g to %.10g", o->type == OPTION_WHOLE ? "whole " : "", o->min,
+             o->max);
     return wrong_value(o, value, allowed);
 }
 
@@ -147,8 +149,8 @@ static int set_size(const option *o, const char *value, option_size *out)
     long width = isdigit((unsigned char)*value) ? strtol(value, &end, 10) : 0, height = 0;
     if (end && *end == 'x' && isdigit((unsigned char)end[1]))
         height = strtol(end + 1, &end, 10);
-    if (errno || !end || *end || (double)width < o->min || (double)width > o->max ||
-        (double)height < o->min || (double)height > o->max) {
+    if (errno || !end || *end || (double)width < o->min || (double)width > o->max || (double)height < o->min ||
+        (double)height > o->max) {
         snprintf(allowed, sizeof allowed, "WxH, each from %.0f to %.0f, for example 1024x768", o->min, o->max);
         return wrong_value(o, value, allowed);
     }
@@ -235,7 +237,7 @@ static int unknown_option(const parser *p, const char *argument, size_t length)
 static int parse_long(parser *p, const char *argument)
 {
     const char *name = argument + 2, *equals = strchr(name, '=');
-    size_t length = equals ? (size_t)(equals - name) : strlen(name);
+    size_t      length = equals ? (size_t)(equals - name) : strlen(name);
     if (strcmp(name, "help") == 0) {
         p->help = true;
         return 0;
@@ -244,7 +246,7 @@ static int parse_long(parser *p, const char *argument)
     if (!o)
         return unknown_option(p, argument, length);
     const char *value;
-    int status = take_value(p, o, equals ? equals + 1 : NULL, &value);
+    int         status = take_value(p, o, equals ? equals + 1 : NULL, &value);
     return status ? status : set_option(p, o, value);
 }
 
@@ -258,13 +260,13 @@ static int parse_short(parser *p, const char *argument)
     if (!o)
         return unknown_option(p, argument, strlen(argument));
     const char *value;
-    int status = take_value(p, o, argument[2] ? argument + 2 : NULL, &value);
+    int         status = take_value(p, o, argument[2] ? argument + 2 : NULL, &value);
     return status ? status : set_option(p, o, value);
 }
 
 static int parse_all(parser *p)
 {
-    int status = 0;
+    int  status = 0;
     bool only_inputs = false;
     while (p->next < p->count && status == 0) {
         const char *argument = p->arguments[p->next++];
@@ -282,7 +284,12 @@ static int parse_all(parser *p)
 
 int options_parse(const command *c, int count, char **arguments, void *values, word_list *inputs, bool *help)
 {
-    parser p = {.command = c, .arguments = arguments, .count = count, .values = values, .inputs = inputs, .given = calloc(c->option_count + 1, sizeof *p.given)};
+    parser p = {.command = c,
+                .arguments = arguments,
+                .count = count,
+                .values = values,
+                .inputs = inputs,
+                .given = calloc(c->option_count + 1, sizeof *p.given)};
     if (!p.given)
         return message_out_of_memory();
     for (size_t i = 0; i < c->option_count; i++)

@@ -40,12 +40,12 @@ typedef struct option {
     const char        *name;       /* without the dashes */
     char               short_name; /* 0: none */
     option_type        type;
-    size_t             offset;     /* of the value in the command's values */
-    const char        *argument;   /* what stands for the value in the usage text */
+    size_t             offset;   /* of the value in the command's values */
+    const char        *argument; /* what stands for the value in the usage text */
     const char        *doc;
     double             min, max;
-    const char *const *choices;    /* NULL-terminated */
-    void             (*write_doc)(char *out, size_t size); /* instead of `doc`, where it lists what the library knows; NULL: none */
+    const char *const *choices;                /* NULL-terminated */
+    void (*write_doc)(char *out, size_t size); /* instead of `doc`, where it lists what the library knows; NULL: none */
 } option;
 
 typedef struct command {
@@ -71,7 +71,8 @@ void options_release(const command *c, void *values, word_list *inputs);
 void options_print_usage(const command *c);
 
 /* The candidate nearest to `name`, or NULL when none is near. `candidate(i)` gives NULL at the end. */
-const char *options_nearest(const char *name, const char *(*candidate)(size_t index, const void *user), const void *user);
+const char *options_nearest(const char *name, const char *(*candidate)(size_t index, const void *user),
+                            const void *user);
 
 /* Adds a word; false when memory is gone. */
 bool word_list_add(word_list *list, const char *word);

@@ -1,4 +1,5 @@
-/* limner strokes: textures of strokes from patterns and drawings, and a look at what stays of them in light and at a distance. */
+/* limner strokes: textures of strokes from patterns and drawings, and a look at what stays of them in light and at
+ * a distance. */
 #include "cli.h"
 
 #include <math.h>
@@ -23,25 +24,33 @@ static const char *const perspective_choices[] = {"tied", "random", "even", "lay
 
 static const option options[] = {
     {"output", 'o', OPTION_TEXT, AT(output), "OUT",
-     "File to write; its ending is the format: .stx, .svg or .png; - is standard output. Default: the pattern's or the file's name and .png."},
+     "File to write; its ending is the format: .stx, .svg or .png; - is standard output. Default: the pattern's or the "
+     "file's name and .png."},
     {"format", 0, OPTION_TEXT, AT(format), "FORMAT", "Format whatever the ending: stx, svg or png."},
     {"count", 0, OPTION_WHOLE, AT(count), "N", "Strokes of a pattern, about. Default: what suits it.", 1, 500000},
-    {"length", 0, OPTION_NUMBER, AT(length), "L", "Mean length of a pattern's strokes; the square is 1. Default: what suits it.", 0.001, 4},
-    {"uneven", 0, OPTION_NUMBER, AT(uneven), "U", "Pattern: from 0, regular, to 1, very irregular. Default: 0.5.", 0, 1},
+    {"length", 0, OPTION_NUMBER, AT(length), "L",
+     "Mean length of a pattern's strokes; the square is 1. Default: what suits it.", 0.001, 4},
+    {"uneven", 0, OPTION_NUMBER, AT(uneven), "U", "Pattern: from 0, regular, to 1, very irregular. Default: 0.5.", 0,
+     1},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "What chance begins with. Default: 0.", 0, 4294967295.0},
     {"order", 0, OPTION_CHOICE, AT(order), "drawn|shuffled|even",
      "Order of priorities within a layer. Default: even for patterns, drawn for files.", .choices = order_choices},
     {"share", 0, OPTION_CHOICE, AT(share), "count|length|area",
-     "What a stroke's step in priority follows; area makes tone follow light on a straight line at --width. Default: length.",
+     "What a stroke's step in priority follows; area makes tone follow light on a straight line at --width. Default: "
+     "length.",
      .choices = share_choices},
     {"perspective", 0, OPTION_CHOICE, AT(perspective), "tied|random|even|layers",
-     "Priorities for distance: as for light, by chance, evenly spread, or late layers go first. Default: even for patterns; files keep theirs.",
+     "Priorities for distance: as for light, by chance, evenly spread, or late layers go first. Default: even for "
+     "patterns; files keep theirs.",
      .choices = perspective_choices},
     {"size", 0, OPTION_WHOLE, AT(size), "PX", "Pixels a side of a .png. Default: 512.", 1, 8192},
-    {"width", 0, OPTION_NUMBER, AT(width), "W", "Pixels that a stroke is wide in a .png. Default: 1/170 of the size.", 0.05, 256},
-    {"light", 0, OPTION_NUMBER, AT(light), "T", "Only strokes that stay at this light are in a .png, 0 dark to 1. Default: 0.", -1e6, 1e6},
+    {"width", 0, OPTION_NUMBER, AT(width), "W", "Pixels that a stroke is wide in a .png. Default: 1/170 of the size.",
+     0.05, 256},
+    {"light", 0, OPTION_NUMBER, AT(light), "T",
+     "Only strokes that stay at this light are in a .png, 0 dark to 1. Default: 0.", -1e6, 1e6},
     {"distance", 0, OPTION_NUMBER, AT(distance), "T",
-     "Only strokes that stay at this distance are in a .png: 0.5 twice as far, 0.75 four times. Default: 0.", -1e6, 1e6},
+     "Only strokes that stay at this distance are in a .png: 0.5 twice as far, 0.75 four times. Default: 0.", -1e6,
+     1e6},
 };
 
 static const char *pattern_at(size_t index, const void *user)
@@ -60,7 +69,7 @@ static int find_pattern(const char *name)
 
 static int unknown_pattern(const char *name)
 {
-    char hint[128] = "a pattern is one of";
+    char        hint[128] = "a pattern is one of";
     const char *near = options_nearest(name, pattern_at, NULL);
     for (int i = 0; lmn_stroke_pattern_name(i) && !near; i++) {
         size_t length = strlen(hint);
@@ -91,7 +100,10 @@ static int check(const strokes_values *v, bool is_pattern, char format[16])
 {
     const char *dot = v->output ? strrchr(v->output, '.') : ".png";
     if (!is_pattern && (v->count.given || v->length.given || v->uneven.given))
-        return message_usage(NULL, "--%s goes with a pattern, not with a file", v->count.given ? "count" : v->length.given ? "length" : "uneven");
+        return message_usage(NULL, "--%s goes with a pattern, not with a file",
+                             v->count.given    ? "count"
+                             : v->length.given ? "length"
+                                               : "uneven");
     snprintf(format, 16, "%s", dot ? dot : "");
     if (v->format)
         snprintf(format, 16, "%s%s", *v->format == '.' ? "" : ".", v->format);
@@ -107,7 +119,8 @@ static int check(const strokes_values *v, bool is_pattern, char format[16])
                          "%s: cannot tell the format from '%s'", v->output, *format ? format : v->output);
 }
 
-static lmn_status make_strokes(lmn_strokes **out, const char *input, int pattern, const strokes_values *v, lmn_error *error)
+static lmn_status make_strokes(lmn_strokes **out, const char *input, int pattern, const strokes_values *v,
+                               lmn_error *error)
 {
     lmn_pattern_desc desc = LMN_PATTERN_DESC_INIT;
     if (pattern < 0)
@@ -123,17 +136,19 @@ static lmn_status make_strokes(lmn_strokes **out, const char *input, int pattern
 static lmn_status set_priorities(lmn_strokes *s, bool is_pattern, const strokes_values *v, lmn_error *error)
 {
     lmn_status status = LMN_OK;
-    uint32_t seed = (uint32_t)given_or(&v->seed, 0);
-    int order = v->order >= 0 ? v->order : is_pattern ? LMN_ORDER_EVEN : LMN_ORDER_DRAWN;
-    int share = v->share >= 0 ? v->share : LMN_SHARE_LENGTH;
+    uint32_t   seed = (uint32_t)given_or(&v->seed, 0);
+    int        order = v->order >= 0 ? v->order : is_pattern ? LMN_ORDER_EVEN : LMN_ORDER_DRAWN;
+    int        share = v->share >= 0 ? v->share : LMN_SHARE_LENGTH;
     if (v->order >= 0 || v->share >= 0)
-        status = lmn_strokes_set_light(s, (lmn_stroke_order)order, (lmn_stroke_share)share, width_in_square(v), seed, error);
+        status =
+            lmn_strokes_set_light(s, (lmn_stroke_order)order, (lmn_stroke_share)share, width_in_square(v), seed, error);
     if (status == LMN_OK && v->perspective >= 0)
         status = lmn_strokes_set_perspective(s, (lmn_stroke_perspective)v->perspective, seed, error);
     return status;
 }
 
-static lmn_status write_strokes(const lmn_strokes *s, const char *path, const char *format, const strokes_values *v, lmn_error *error)
+static lmn_status write_strokes(const lmn_strokes *s, const char *path, const char *format, const strokes_values *v,
+                                lmn_error *error)
 {
     lmn_strokes_view view = LMN_STROKES_VIEW_INIT;
     view.size = (int)given_or(&v->size, 512);
@@ -146,11 +161,11 @@ static lmn_status write_strokes(const lmn_strokes *s, const char *path, const ch
 static int run(const word_list *inputs, const void *values)
 {
     const strokes_values *v = values;
-    const char *input = inputs->items[0];
-    int pattern = find_pattern(input);
-    lmn_strokes *s = NULL;
-    lmn_error error = {0};
-    char format[16], *path = NULL;
+    const char           *input = inputs->items[0];
+    int                   pattern = find_pattern(input);
+    lmn_strokes          *s = NULL;
+    lmn_error             error = {0};
+    char                  format[16], *path = NULL;
     if (pattern < 0 && !strpbrk(input, "./"))
         return unknown_pattern(input);
     int status = check(v, pattern >= 0, format);
@@ -168,9 +183,16 @@ static int run(const word_list *inputs, const void *values)
 }
 
 const command command_strokes = {
-    .name = "strokes", .inputs = "PATTERN|FILE", .summary = "Make textures of strokes for hatching, and see what stays of them.",
-    .detail = "A PATTERN is parallel, cross, contour, brick, stipple, scribble or random; a FILE is a stroke texture (.stx) or a drawing (.svg).\n"
+    .name = "strokes",
+    .inputs = "PATTERN|FILE",
+    .summary = "Make textures of strokes for hatching, and see what stays of them.",
+    .detail = "A PATTERN is parallel, cross, contour, brick, stipple, scribble or random; a FILE is a stroke texture "
+              "(.stx) or a drawing (.svg).\n"
               "docs/reference/strokes.md tells more.",
-    .options = options, .option_count = OPTION_COUNT(options), .values_size = sizeof(strokes_values),
-    .inputs_min = 1, .inputs_max = 1, .run = run,
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(strokes_values),
+    .inputs_min = 1,
+    .inputs_max = 1,
+    .run = run,
 };

@@ -2,7 +2,7 @@
 
 int task_begin(lmn_task **out, const task_values *v, progress *p)
 {
-    lmn_error error = {0};
+    lmn_error     error = {0};
     lmn_task_desc desc = lmn_task_desc_standard();
     *out = NULL;
     if (v->safe && v->allow_any)

@@ -27,36 +27,42 @@ typedef enum lmn_view {
 /* How a renderer is made. Initialise with LMN_RENDERER_DESC_INIT. */
 typedef struct lmn_renderer_desc {
     size_t struct_size;
-    bool   es;   /* ask for OpenGL ES 3 instead of desktop GL */
+    bool   es;    /* ask for OpenGL ES 3 instead of desktop GL */
     bool   debug; /* debug context; GL errors become LMN_GL errors */
 } lmn_renderer_desc;
-#define LMN_RENDERER_DESC_INIT {sizeof(lmn_renderer_desc), false, false}
+#define LMN_RENDERER_DESC_INIT                                                                                         \
+    {                                                                                                                  \
+        sizeof(lmn_renderer_desc), false, false                                                                        \
+    }
 
-/* What to draw. Initialise with LMN_DRAW_DESC_INIT. Angles in degrees, lengths in the scene's unit, sizes in pixels. */
+/* What to draw. Initialise with LMN_DRAW_DESC_INIT. Angles in degrees, lengths in the scene's unit, sizes in
+ * pixels. */
 typedef struct lmn_draw_desc {
     size_t          struct_size;
-    int             width, height;      /* 1 … 16384 */
-    lmn_view        view;               /* used when neither eye nor camera is given */
-    bool            eye_given;          /* use eye, target, up */
+    int             width, height; /* 1 … 16384 */
+    lmn_view        view;          /* used when neither eye nor camera is given */
+    bool            eye_given;     /* use eye, target, up */
     double          eye[3], target[3], up[3];
-    const char     *camera;             /* name of a camera of the scene, or NULL */
+    const char     *camera; /* name of a camera of the scene, or NULL */
     bool            orthographic;
-    double          fov_deg;            /* vertical, 1 … 170 */
-    double          fit;                /* share of the frame that the projected bounds fill, 0.01 … 10 */
-    double          time_s;             /* seconds on the scene's timeline */
+    double          fov_deg; /* vertical, 1 … 170 */
+    double          fit;     /* share of the frame that the projected bounds fill, 0.01 … 10 */
+    double          time_s;  /* seconds on the scene's timeline */
     uint32_t        seed;
-    int             samples;            /* supersamples a pixel, a square number 1 … 64 */
-    const char     *background;         /* colour, "none", or NULL for the look's ground */
-    const char     *select;             /* selector that restricts what is drawn and fitted, or NULL */
-    bool            maps;               /* keep the AOVs for lmn_drawing_write_maps */
-    bool            profile;            /* time each pass in an extra frame */
-    lmn_progress_fn progress;           /* NULL: silent */
+    int             samples;    /* supersamples a pixel, a square number 1 … 64 */
+    const char     *background; /* colour, "none", or NULL for the look's ground */
+    const char     *select;     /* selector that restricts what is drawn and fitted, or NULL */
+    bool            maps;       /* keep the AOVs for lmn_drawing_write_maps */
+    bool            profile;    /* time each pass in an extra frame */
+    lmn_progress_fn progress;   /* NULL: silent */
     void           *progress_user;
-    bool            lenient;            /* what cannot be drawn is left out with a warning; else it is refused */
+    bool            lenient; /* what cannot be drawn is left out with a warning; else it is refused */
 } lmn_draw_desc;
-#define LMN_DRAW_DESC_INIT \
-    {sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0, 0.9, \
-     0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false}
+#define LMN_DRAW_DESC_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
+            0.9, 0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false                                                \
+    }
 
 /* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.
  * A renderer belongs to the thread that made it. Errors: LMN_USAGE (desc), LMN_GL, LMN_MEMORY. */
@@ -68,13 +74,15 @@ LMN_API void lmn_renderer_destroy(lmn_renderer **renderer);
 /* The driver as JSON: versions, limits, paths, extensions used. Free with lmn_text_free. NULL when memory is gone. */
 LMN_API char *lmn_renderer_json(const lmn_renderer *renderer);
 
-/* Would drawing these be refused, as far as that can be told without drawing? `vectors`: by lmn_draw_sheet. For those who draw many pictures.
- * Errors: LMN_USAGE. */
-LMN_API lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors, lmn_error *error);
+/* Would drawing these be refused, as far as that can be told without drawing? `vectors`: by lmn_draw_sheet. For
+ * those who draw many pictures. Errors: LMN_USAGE. */
+LMN_API lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors,
+                                  lmn_error *error);
 
-/* Draws. The result owns its pixels and its report; end it with lmn_drawing_destroy. The renderer keeps GPU copies of
- * the scene until another scene is drawn.
- * Errors: LMN_USAGE (desc, selector, a time that changes nothing), LMN_UNSUPPORTED (what the look cannot draw), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
+/* Draws. The result owns its pixels and its report; end it with lmn_drawing_destroy. The renderer keeps GPU copies
+ * of the scene until another scene is drawn. Errors: LMN_USAGE (desc, selector, a time that changes nothing),
+ * LMN_UNSUPPORTED (what the look cannot draw), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY,
+ * LMN_CANCELLED. */
 LMN_API lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                             const lmn_draw_desc *desc, lmn_error *error);
 
@@ -84,15 +92,16 @@ LMN_API void lmn_drawing_destroy(lmn_drawing **drawing);
 /* The picture: RGBA, 8 bits, sRGB, straight alpha, row 0 on top, width·4 bytes a row; borrowed from the drawing. */
 LMN_API const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height);
 
-/* Writes the picture. The format comes from `format` (".png") or, when that is NULL, from the path's ending; path "-" is
- * standard output. A file appears whole or not at all. `bytes` (may be NULL) gets the size.
- * Errors: LMN_USAGE (unknown ending), LMN_WRITE, LMN_MEMORY. */
+/* Writes the picture. The format comes from `format` (".png") or, when that is NULL, from the path's ending; path
+ * "-" is standard output. A file appears whole or not at all. `bytes` (may be NULL) gets the size. Errors:
+ * LMN_USAGE (unknown ending), LMN_WRITE, LMN_MEMORY. */
 LMN_API lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
                                      lmn_error *error);
 
-/* Writes depth.pfm, normal.pfm, id.png, edge.png and shade.png into a folder (made when missing), uncertainty.pfm where something
- * is perturbed, direction.pfm where strokes follow the form on the page, and for looks that are seen through the same of every layer, layerK.depth.pfm and so on (docs/reference/report.md). The drawing must have been made with
- * desc.maps. Errors: LMN_USAGE, LMN_WRITE, LMN_MEMORY. */
+/* Writes depth.pfm, normal.pfm, id.png, edge.png and shade.png into a folder (made when missing), uncertainty.pfm
+ * where something is perturbed, direction.pfm where strokes follow the form on the page, and for looks that are
+ * seen through the same of every layer, layerK.depth.pfm and so on (docs/reference/report.md). The drawing must
+ * have been made with desc.maps. Errors: LMN_USAGE, LMN_WRITE, LMN_MEMORY. */
 LMN_API lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error);
 
 /* The report as JSON (docs/reference/report.md). Free with lmn_text_free. NULL when memory is gone. */

@@ -10,9 +10,9 @@ extern "C" {
 
 typedef struct lmn_look lmn_look;
 
-/* Loads a look: the name of one that ships (see lmn_look_count) or a path to a JSON file (it contains '/' or ends in
- * .json). End it with lmn_look_destroy.
- * Errors: LMN_USAGE (unknown name; the hint names the nearest), LMN_READ, LMN_FORMAT (with line and column), LMN_MEMORY. */
+/* Loads a look: the name of one that ships (see lmn_look_count) or a path to a JSON file (it contains '/' or ends
+ * in .json). End it with lmn_look_destroy. Errors: LMN_USAGE (unknown name; the hint names the nearest), LMN_READ,
+ * LMN_FORMAT (with line and column), LMN_MEMORY. */
 LMN_API lmn_status lmn_look_load(lmn_look **out, const char *name_or_path, lmn_error *error);
 
 /* Parses a look from JSON text. `name` stands in messages. Errors: LMN_FORMAT, LMN_MEMORY. */

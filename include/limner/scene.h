@@ -20,18 +20,21 @@ typedef struct lmn_load_desc {
     lmn_progress_fn progress;    /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */
-    const char *const *defines;  /* "NAME=VALUE": variables that replace those of the program */
+    const char *const *defines; /* "NAME=VALUE": variables that replace those of the program */
     size_t             define_count;
-    bool               strict;   /* openscad's warnings are errors */
+    bool               strict; /* openscad's warnings are errors */
 } lmn_load_desc;
-#define LMN_LOAD_DESC_INIT {sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false}
+#define LMN_LOAD_DESC_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false                                                 \
+    }
 
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */
 typedef struct lmn_scene_info {
     size_t   parts, nodes, meshes, materials, textures, cameras, lights, animations, skins;
-    uint64_t triangles; /* instances counted */
+    uint64_t triangles;                    /* instances counted */
     double   bounds_min[3], bounds_max[3]; /* all 0 when the scene is empty */
-    char     up; /* 'y' or 'z' */
+    char     up;                           /* 'y' or 'z' */
 } lmn_scene_info;
 
 /* A part: a node with geometry. Parts are numbered from 1, depth-first in input order. */
@@ -59,7 +62,8 @@ LMN_API lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const 
 /* Counts and bounds of the scene in its rest pose. */
 LMN_API lmn_scene_info lmn_scene_info_of(const lmn_scene *scene);
 
-/* The part with this index (0 … parts−1). Strings live as long as the scene is not changed. False when out of range. */
+/* The part with this index (0 … parts−1). Strings live as long as the scene is not changed. False when out of
+ * range. */
 LMN_API bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_info *out);
 
 /* Everything about the scene as JSON text (documented in docs/reference/info.md); free with lmn_text_free.

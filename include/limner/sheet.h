@@ -1,4 +1,5 @@
-/* Sheets: drawings as vectors. Lines with geometry, exact visibility and groups to edit, for the screen, for print, for CAD and for plotters. */
+/* Sheets: drawings as vectors. Lines with geometry, exact visibility and groups to edit, for the screen, for print,
+ * for CAD and for plotters. */
 #ifndef LIMNER_SHEET_H
 #define LIMNER_SHEET_H
 
@@ -10,40 +11,52 @@ extern "C" {
 
 typedef struct lmn_sheet lmn_sheet;
 
-/* How views are laid out around the front view: as the model turned away from the viewer (third angle, the top view above), or as it rolls over the paper
- * (first angle, the top view below). */
+/* How views are laid out around the front view: as the model turned away from the viewer (third angle, the top view
+ * above), or as it rolls over the paper (first angle, the top view below). */
 typedef enum lmn_angle { LMN_THIRD_ANGLE = 0, LMN_FIRST_ANGLE } lmn_angle;
 
 /* What lies on the sheet. Initialise with LMN_SHEET_DESC_INIT. */
 typedef struct lmn_sheet_desc {
     size_t      struct_size;
-    const char *page;       /* "A4", "A3-landscape", "A5-portrait", "letter", "120x80mm"; NULL: the picture's size at 96 pixels an inch */
-    const char *scale;      /* "1:20", "2:1"; NULL: as large as fits. With a scale projection is parallel */
-    const char *unit;       /* of the scene: "mm", "cm", "m", "in"; NULL: as the first file's format has it (glTF metres, all others millimetres) */
-    const char *views;      /* "front,top,right,iso": a sheet of views in parallel projection, at one scale, aligned; NULL: the drawing's own view */
+    const char *page;  /* "A4", "A3-landscape", "A5-portrait", "letter", "120x80mm"; NULL: the picture's size at 96
+                          pixels an inch */
+    const char *scale; /* "1:20", "2:1"; NULL: as large as fits. With a scale projection is parallel */
+    const char *unit;  /* of the scene: "mm", "cm", "m", "in"; NULL: as the first file's format has it (glTF metres, all
+                          others millimetres) */
+    const char *views; /* "front,top,right,iso": a sheet of views in parallel projection, at one scale, aligned; NULL:
+                          the drawing's own view */
     lmn_angle   angle;
-    const char *title;      /* in the title block of a frame, below the drawing without one; NULL: none */
-    bool        frame;      /* a frame and a title block with the scale */
-    bool        plotter;    /* lines alone, by pen, in an order that makes the pen's way short */
-    bool        lines_only; /* lines alone, by their middle: no pictures, no outlines of strokes. For DXF; plotter implies it */
-    bool        fill;       /* the area of each part in its colour, below the lines */
-    bool        verify;     /* check visibility of all strokes by casting rays; the report has the result */
+    const char *title;   /* in the title block of a frame, below the drawing without one; NULL: none */
+    bool        frame;   /* a frame and a title block with the scale */
+    bool        plotter; /* lines alone, by pen, in an order that makes the pen's way short */
+    bool
+        lines_only; /* lines alone, by their middle: no pictures, no outlines of strokes. For DXF; plotter implies it */
+    bool fill;      /* the area of each part in its colour, below the lines */
+    bool verify;    /* check visibility of all strokes by casting rays; the report has the result */
 } lmn_sheet_desc;
-#define LMN_SHEET_DESC_INIT {sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false}
+#define LMN_SHEET_DESC_INIT                                                                                            \
+    {                                                                                                                  \
+        sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false       \
+    }
 
-/* Do the look's surfaces need pixels, which lie below the lines as a picture? When not, lmn_draw_sheet needs no renderer. */
+/* Do the look's surfaces need pixels, which lie below the lines as a picture? When not, lmn_draw_sheet needs no
+ * renderer. */
 LMN_API bool lmn_look_needs_pixels(const lmn_look *look);
 
-/* Draws a sheet. Sizes in pixels of the description and the look are of 1/96 inch. `renderer` may be NULL; then surfaces that need pixels are left out, with a warning. `maps`,
- * `profile` do not matter; `samples` does for pictures below the lines. End it with lmn_sheet_destroy.
- * Errors: LMN_USAGE (descriptions, selector, sections, a time, a scale that leaves the page empty), LMN_UNSUPPORTED (solids), LMN_FORMAT (nothing to draw), LMN_LIMIT (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
-LMN_API lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                                  const lmn_sheet_desc *sheet, lmn_error *error);
+/* Draws a sheet. Sizes in pixels of the description and the look are of 1/96 inch. `renderer` may be NULL; then
+ * surfaces that need pixels are left out, with a warning. `maps`, `profile` do not matter; `samples` does for
+ * pictures below the lines. End it with lmn_sheet_destroy. Errors: LMN_USAGE (descriptions, selector, sections, a
+ * time, a scale that leaves the page empty), LMN_UNSUPPORTED (solids), LMN_FORMAT (nothing to draw), LMN_LIMIT
+ * (size), LMN_GL, LMN_MEMORY, LMN_CANCELLED. */
+LMN_API lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                                  const lmn_draw_desc *desc, const lmn_sheet_desc *sheet, lmn_error *error);
 
-/* Writes a sheet. The format comes from `format` (".svg", ".pdf", ".dxf", with or without the dot) or, when that is NULL, from the path's ending; path "-" is standard output,
- * SVG unless `format` says otherwise. A file appears whole or not at all; the same sheet gives the same bytes. `bytes` (may be NULL) gets the size.
- * Errors: LMN_USAGE (unknown format), LMN_WRITE, LMN_MEMORY. */
-LMN_API lmn_status lmn_sheet_write(const lmn_sheet *sheet, const char *path, const char *format, uint64_t *bytes, lmn_error *error);
+/* Writes a sheet. The format comes from `format` (".svg", ".pdf", ".dxf", with or without the dot) or, when that is
+ * NULL, from the path's ending; path "-" is standard output, SVG unless `format` says otherwise. A file appears
+ * whole or not at all; the same sheet gives the same bytes. `bytes` (may be NULL) gets the size. Errors: LMN_USAGE
+ * (unknown format), LMN_WRITE, LMN_MEMORY. */
+LMN_API lmn_status lmn_sheet_write(const lmn_sheet *sheet, const char *path, const char *format, uint64_t *bytes,
+                                   lmn_error *error);
 
 /* A format of drawings, and what it has room for. Texts last. */
 typedef struct lmn_format_info {

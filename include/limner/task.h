@@ -10,29 +10,32 @@ extern "C" {
 
 typedef struct lmn_task lmn_task;
 
-/* Which files a model may name: buffers, textures, materials, import() of OpenSCAD. The model itself is always read. SECURITY.md tells more. */
+/* Which files a model may name: buffers, textures, materials, import() of OpenSCAD. The model itself is always
+ * read. SECURITY.md tells more. */
 typedef enum lmn_file_access {
     LMN_FILES_NEAR = 0, /* in the model's folder, the one above it, and below these */
     LMN_FILES_FOLDER,   /* in the model's folder and below it alone */
     LMN_FILES_ANY       /* anywhere */
 } lmn_file_access;
 
-/* Reads a file for Limner instead of the file system. `path` is what the model's own path and its content make of it; `what` says what for
- * ("model", "buffer", "texture" …). True with *bytes from lmn_file_alloc, which Limner frees, and *size; false when there is none. */
+/* Reads a file for Limner instead of the file system. `path` is what the model's own path and its content make of
+ * it; `what` says what for ("model", "buffer", "texture" …). True with *bytes from lmn_file_alloc, which Limner
+ * frees, and *size; false when there is none. */
 typedef bool (*lmn_read_fn)(const char *path, const char *what, void **bytes, size_t *size, void *user);
 
 /* Conditions of a task. Initialise with lmn_task_desc_standard. Texts are copied. */
 typedef struct lmn_task_desc {
-    size_t             struct_size;
-    lmn_limits         limits;       /* `time_s` for each call, the rest for each call and for the task */
-    lmn_progress_fn    progress;     /* asked some times a second in all calls, whether they report progress or not; NULL: never cancels */
+    size_t     struct_size;
+    lmn_limits limits; /* `time_s` for each call, the rest for each call and for the task */
+    lmn_progress_fn
+        progress; /* asked some times a second in all calls, whether they report progress or not; NULL: never cancels */
     void              *progress_user;
     lmn_file_access    files;
-    const char *const *allow_paths;  /* further folders that models may name files in */
+    const char *const *allow_paths; /* further folders that models may name files in */
     size_t             allow_path_count;
-    lmn_read_fn        read_file;    /* NULL: the file system; otherwise `files` and `allow_paths` do not matter */
+    lmn_read_fn        read_file; /* NULL: the file system; otherwise `files` and `allow_paths` do not matter */
     void              *read_user;
-    bool               in_process;   /* run other people's decoders in this process; the standard is a fenced child process */
+    bool in_process; /* run other people's decoders in this process; the standard is a fenced child process */
 } lmn_task_desc;
 
 /* Standard conditions. Any thread. */

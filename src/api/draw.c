@@ -68,7 +68,8 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
         status = check_range(error, "the number of samples", d->samples, 1, 64);
     int side = (int)lround(sqrt((double)d->samples));
     if (status == LMN_OK && side * side != d->samples)
-        status = error_set(error, LMN_USAGE, "the number of samples is %d, it must be a square number: 1, 4, 9, 16 … 64", d->samples);
+        status = error_set(error, LMN_USAGE,
+                           "the number of samples is %d, it must be a square number: 1, 4, 9, 16 … 64", d->samples);
     for (int k = 0; k < 3 && status == LMN_OK; k++)
         if (!isfinite(d->eye[k]) || !isfinite(d->target[k]) || !isfinite(d->up[k]))
             status = error_set(error, LMN_USAGE, "the camera's numbers must be finite");
@@ -82,11 +83,13 @@ lmn_status check_pixels(const lmn_draw_desc *d, lmn_error *error)
     uint64_t pixels = (uint64_t)d->width * (uint64_t)d->height * (uint64_t)d->samples, most = work_limits().pixels;
     if (!most || pixels <= most)
         return LMN_OK;
-    return work_exceeded(error, "pixels", "a picture of %dx%d pixels with %d samples each has %llu in all; allowed are %llu", d->width, d->height,
-                         d->samples, (unsigned long long)pixels, (unsigned long long)most);
+    return work_exceeded(error, "pixels",
+                         "a picture of %dx%d pixels with %d samples each has %llu in all; allowed are %llu", d->width,
+                         d->height, d->samples, (unsigned long long)pixels, (unsigned long long)most);
 }
 
-lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors, lmn_error *error)
+lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors,
+                          lmn_error *error)
 {
     if (!scene || !look)
         return error_set(error, LMN_USAGE, "a scene and a look are needed to draw");
@@ -95,8 +98,8 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
     return status == LMN_OK ? refuse_time(&r, look, desc->time_s, !vectors) : status;
 }
 
-lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                    lmn_error *error)
+lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                    const lmn_draw_desc *desc, lmn_error *error)
 {
     *out = NULL;
     if (!renderer || !scene || !look)
@@ -129,10 +132,11 @@ const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *h
     return drawing->pixels;
 }
 
-lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes, lmn_error *error)
+lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
+                             lmn_error *error)
 {
     const export_format *chosen = NULL;
-    lmn_status status = export_choose(&chosen, path, format, false, error);
+    lmn_status           status = export_choose(&chosen, path, format, false, error);
     if (status != LMN_OK)
         return status;
     work w;
@@ -189,8 +193,8 @@ static lmn_status load_all(lmn_look **loaded, const char *const *names, size_t c
     return LMN_OK;
 }
 
-static lmn_status bench_looks(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks, size_t look_count,
-                              const lmn_draw_desc *desc, int repeat, lmn_error *error)
+static lmn_status bench_looks(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks,
+                              size_t look_count, const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
     lmn_look **loaded = mem_calloc(look_count + 1, sizeof *loaded);
     if (!loaded)
@@ -199,15 +203,16 @@ static lmn_status bench_looks(char **out, lmn_renderer *renderer, const lmn_scen
     if (status == LMN_OK)
         status = load_all(loaded + 1, looks, look_count, error);
     if (status == LMN_OK)
-        status = bench_json(out, renderer, scene, (const lmn_look *const *)(loaded + 1), look_count, loaded[0], desc, repeat, error);
+        status = bench_json(out, renderer, scene, (const lmn_look *const *)(loaded + 1), look_count, loaded[0], desc,
+                            repeat, error);
     for (size_t i = 0; i <= look_count; i++)
         lmn_look_destroy(&loaded[i]);
     mem_free(loaded);
     return status;
 }
 
-lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks, size_t look_count,
-                          const lmn_draw_desc *desc, int repeat, lmn_error *error)
+lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks,
+                          size_t look_count, const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
     *out = NULL;
     if (!renderer || !scene)

@@ -12,7 +12,7 @@
 #define MIB (KIB * KIB)
 #define GIB (KIB * MIB)
 
-/* --- values as text ------------------------------------------------------------------------------------------------ */
+/* --- values as text ------------------------------------------------------------------------------------- */
 
 typedef struct unit {
     const char *name;
@@ -33,12 +33,13 @@ static size_t units_of(limit_kind kind, const unit **out)
 static void print_value(char *out, size_t size, const limit_row *row, double value)
 {
     const unit *list;
-    size_t count = units_of(row->kind, &list), i = 0;
+    size_t      count = units_of(row->kind, &list), i = 0;
     if (value == 0) {
         snprintf(out, size, "none");
         return;
     }
-    while (i + 1 < count && (value < list[i].factor || value / list[i].factor != (double)(uint64_t)(value / list[i].factor)))
+    while (i + 1 < count &&
+           (value < list[i].factor || value / list[i].factor != (double)(uint64_t)(value / list[i].factor)))
         i++;
     snprintf(out, size, "%.0f%s", value / list[i].factor, list[i].name);
 }
@@ -46,7 +47,7 @@ static void print_value(char *out, size_t size, const limit_row *row, double val
 static bool parse_value(const limit_row *row, const char *text, size_t length, double *out)
 {
     const unit *list;
-    size_t count = units_of(row->kind, &list);
+    size_t      count = units_of(row->kind, &list);
     if (length == 4 && strncmp(text, "none", 4) == 0) {
         *out = 0;
         return true;
@@ -55,7 +56,8 @@ static bool parse_value(const limit_row *row, const char *text, size_t length, d
     if (!behind || !(*out > 0))
         return false;
     for (size_t i = 0; i < count; i++)
-        if (strlen(list[i].name) == (size_t)(end - behind) && strncmp(list[i].name, behind, (size_t)(end - behind)) == 0) {
+        if (strlen(list[i].name) == (size_t)(end - behind) &&
+            strncmp(list[i].name, behind, (size_t)(end - behind)) == 0) {
             *out *= list[i].factor;
             return *out <= 9e15 && (row->kind == LIMIT_SECONDS || *out >= 1);
         }
@@ -72,10 +74,10 @@ static const limit_row *find_row(const char *name, size_t length)
 
 static lmn_status set_one(lmn_limits *limits, const char *text, size_t length, lmn_error *error)
 {
-    const char *equals = memchr(text, '=', length);
-    size_t name = equals ? (size_t)(equals - text) : length;
+    const char      *equals = memchr(text, '=', length);
+    size_t           name = equals ? (size_t)(equals - text) : length;
     const limit_row *row = find_row(text, name);
-    double value;
+    double           value;
     if (!row || !equals) {
         error_set(error, LMN_USAGE, "the limit '%.*s' is not known", (int)(length < 60 ? length : 60), text);
         error_hint(error, "limits are time, memory, triangles, pixels and textures; for example time=30s,memory=2G");
@@ -83,7 +85,8 @@ static lmn_status set_one(lmn_limits *limits, const char *text, size_t length, l
     }
     if (!parse_value(row, equals + 1, length - name - 1, &value)) {
         error_set(error, LMN_USAGE, "the limit %s is '%.*s'; allowed is a number above 0 with %s, or none", row->name,
-                  (int)(length - name - 1 < 40 ? length - name - 1 : 40), equals + 1, row->kind == LIMIT_SECONDS ? "s, min or h" : "k, M or G");
+                  (int)(length - name - 1 < 40 ? length - name - 1 : 40), equals + 1,
+                  row->kind == LIMIT_SECONDS ? "s, min or h" : "k, M or G");
         return LMN_USAGE;
     }
     limit_put(limits, row, value);
@@ -96,7 +99,7 @@ lmn_status lmn_limits_set(lmn_limits *limits, const char *text, lmn_error *error
         return error_set(error, LMN_USAGE, "limits begin with lmn_limits_standard or lmn_limits_safe");
     lmn_limits changed = *limits;
     for (const char *at = text;;) {
-        size_t length = strcspn(at, ",");
+        size_t     length = strcspn(at, ",");
         lmn_status status = set_one(&changed, at, length, error);
         if (status != LMN_OK)
             return status;

@@ -53,7 +53,7 @@ lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load
     if (!path || !path[0])
         return error_set(error, LMN_USAGE, "lmn_scene_add_file: the path is empty");
     lmn_load_desc full;
-    lmn_status status = load_desc_complete(&full, desc, "lmn_scene_add_file", error);
+    lmn_status    status = load_desc_complete(&full, desc, "lmn_scene_add_file", error);
     if (status != LMN_OK)
         return status;
     work w;

@@ -40,8 +40,8 @@ static lmn_status complete(lmn_sheet_desc *full, const lmn_sheet_desc *given, lm
     return LMN_OK;
 }
 
-lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                          const lmn_sheet_desc *sheet, lmn_error *error)
+lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                          const lmn_draw_desc *desc, const lmn_sheet_desc *sheet, lmn_error *error)
 {
     lmn_sheet_desc full = LMN_SHEET_DESC_INIT;
     if (!out)
@@ -67,8 +67,13 @@ bool lmn_format_at(size_t index, lmn_format_info *out)
     if (index >= export_format_count || !out)
         return false;
     const export_format *f = &export_formats[index];
-    *out = (lmn_format_info){.ending = f->ending, .doc = f->doc, .vectors = f->write_sheet != NULL, .ground = f->ground, .pictures = f->pictures,
-                             .areas = f->areas, .title = f->title};
+    *out = (lmn_format_info){.ending = f->ending,
+                             .doc = f->doc,
+                             .vectors = f->write_sheet != NULL,
+                             .ground = f->ground,
+                             .pictures = f->pictures,
+                             .areas = f->areas,
+                             .title = f->title};
     return true;
 }
 

@@ -15,11 +15,12 @@
 #include "import/import.h"
 #include "scene/solid_edit.h"
 
-/* --- ids ---------------------------------------------------------------------------------------------------------------- */
+/* --- ids ------------------------------------------------------------------------------------------------ */
 
 static const solid *solid_of(const lmn_scene *scene, uint32_t id)
 {
-    if (!scene || id == 0 || id > scene->solid_count || scene->solids[id - 1].node_count == 0 || scene->solids[id - 1].ghost)
+    if (!scene || id == 0 || id > scene->solid_count || scene->solids[id - 1].node_count == 0 ||
+        scene->solids[id - 1].ghost)
         return NULL;
     return &scene->solids[id - 1];
 }
@@ -36,7 +37,8 @@ typedef struct found {
     const solid_node *at;
 } found;
 
-static lmn_status find(found *out, const lmn_scene *scene, uint32_t solid_id, uint32_t node_id, const char *caller, lmn_error *error)
+static lmn_status find(found *out, const lmn_scene *scene, uint32_t solid_id, uint32_t node_id, const char *caller,
+                       lmn_error *error)
 {
     if (!scene)
         return error_set(error, LMN_USAGE, "%s: `scene` is NULL", caller);
@@ -56,7 +58,8 @@ static lmn_status find(found *out, const lmn_scene *scene, uint32_t solid_id, ui
     return LMN_OK;
 }
 
-static lmn_status find_operation(found *out, const lmn_scene *scene, uint32_t solid_id, uint32_t node_id, const char *caller, lmn_error *error)
+static lmn_status find_operation(found *out, const lmn_scene *scene, uint32_t solid_id, uint32_t node_id,
+                                 const char *caller, lmn_error *error)
 {
     lmn_status status = find(out, scene, solid_id, node_id, caller, error);
     if (status != LMN_OK || out->at->kind != SOLID_OPERAND)
@@ -87,13 +90,13 @@ static void give(uint32_t *out, uint32_t id)
         *out = id;
 }
 
-/* --- building ----------------------------------------------------------------------------------------------------------- */
+/* --- building ------------------------------------------------------------------------------------------- */
 
 lmn_status lmn_scene_add_solid(lmn_scene *scene, const char *name, lmn_operation root, uint32_t *out, lmn_error *error)
 {
     if (!scene)
         return error_set(error, LMN_USAGE, "lmn_scene_add_solid: `scene` is NULL");
-    size_t index = 0;
+    size_t     index = 0;
     lmn_status status = check_operation(root, "lmn_scene_add_solid", error);
     if (status == LMN_OK)
         status = solid_edit_create(scene, kind_of(root), name, &index, error);
@@ -102,10 +105,11 @@ lmn_status lmn_scene_add_solid(lmn_scene *scene, const char *name, lmn_operation
     return status;
 }
 
-lmn_status lmn_solid_add_operation(lmn_scene *scene, uint32_t solid, uint32_t parent, lmn_operation operation, uint32_t *node, lmn_error *error)
+lmn_status lmn_solid_add_operation(lmn_scene *scene, uint32_t solid, uint32_t parent, lmn_operation operation,
+                                   uint32_t *node, lmn_error *error)
 {
-    found above;
-    uint32_t id = 0;
+    found      above;
+    uint32_t   id = 0;
     lmn_status status = find_operation(&above, scene, solid, parent, "lmn_solid_add_operation", error);
     if (status == LMN_OK)
         status = check_operation(operation, "lmn_solid_add_operation", error);
@@ -118,11 +122,12 @@ lmn_status lmn_solid_add_operation(lmn_scene *scene, uint32_t solid, uint32_t pa
     return status;
 }
 
-lmn_status lmn_solid_add_shape(lmn_scene *scene, uint32_t solid, uint32_t parent, const lmn_shape *shape, uint32_t *node, lmn_error *error)
+lmn_status lmn_solid_add_shape(lmn_scene *scene, uint32_t solid, uint32_t parent, const lmn_shape *shape,
+                               uint32_t *node, lmn_error *error)
 {
-    found above;
-    mesh made;
-    uint32_t id = 0;
+    found      above;
+    mesh       made;
+    uint32_t   id = 0;
     lmn_status status = find_operation(&above, scene, solid, parent, "lmn_solid_add_shape", error);
     if (status == LMN_OK)
         status = solid_shape_make(&made, shape, "lmn_solid_add_shape", error);
@@ -135,10 +140,11 @@ lmn_status lmn_solid_add_shape(lmn_scene *scene, uint32_t solid, uint32_t parent
     return status;
 }
 
-lmn_status lmn_solid_add_copy(lmn_scene *scene, uint32_t solid, uint32_t parent, uint32_t source, uint32_t *node, lmn_error *error)
+lmn_status lmn_solid_add_copy(lmn_scene *scene, uint32_t solid, uint32_t parent, uint32_t source, uint32_t *node,
+                              lmn_error *error)
 {
-    found above, from;
-    uint32_t id = 0;
+    found      above, from;
+    uint32_t   id = 0;
     lmn_status status = find_operation(&above, scene, solid, parent, "lmn_solid_add_copy", error);
     if (status == LMN_OK)
         status = find(&from, scene, solid, source, "lmn_solid_add_copy", error);
@@ -150,12 +156,12 @@ lmn_status lmn_solid_add_copy(lmn_scene *scene, uint32_t solid, uint32_t parent,
 }
 
 /* One shape of all meshes. */
-static lmn_status add_meshes(lmn_scene *scene, const found *above, const lmn_scene *loaded, solid_addition *what, const char *path,
-                             uint32_t *id, lmn_error *error)
+static lmn_status add_meshes(lmn_scene *scene, const found *above, const lmn_scene *loaded, solid_addition *what,
+                             const char *path, uint32_t *id, lmn_error *error)
 {
     polyhedron gathered = {0};
-    mesh made = {.name = NULL};
-    bool open = false;
+    mesh       made = {.name = NULL};
+    bool       open = false;
     lmn_status status = import_gather(&gathered, loaded, &open, error);
     if (status == LMN_OK && !polyhedron_into_mesh(&made, &gathered))
         status = error_memory(error);
@@ -170,13 +176,13 @@ static lmn_status add_meshes(lmn_scene *scene, const found *above, const lmn_sce
     return status;
 }
 
-lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent, const char *path, const lmn_load_desc *desc, uint32_t *node,
-                              lmn_error *error)
+lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent, const char *path,
+                              const lmn_load_desc *desc, uint32_t *node, lmn_error *error)
 {
-    found above;
-    uint32_t id = 0;
+    found         above;
+    uint32_t      id = 0;
     lmn_load_desc full;
-    lmn_status status = find_operation(&above, scene, solid, parent, "lmn_solid_add_file", error);
+    lmn_status    status = find_operation(&above, scene, solid, parent, "lmn_solid_add_file", error);
     if (status == LMN_OK && (!path || !path[0]))
         status = error_set(error, LMN_USAGE, "lmn_solid_add_file: the path is empty");
     if (status == LMN_OK)
@@ -193,7 +199,9 @@ lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent,
     if (status == LMN_OK && !name)
         status = error_memory(error);
     if (status == LMN_OK) {
-        solid_addition what = {.kind = SOLID_UNION, .matrix = scene_up_rotation(loaded->up, scene->up ? scene->up : loaded->up), .name = name};
+        solid_addition what = {.kind = SOLID_UNION,
+                               .matrix = scene_up_rotation(loaded->up, scene->up ? scene->up : loaded->up),
+                               .name = name};
         status = loaded->solid_count ? solid_edit_graft(scene, above.solid, above.node, loaded, &what, &id, error)
                                      : add_meshes(scene, &above, loaded, &what, path, &id, error);
     }
@@ -206,7 +214,7 @@ lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent,
     return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 
-/* --- editing ------------------------------------------------------------------------------------------------------------ */
+/* --- editing -------------------------------------------------------------------------------------------- */
 
 static lmn_status check_matrix(const double m[16], lmn_error *error)
 {
@@ -216,11 +224,13 @@ static lmn_status check_matrix(const double m[16], lmn_error *error)
         if (!isfinite(m[i]))
             return error_set(error, LMN_USAGE, "lmn_solid_set_matrix: number %d of the matrix is %g", i, m[i]);
     if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-        error_set(error, LMN_USAGE, "lmn_solid_set_matrix: the last row is %g %g %g %g, not 0 0 0 1", m[3], m[7], m[11], m[15]);
+        error_set(error, LMN_USAGE, "lmn_solid_set_matrix: the last row is %g %g %g %g, not 0 0 0 1", m[3], m[7], m[11],
+                  m[15]);
         error_hint(error, "numbers are given column after column, so a translation is numbers 12, 13 and 14");
         return LMN_USAGE;
     }
-    double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
+    double determinant =
+        m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
     double volume = hypot(hypot(m[0], m[1]), m[2]) * hypot(hypot(m[4], m[5]), m[6]) * hypot(hypot(m[8], m[9]), m[10]);
     if (fabs(determinant) > 1e-14 * volume && volume > 0)
         return LMN_OK;
@@ -229,10 +239,11 @@ static lmn_status check_matrix(const double m[16], lmn_error *error)
     return LMN_USAGE;
 }
 
-lmn_status lmn_solid_set_matrix(lmn_scene *scene, uint32_t solid, uint32_t node, const double matrix[16], lmn_error *error)
+lmn_status lmn_solid_set_matrix(lmn_scene *scene, uint32_t solid, uint32_t node, const double matrix[16],
+                                lmn_error *error)
 {
-    found it;
-    mat4 own;
+    found      it;
+    mat4       own;
     lmn_status status = find(&it, scene, solid, node, "lmn_solid_set_matrix", error);
     if (status == LMN_OK)
         status = check_matrix(matrix, error);
@@ -244,33 +255,37 @@ lmn_status lmn_solid_set_matrix(lmn_scene *scene, uint32_t solid, uint32_t node,
 
 lmn_status lmn_solid_set_colour(lmn_scene *scene, uint32_t solid, uint32_t node, const float c[4], lmn_error *error)
 {
-    found it;
+    found      it;
     lmn_status status = find(&it, scene, solid, node, "lmn_solid_set_colour", error);
     for (int i = 0; i < 4 && c && status == LMN_OK; i++)
         if (!(c[i] >= 0 && c[i] <= 1)) {
-            status = error_set(error, LMN_USAGE, "lmn_solid_set_colour: number %d of the colour is %g", i, (double)c[i]);
+            status =
+                error_set(error, LMN_USAGE, "lmn_solid_set_colour: number %d of the colour is %g", i, (double)c[i]);
             error_hint(error, "red, green, blue and opacity are 0 to 1");
         }
     if (status != LMN_OK)
         return status;
-    const vec4 linear = c ? (vec4){colour_to_linear(c[0]), colour_to_linear(c[1]), colour_to_linear(c[2]), c[3]} : (vec4){0, 0, 0, 0};
+    const vec4 linear =
+        c ? (vec4){colour_to_linear(c[0]), colour_to_linear(c[1]), colour_to_linear(c[2]), c[3]} : (vec4){0, 0, 0, 0};
     solid_edit_set_colour(scene, it.solid, it.node, c ? &linear : NULL);
     return LMN_OK;
 }
 
-lmn_status lmn_solid_set_operation(lmn_scene *scene, uint32_t solid, uint32_t node, lmn_operation operation, lmn_error *error)
+lmn_status lmn_solid_set_operation(lmn_scene *scene, uint32_t solid, uint32_t node, lmn_operation operation,
+                                   lmn_error *error)
 {
-    found it;
+    found      it;
     lmn_status status = find_operation(&it, scene, solid, node, "lmn_solid_set_operation", error);
     if (status == LMN_OK)
         status = check_operation(operation, "lmn_solid_set_operation", error);
     return status == LMN_OK ? solid_edit_set_operation(scene, it.solid, it.node, kind_of(operation), error) : status;
 }
 
-lmn_status lmn_solid_set_shape(lmn_scene *scene, uint32_t solid, uint32_t node, const lmn_shape *shape, lmn_error *error)
+lmn_status lmn_solid_set_shape(lmn_scene *scene, uint32_t solid, uint32_t node, const lmn_shape *shape,
+                               lmn_error *error)
 {
-    found it;
-    mesh made;
+    found      it;
+    mesh       made;
     lmn_status status = find(&it, scene, solid, node, "lmn_solid_set_shape", error);
     if (status == LMN_OK && it.at->kind != SOLID_OPERAND) {
         status = error_set(error, LMN_USAGE, "lmn_solid_set_shape: node %u is an operation", (unsigned)node);
@@ -283,21 +298,22 @@ lmn_status lmn_solid_set_shape(lmn_scene *scene, uint32_t solid, uint32_t node, 
 
 lmn_status lmn_solid_set_name(lmn_scene *scene, uint32_t solid, uint32_t node, const char *name, lmn_error *error)
 {
-    found it;
+    found      it;
     lmn_status status = find(&it, scene, solid, node, "lmn_solid_set_name", error);
     return status == LMN_OK ? solid_edit_set_name(scene, it.solid, it.node, name, error) : status;
 }
 
 lmn_status lmn_solid_remove(lmn_scene *scene, uint32_t solid, uint32_t node, lmn_error *error)
 {
-    found it;
+    found      it;
     lmn_status status = find(&it, scene, solid, node, "lmn_solid_remove", error);
     return status == LMN_OK ? solid_edit_remove(scene, it.solid, it.node, error) : status;
 }
 
-lmn_status lmn_solid_move(lmn_scene *scene, uint32_t solid, uint32_t node, uint32_t parent, uint32_t before, lmn_error *error)
+lmn_status lmn_solid_move(lmn_scene *scene, uint32_t solid, uint32_t node, uint32_t parent, uint32_t before,
+                          lmn_error *error)
 {
-    found it, above, next = {.node = NONE};
+    found      it, above, next = {.node = NONE};
     lmn_status status = find(&it, scene, solid, node, "lmn_solid_move", error);
     if (status == LMN_OK)
         status = find_operation(&above, scene, solid, parent, "lmn_solid_move", error);
@@ -308,14 +324,15 @@ lmn_status lmn_solid_move(lmn_scene *scene, uint32_t solid, uint32_t node, uint3
     if (it.node == 0)
         return error_set(error, LMN_USAGE, "lmn_solid_move: the root cannot be moved below another node");
     if (next.node != NONE && next.at->parent != above.node) {
-        error_set(error, LMN_USAGE, "lmn_solid_move: node %u is no operand of node %u", (unsigned)before, (unsigned)parent);
+        error_set(error, LMN_USAGE, "lmn_solid_move: node %u is no operand of node %u", (unsigned)before,
+                  (unsigned)parent);
         error_hint(error, "`before` is one of the new parent's operands, or 0 for the end");
         return LMN_USAGE;
     }
     return solid_edit_move(scene, it.solid, it.node, above.node, next.node, error);
 }
 
-/* --- reading back ------------------------------------------------------------------------------------------------------- */
+/* --- reading back --------------------------------------------------------------------------------------- */
 
 size_t lmn_scene_solid_count(const lmn_scene *scene)
 {
@@ -350,16 +367,21 @@ static void put_bounds(lmn_solid_info *out, box3 b)
 bool lmn_solid_info_of(const lmn_scene *scene, uint32_t solid_id, uint32_t node_id, lmn_solid_info *out)
 {
     const solid *s = solid_of(scene, solid_id);
-    int32_t at = s ? node_of(s, node_id) : NONE;
+    int32_t      at = s ? node_of(s, node_id) : NONE;
     if (at == NONE || !out)
         return false;
     const solid_node *n = &s->nodes[at];
-    *out = (lmn_solid_info){.operation = (lmn_operation)n->kind, .parent = id_at(s, n->parent), .first_child = id_at(s, n->first_child),
-                            .next_sibling = id_at(s, n->next_sibling), .name = n->name, .has_colour = n->has_colour};
+    *out = (lmn_solid_info){.operation = (lmn_operation)n->kind,
+                            .parent = id_at(s, n->parent),
+                            .first_child = id_at(s, n->first_child),
+                            .next_sibling = id_at(s, n->next_sibling),
+                            .name = n->name,
+                            .has_colour = n->has_colour};
     memcpy(out->matrix, n->matrix.m, sizeof out->matrix);
     if (n->has_colour)
         memcpy(out->colour,
-               (float[]){colour_from_linear(n->colour.x), colour_from_linear(n->colour.y), colour_from_linear(n->colour.z), n->colour.w},
+               (float[]){colour_from_linear(n->colour.x), colour_from_linear(n->colour.y),
+                         colour_from_linear(n->colour.z), n->colour.w},
                sizeof out->colour);
     for (int32_t c = n->first_child; c != NONE; c = s->nodes[c].next_sibling)
         out->child_count++;

@@ -29,7 +29,8 @@ static lmn_status missing(const char *caller, const char *what, lmn_error *error
 }
 
 /* What was given, as far as its caller knows the struct. */
-static lmn_status complete(void *full, size_t full_size, const void *given, const char *caller, const char *initialiser, lmn_error *error)
+static lmn_status complete(void *full, size_t full_size, const void *given, const char *caller, const char *initialiser,
+                           lmn_error *error)
 {
     size_t size = 0;
     if (!given)
@@ -77,8 +78,9 @@ lmn_status lmn_strokes_create(lmn_strokes **out, const lmn_pattern_desc *desc, l
     lmn_strokes *made = allocate();
     if (!made)
         return error_memory(error);
-    pattern_options options = {(stroke_pattern)full.pattern, full.count, (float)full.length, (float)full.uneven, full.seed};
-    work w;
+    pattern_options options = {(stroke_pattern)full.pattern, full.count, (float)full.length, (float)full.uneven,
+                               full.seed};
+    work            w;
     work_begin(&w, NULL, NULL);
     if (desc)
         status = strokes_generate(&made->list, &options, error);
@@ -132,7 +134,8 @@ lmn_status lmn_strokes_get(const lmn_strokes *s, size_t index, lmn_stroke *out, 
     if (!s || !out)
         return missing("lmn_strokes_get", s ? "out" : "strokes", error);
     if (index >= s->list.count)
-        return error_set(error, LMN_USAGE, "lmn_strokes_get: index is %zu; there are %zu strokes", index, s->list.count);
+        return error_set(error, LMN_USAGE, "lmn_strokes_get: index is %zu; there are %zu strokes", index,
+                         s->list.count);
     const texture_stroke *t = &s->list.items[index];
     *out = (lmn_stroke){t->u0, t->v0, t->u1, t->v1, t->light, t->perspective, t->layer};
     return LMN_OK;
@@ -143,7 +146,8 @@ static lmn_status check_stroke(const lmn_stroke *t, lmn_error *error)
     const float places[4] = {t->u0, t->v0, t->u1, t->v1};
     for (int i = 0; i < 4; i++)
         if (!(fabsf(places[i]) <= LIMIT_STROKE_REACH))
-            return error_set(error, LMN_USAGE, "lmn_strokes_set: a place is %g; allowed is -16 to 16", (double)places[i]);
+            return error_set(error, LMN_USAGE, "lmn_strokes_set: a place is %g; allowed is -16 to 16",
+                             (double)places[i]);
     if (!isfinite(t->light) || !isfinite(t->perspective))
         return error_set(error, LMN_USAGE, "lmn_strokes_set: a priority is not finite");
     if (t->layer < 0 || t->layer >= LIMIT_STROKE_LAYERS)
@@ -156,14 +160,15 @@ lmn_status lmn_strokes_set(lmn_strokes *s, size_t index, const lmn_stroke *given
     if (!s || !given)
         return missing("lmn_strokes_set", s ? "stroke" : "strokes", error);
     if (index > s->list.count)
-        return error_set(error, LMN_USAGE, "lmn_strokes_set: index is %zu; there are %zu strokes", index, s->list.count);
+        return error_set(error, LMN_USAGE, "lmn_strokes_set: index is %zu; there are %zu strokes", index,
+                         s->list.count);
     lmn_status status = check_stroke(given, error);
     if (status != LMN_OK)
         return status;
     if (index >= LIMIT_STROKES)
         return error_set(error, LMN_LIMIT, "lmn_strokes_set: more than %d strokes", LIMIT_STROKES);
     texture_stroke t = {given->u0, given->v0, given->u1, given->v1, given->light, given->perspective, given->layer};
-    strokes one = {&t, 1, 1, 1};
+    strokes        one = {&t, 1, 1, 1};
     strokes_wrap(&one);
     if (index < s->list.count)
         s->list.items[index] = t;
@@ -172,18 +177,21 @@ lmn_status lmn_strokes_set(lmn_strokes *s, size_t index, const lmn_stroke *given
     return LMN_OK;
 }
 
-lmn_status lmn_strokes_set_light(lmn_strokes *s, lmn_stroke_order order, lmn_stroke_share share, double width, uint32_t seed, lmn_error *error)
+lmn_status lmn_strokes_set_light(lmn_strokes *s, lmn_stroke_order order, lmn_stroke_share share, double width,
+                                 uint32_t seed, lmn_error *error)
 {
     if (!s)
         return missing("lmn_strokes_set_light", "strokes", error);
     if ((int)order < 0 || order > LMN_ORDER_EVEN || (int)share < 0 || share > LMN_SHARE_AREA)
-        return error_set(error, LMN_USAGE, "lmn_strokes_set_light: there is no order %d or no share %d", (int)order, (int)share);
+        return error_set(error, LMN_USAGE, "lmn_strokes_set_light: there is no order %d or no share %d", (int)order,
+                         (int)share);
     if (share == LMN_SHARE_AREA && !(width > 0 && width <= 1))
         return error_set(error, LMN_USAGE, "lmn_strokes_set_light: width is %g; allowed is above 0, at most 1", width);
     return strokes_set_light(&s->list, (priority_order)order, (priority_share)share, width, seed, error);
 }
 
-lmn_status lmn_strokes_set_perspective(lmn_strokes *s, lmn_stroke_perspective perspective, uint32_t seed, lmn_error *error)
+lmn_status lmn_strokes_set_perspective(lmn_strokes *s, lmn_stroke_perspective perspective, uint32_t seed,
+                                       lmn_error *error)
 {
     if (!s)
         return missing("lmn_strokes_set_perspective", "strokes", error);
@@ -209,10 +217,10 @@ static lmn_status check_view(lmn_strokes_view *v, lmn_error *error)
 
 static lmn_status write_picture(const strokes *s, const char *path, const lmn_strokes_view *v, lmn_error *error)
 {
-    size_t side = (size_t)v->size;
-    uint8_t *grey = mem_alloc(side * side), *rgba = mem_alloc(side * side * 4);
+    size_t       side = (size_t)v->size;
+    uint8_t     *grey = mem_alloc(side * side), *rgba = mem_alloc(side * side * 4);
     export_bytes png = {0};
-    lmn_status status = grey && rgba ? LMN_OK : error_memory(error);
+    lmn_status   status = grey && rgba ? LMN_OK : error_memory(error);
     if (status == LMN_OK) {
         strokes_draw(s, v->size, &(stroke_brush){.width = v->width}, (float)v->light, (float)v->distance, grey);
         for (size_t y = 0; y < side; y++)
@@ -242,9 +250,10 @@ static lmn_status write_text(const strokes *s, const char *path, bool svg, lmn_e
     return status;
 }
 
-lmn_status lmn_strokes_write(const lmn_strokes *s, const char *path, const char *format, const lmn_strokes_view *view, lmn_error *error)
+lmn_status lmn_strokes_write(const lmn_strokes *s, const char *path, const char *format, const lmn_strokes_view *view,
+                             lmn_error *error)
 {
-    char ending[8];
+    char             ending[8];
     lmn_strokes_view full = LMN_STROKES_VIEW_INIT;
     if (!s || !path || !*path)
         return missing("lmn_strokes_write", s ? "path" : "strokes", error);
@@ -255,7 +264,8 @@ lmn_status lmn_strokes_write(const lmn_strokes *s, const char *path, const char 
         error_hint(error, "strokes are written as .stx, .svg or .png");
         return LMN_USAGE;
     }
-    lmn_status status = complete(&full, sizeof full, png ? view : NULL, "lmn_strokes_write", "LMN_STROKES_VIEW_INIT", error);
+    lmn_status status =
+        complete(&full, sizeof full, png ? view : NULL, "lmn_strokes_write", "LMN_STROKES_VIEW_INIT", error);
     if (status == LMN_OK && png)
         status = check_view(&full, error);
     if (status != LMN_OK)

@@ -8,7 +8,7 @@
 
 struct lmn_task {
     work          work;
-    lmn_task_desc desc;  /* its own copies */
+    lmn_task_desc desc; /* its own copies */
     char        **paths;
 };
 

@@ -18,7 +18,7 @@ static bool parse_hex(const char *digits, colour *out)
     if (length != 3 && length != 4 && length != 6 && length != 8)
         return false;
     size_t width = length < 6 ? 1 : 2;
-    float values[4] = {0, 0, 0, 1};
+    float  values[4] = {0, 0, 0, 1};
     for (size_t i = 0; i < length / width; i++) {
         int high = hex_digit(digits[i * width]);
         int low = hex_digit(digits[i * width + width - 1]);
@@ -35,11 +35,11 @@ bool colour_parse(const char *text, colour *out)
     static const struct {
         const char *name, *hex;
     } names[] = {
-        {"black", "000000"}, {"silver", "c0c0c0"}, {"gray", "808080"},   {"grey", "808080"},
-        {"white", "ffffff"}, {"maroon", "800000"}, {"red", "ff0000"},    {"purple", "800080"},
-        {"fuchsia", "ff00ff"}, {"green", "008000"}, {"lime", "00ff00"},  {"olive", "808000"},
-        {"yellow", "ffff00"}, {"navy", "000080"},  {"blue", "0000ff"},   {"teal", "008080"},
-        {"aqua", "00ffff"},  {"orange", "ffa500"}, {"none", "00000000"}, {"transparent", "00000000"},
+        {"black", "000000"},   {"silver", "c0c0c0"}, {"gray", "808080"},   {"grey", "808080"},
+        {"white", "ffffff"},   {"maroon", "800000"}, {"red", "ff0000"},    {"purple", "800080"},
+        {"fuchsia", "ff00ff"}, {"green", "008000"},  {"lime", "00ff00"},   {"olive", "808000"},
+        {"yellow", "ffff00"},  {"navy", "000080"},   {"blue", "0000ff"},   {"teal", "008080"},
+        {"aqua", "00ffff"},    {"orange", "ffa500"}, {"none", "00000000"}, {"transparent", "00000000"},
     };
     if (text[0] == '#')
         return parse_hex(text + 1, out);

@@ -10,7 +10,7 @@ typedef struct colour {
 } colour;
 
 /* Parses "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a CSS basic colour name, or "none" (transparent black). */
-bool  colour_parse(const char *text, colour *out);
+bool colour_parse(const char *text, colour *out);
 /* "#rrggbb", or "#rrggbbaa" when not opaque; `out` holds 10 characters. */
 void  colour_print(colour c, char out[10]);
 float colour_to_linear(float encoded);

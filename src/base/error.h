@@ -1,4 +1,5 @@
-/* Filling an lmn_error. All functions accept a NULL error and return the status, so that a caller can `return` them. */
+/* Filling an lmn_error. All functions accept a NULL error and return the status, so that a caller can `return`
+ * them. */
 #ifndef LIMNER_BASE_ERROR_H
 #define LIMNER_BASE_ERROR_H
 

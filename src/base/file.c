@@ -29,7 +29,7 @@ static lmn_status read_all(file_data *out, int descriptor, size_t size, const ch
     }
     size_t done = 0;
     while (done < size) {
-        size_t wanted = size - done < READ_AT_ONCE ? size - done : READ_AT_ONCE;
+        size_t  wanted = size - done < READ_AT_ONCE ? size - done : READ_AT_ONCE;
         ssize_t got = work_check(NULL) == LMN_OK ? read(descriptor, bytes + done, wanted) : 0;
         if (got < 0 && errno == EINTR)
             continue;
@@ -97,7 +97,7 @@ char *file_beside(const char *path, const char *name)
         return mem_copy_text(name);
     size_t folder = (size_t)(slash - path) + 1;
     size_t length = strlen(name);
-    char *joined = mem_alloc(folder + length + 1);
+    char  *joined = mem_alloc(folder + length + 1);
     if (!joined)
         return NULL;
     memcpy(joined, path, folder);

@@ -10,8 +10,9 @@ typedef struct file_data {
     size_t               size;
 } file_data;
 
-/* Reads a regular file into memory: a mapping would end the process when somebody cuts the file off meanwhile. Messages name the file; errors: LMN_READ (missing, a directory, not allowed),
- * LMN_LIMIT, LMN_MEMORY. End with file_data_release. */
+/* Reads a regular file into memory: a mapping would end the process when somebody cuts the file off meanwhile.
+ * Messages name the file; errors: LMN_READ (missing, a directory, not allowed), LMN_LIMIT, LMN_MEMORY. End with
+ * file_data_release. */
 lmn_status file_load(file_data *out, const char *path, lmn_error *error);
 void       file_data_release(file_data *data);
 

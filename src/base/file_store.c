@@ -27,7 +27,7 @@ static bool is_stopped(void)
     return work_check(NULL) != LMN_OK;
 }
 
-/* --- signals ------------------------------------------------------------------------------------------------------------ */
+/* --- signals -------------------------------------------------------------------------------------------- */
 
 static const int write_signals[] = {SIGXFSZ, SIGPIPE};
 
@@ -65,7 +65,7 @@ static void guard_end(const signal_guard *g)
     pthread_sigmask(SIG_SETMASK, &g->before, NULL);
 }
 
-/* --- bytes: functions here return 0 or what errno says -------------------------------------------------------------------- */
+/* --- bytes: functions here return 0 or what errno says -------------------------------------------------- */
 
 /* May a write last until somebody reads? */
 static bool may_wait(int descriptor)
@@ -128,7 +128,7 @@ static int sync_file(int descriptor)
     return 0;
 }
 
-/* --- straight to where it goes ------------------------------------------------------------------------------------------- */
+/* --- straight to where it goes -------------------------------------------------------------------------- */
 
 static lmn_status refuse(lmn_error *error, const char *path, int problem)
 {
@@ -147,7 +147,8 @@ static lmn_status report(lmn_error *error, const char *path, int problem)
     return problem ? refuse(error, path, problem) : LMN_OK;
 }
 
-/* The descriptor that a path means, as /dev/stdout does; −1: none. It belongs to whoever opened it: opened anew it would be written from its beginning. */
+/* The descriptor that a path means, as /dev/stdout does; −1: none. It belongs to whoever opened it: opened anew it
+ * would be written from its beginning. */
 static int descriptor_of(const char *path)
 {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
@@ -157,7 +158,8 @@ static int descriptor_of(const char *path)
         return STDERR_FILENO;
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
         const char *number = path + strlen(folders[i]);
-        if (strncmp(path, folders[i], strlen(folders[i])) == 0 && isdigit((unsigned char)*number) && strlen(number) <= 6 && number[strspn(number, "0123456789")] == '\0')
+        if (strncmp(path, folders[i], strlen(folders[i])) == 0 && isdigit((unsigned char)*number) &&
+            strlen(number) <= 6 && number[strspn(number, "0123456789")] == '\0')
             return (int)strtol(number, NULL, 10);
     }
     return -1;
@@ -187,15 +189,15 @@ static int store_straight(const char *path, bool pipe, const void *data, size_t 
     return close(descriptor) != 0 && !problem && errno != EINTR ? errno : problem;
 }
 
-/* --- under a name that it gets when it is whole --------------------------------------------------------------------------- */
+/* --- under a name that it gets when it is whole --------------------------------------------------------- */
 
 typedef struct arrival {
-    int         folder, descriptor; /* open */
-    const char *name;               /* of the file in its folder */
+    int         folder, descriptor;          /* open */
+    const char *name;                        /* of the file in its folder */
     char        beside[TEMPORARY_NAME_ROOM]; /* the name that it has until then; empty: none */
-    bool        replaces;           /* something has the name already */
-    mode_t      mode;               /* what that allows; else of new files, less the process's mask */
-    bool        lasting;            /* on the disk before it gets its name */
+    bool        replaces;                    /* something has the name already */
+    mode_t      mode;                        /* what that allows; else of new files, less the process's mask */
+    bool        lasting;                     /* on the disk before it gets its name */
 } arrival;
 
 static int open_beside(arrival *a)
@@ -217,7 +219,8 @@ static int open_beside(arrival *a)
 static int fill(const arrival *a, const void *data, size_t size)
 {
     int problem = write_all(a->descriptor, data, size);
-    /* The process's mask took from it what the file before allowed. Where that cannot be given back, less is allowed, not more. */
+    /* The process's mask took from it what the file before allowed. Where that cannot be given back, less is
+     * allowed, not more. */
     if (!problem && a->replaces && fchmod(a->descriptor, a->mode) != 0)
         problem = errno == EPERM || errno == ENOTSUP ? 0 : errno;
     return !problem && a->lasting ? sync_file(a->descriptor) : problem;
@@ -262,7 +265,8 @@ static int name_unnamed(arrival *a)
     return problem ? problem : rename_beside(a);
 }
 
-/* A file without a name leaves nothing behind, however the process ends. `*cannot`: this file system has none, or without /proc it gets none. */
+/* A file without a name leaves nothing behind, however the process ends. `*cannot`: this file system has none, or
+ * without /proc it gets none. */
 static int arrive_unnamed(arrival *a, const void *data, size_t size, bool *cannot)
 {
     a->descriptor = openat(a->folder, ".", O_WRONLY | O_TMPFILE | O_CLOEXEC, a->mode);
@@ -311,7 +315,10 @@ static int open_folder(const char *path, const char *name)
 static int store_named(const char *path, const struct stat *facts, bool lasting, const void *data, size_t size)
 {
     const char *slash = strrchr(path, '/');
-    arrival     a = {.name = slash ? slash + 1 : path, .replaces = facts != NULL, .mode = facts && S_ISREG(facts->st_mode) ? facts->st_mode & 0777 : 0666, .lasting = lasting};
+    arrival     a = {.name = slash ? slash + 1 : path,
+                     .replaces = facts != NULL,
+                     .mode = facts && S_ISREG(facts->st_mode) ? facts->st_mode & 0777 : 0666,
+                     .lasting = lasting};
     if (!*a.name)
         return *path ? EISDIR : ENOENT;
     a.folder = open_folder(path, a.name);
@@ -331,19 +338,22 @@ static int store_named(const char *path, const struct stat *facts, bool lasting,
     return problem;
 }
 
-/* --- links ---------------------------------------------------------------------------------------------------------------- */
+/* --- links ---------------------------------------------------------------------------------------------- */
 
-/* May this link be followed? Not one that somebody else laid into a folder where anybody may (as the kernel has it for links that lead somewhere). */
+/* May this link be followed? Not one that somebody else laid into a folder where anybody may (as the kernel has it
+ * for links that lead somewhere). */
 static bool is_trusted(const char *path, const struct stat *link)
 {
     struct stat folder;
     char       *around = file_beside(path, ".");
     bool        known = around && stat(around, &folder) == 0;
     mem_free(around);
-    return known && (link->st_uid == geteuid() || link->st_uid == folder.st_uid || !(folder.st_mode & S_ISVTX) || !(folder.st_mode & S_IWOTH));
+    return known && (link->st_uid == geteuid() || link->st_uid == folder.st_uid || !(folder.st_mode & S_ISVTX) ||
+                     !(folder.st_mode & S_IWOTH));
 }
 
-/* Where a path leads at last, whether or not anything is there. A link stays a link: what it names is what is written. */
+/* Where a path leads at last, whether or not anything is there. A link stays a link: what it names is what is
+ * written. */
 static int follow_links(char **out, const char *path)
 {
     struct stat facts;

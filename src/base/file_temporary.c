@@ -37,7 +37,8 @@ void temporary_name(char out[TEMPORARY_NAME_ROOM], const char *stem)
     uint32_t number = 0;
     if (getrandom(&number, sizeof number, GRND_NONBLOCK) != (ssize_t)sizeof number)
         number = (uint32_t)(uintptr_t)out; /* names that are taken are tried again with another one */
-    snprintf(out, TEMPORARY_NAME_ROOM, "%.*s%s%08x-%ld-%08x", STEM_MOST, stem, mark, host_number(), (long)getpid(), number);
+    snprintf(out, TEMPORARY_NAME_ROOM, "%.*s%s%08x-%ld-%08x", STEM_MOST, stem, mark, host_number(), (long)getpid(),
+             number);
 }
 
 static bool is_process_gone(long id)
@@ -48,12 +49,14 @@ static bool is_process_gone(long id)
 /* What stands behind the mark, of a process that is gone? Anything else in a name makes it somebody else's. */
 static bool is_abandoned(const char *tail)
 {
-    char  host[HOST_DIGITS + 1], *end;
+    char host[HOST_DIGITS + 1], *end;
     snprintf(host, sizeof host, "%08x", host_number());
-    if (strncmp(tail, host, HOST_DIGITS) != 0 || tail[HOST_DIGITS] != '-' || !isdigit((unsigned char)tail[HOST_DIGITS + 1]))
+    if (strncmp(tail, host, HOST_DIGITS) != 0 || tail[HOST_DIGITS] != '-' ||
+        !isdigit((unsigned char)tail[HOST_DIGITS + 1]))
         return false;
     long id = strtol(tail + HOST_DIGITS + 1, &end, 10);
-    return *end == '-' && strspn(end + 1, "0123456789abcdef") == RANDOM_DIGITS && end[1 + RANDOM_DIGITS] == '\0' && is_process_gone(id);
+    return *end == '-' && strspn(end + 1, "0123456789abcdef") == RANDOM_DIGITS && end[1 + RANDOM_DIGITS] == '\0' &&
+           is_process_gone(id);
 }
 
 /* The end of the mark in a hidden file's name. */
@@ -83,21 +86,21 @@ void temporary_sweep(int folder)
     for (struct dirent *entry; list && (entry = readdir(list)) != NULL;) {
         struct stat facts;
         const char *tail = behind_mark(entry->d_name);
-        if (tail && is_abandoned(tail) && fstatat(folder, entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(facts.st_mode) &&
-            facts.st_uid == geteuid())
+        if (tail && is_abandoned(tail) && fstatat(folder, entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) == 0 &&
+            S_ISREG(facts.st_mode) && facts.st_uid == geteuid())
             unlinkat(folder, entry->d_name, 0);
     }
     if (list)
         closedir(list);
 }
 
-/* --- folders ------------------------------------------------------------------------------------------------------------ */
+/* --- folders -------------------------------------------------------------------------------------------- */
 
 static void remove_folder_in(int parent, const char *name)
 {
     struct stat facts;
     int         folder = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    DIR        *list = folder >= 0 && fstat(folder, &facts) == 0 && facts.st_uid == geteuid() ? open_again(folder) : NULL;
+    DIR *list = folder >= 0 && fstat(folder, &facts) == 0 && facts.st_uid == geteuid() ? open_again(folder) : NULL;
     for (struct dirent *entry; list && (entry = readdir(list)) != NULL;)
         unlinkat(folder, entry->d_name, 0); /* folders stay */
     if (list) {

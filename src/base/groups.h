@@ -1,4 +1,5 @@
-/* What hangs together: each thing is linked to another one of its group, the group's first one to itself (disjoint sets). */
+/* What hangs together: each thing is linked to another one of its group, the group's first one to itself (disjoint
+ * sets). */
 #ifndef LIMNER_BASE_GROUPS_H
 #define LIMNER_BASE_GROUPS_H
 

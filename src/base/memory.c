@@ -55,7 +55,7 @@ void *mem_realloc(void *block, size_t size)
     if (must_fail() || !work_has_room(size))
         return NULL;
     long long before = block ? (long long)malloc_usable_size(block) : 0;
-    void *moved = realloc(block, size ? size : 1);
+    void     *moved = realloc(block, size ? size : 1);
     if (moved)
         work_count((long long)malloc_usable_size(moved) - before);
     return moved;

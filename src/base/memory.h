@@ -1,4 +1,5 @@
-/* Allocation through one door, so that limits hold (base/work.h) and tests can make the n-th call fail, and arithmetic on sizes that cannot wrap. */
+/* Allocation through one door, so that limits hold (base/work.h) and tests can make the n-th call fail, and
+ * arithmetic on sizes that cannot wrap. */
 #ifndef LIMNER_BASE_MEMORY_H
 #define LIMNER_BASE_MEMORY_H
 
@@ -10,7 +11,7 @@ void *mem_alloc(size_t size);
 void *mem_calloc(size_t count, size_t size);
 void *mem_realloc(void *block, size_t size);
 void  mem_free(void *block);
-char *mem_copy_text(const char *text);                    /* NULL text gives NULL */
+char *mem_copy_text(const char *text); /* NULL text gives NULL */
 void *mem_copy(const void *block, size_t size);
 /* Grows an array to hold at least `count` elements (doubling). False when memory is gone; then nothing changed. */
 bool mem_grow(void **array, size_t *capacity, size_t count, size_t element_size);

@@ -49,12 +49,14 @@ static int whole_chain(int width, int height)
     return levels;
 }
 
-lmn_status mip_chain_create(mip_chain *out, int width, int height, int layers, int levels, mip_format format, lmn_error *error)
+lmn_status mip_chain_create(mip_chain *out, int width, int height, int layers, int levels, mip_format format,
+                            lmn_error *error)
 {
     *out = (mip_chain){.width = width, .height = height, .layers = layers, .format = format};
     if (width < 1 || height < 1 || layers < 1 || layers > 256 || width > SIDE_MAX || height > SIDE_MAX)
-        return error_set(error, LMN_LIMIT, "a texture of %d x %d texels and %d layers; allowed are %d a side and 256 layers", width, height, layers,
-                         SIDE_MAX);
+        return error_set(error, LMN_LIMIT,
+                         "a texture of %d x %d texels and %d layers; allowed are %d a side and 256 layers", width,
+                         height, layers, SIDE_MAX);
     int most = whole_chain(width, height);
     out->levels = levels > 0 && levels < most ? levels : most;
     for (int k = 0; k < out->levels; k++) {

@@ -89,7 +89,7 @@ static const char *parse_exponent(const char *at, const char *end, long *exponen
     if (at >= end || (*at | 0x20) != 'e')
         return at;
     const char *p = at + 1;
-    bool negative = p < end && *p == '-';
+    bool        negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+'))
         p++;
     if (p >= end || *p < '0' || *p > '9')
@@ -127,9 +127,9 @@ const char *text_parse_double(const char *from, const char *end, double *out)
         *out = negative ? -*out : *out;
         return word_end;
     }
-    uint64_t mantissa = 0;
-    long exponent = 0;
-    bool digits = false, behind_point = false;
+    uint64_t    mantissa = 0;
+    long        exponent = 0;
+    bool        digits = false, behind_point = false;
     const char *p = from;
     for (; p < end; p++) {
         if (*p == '.' && !behind_point) {
@@ -250,7 +250,7 @@ static size_t edit_distance(const char *a, size_t a_size, const char *b, size_t 
 const char *text_nearest(const char *name, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
-    size_t length = strlen(name), best_distance = length / 3 + 2;
+    size_t      length = strlen(name), best_distance = length / 3 + 2;
     if (length > NAME_MAX_COMPARED)
         return NULL;
     for (size_t i = 0; i < count; i++) {

@@ -18,8 +18,8 @@ void text_release(text *t);
 /* Hands the string over (free with mem_free); NULL when an append failed. */
 char *text_take(text *t);
 
-/* Parses a decimal number ("-1.5e3", "nan" and "inf" in any case) whatever the locale. Returns the end of the number, or
- * NULL when `from` starts with none. Reads no further than `end`. No leading blanks. */
+/* Parses a decimal number ("-1.5e3", "nan" and "inf" in any case) whatever the locale. Returns the end of the
+ * number, or NULL when `from` starts with none. Reads no further than `end`. No leading blanks. */
 const char *text_parse_double(const char *from, const char *end, double *out);
 const char *text_parse_int(const char *from, const char *end, long long *out);
 /* The whole string must be the number. */

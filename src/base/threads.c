@@ -45,7 +45,7 @@ static void join(pthread_t thread)
 
 void threads_for(size_t count, size_t smallest, threads_fn fn, void *user)
 {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    long   processors = sysconf(_SC_NPROCESSORS_ONLN);
     size_t pieces = processors < 1 ? 1 : processors > THREADS_MAX ? THREADS_MAX : (size_t)processors;
     if (smallest == 0)
         smallest = 1;

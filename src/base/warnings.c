@@ -35,7 +35,7 @@ static void add(warnings *list, warning_code code, const char *message, size_t c
 
 void warnings_add(warnings *list, warning_code code, const char *format, ...)
 {
-    char message[WARNING_TEXT_SIZE];
+    char    message[WARNING_TEXT_SIZE];
     va_list arguments;
     va_start(arguments, format);
     int length = vsnprintf(message, sizeof message, format, arguments);

@@ -6,23 +6,23 @@
 #include <stddef.h>
 
 /* The codes; tests assert these, not the text. */
-#define WARNING_CODES(X)                                                                                              \
-    X(WARNING_IGNORED, "ignored")                 /* valid content that Limner does not use */                        \
-    X(WARNING_MISSING_FILE, "missing-file")       /* a texture or buffer beside the model */                          \
-    X(WARNING_REFUSED_FILE, "refused-file")       /* a file that the model may not have */                            \
-    X(WARNING_BAD_VALUE, "bad-value")             /* a value that was dropped or replaced */                          \
-    X(WARNING_BAD_GEOMETRY, "bad-geometry")       /* degenerate triangles, NaN vertices: left out */                  \
-    X(WARNING_REDUCED, "reduced")                 /* a texture made smaller to keep within limits */                  \
-    X(WARNING_BAD_TEXTURE, "bad-texture")         /* an image that cannot be decoded */                               \
-    X(WARNING_TRANSPARENCY, "transparency")       /* drawn as a cut-out */                                            \
-    X(WARNING_NO_MATCH, "no-match")               /* a rule that selects nothing */                                   \
-    X(WARNING_LAYER_MEMORY, "layer-memory")       /* layers were made the slower way */                           \
-    X(WARNING_CUT_OPEN, "cut-open")               /* parts that are not closed have no cut face */                   \
-    X(WARNING_BACKGROUND, "background")           /* what a .csg file marks with % and does not count as the model */ \
-    X(WARNING_APPROXIMATE, "approximate")         /* drawn nearly as the file means it */                             \
-    X(WARNING_NO_STROKES, "no-strokes")           /* what has no lines in vector drawings */                          \
-    X(WARNING_PAGE, "page")                       /* what does not fit on a sheet, or is not known for it */          \
-    X(WARNING_UNUSED, "unused")                   /* a setting without effect */
+#define WARNING_CODES(X)                                                                                               \
+    X(WARNING_IGNORED, "ignored")           /* valid content that Limner does not use */                               \
+    X(WARNING_MISSING_FILE, "missing-file") /* a texture or buffer beside the model */                                 \
+    X(WARNING_REFUSED_FILE, "refused-file") /* a file that the model may not have */                                   \
+    X(WARNING_BAD_VALUE, "bad-value")       /* a value that was dropped or replaced */                                 \
+    X(WARNING_BAD_GEOMETRY, "bad-geometry") /* degenerate triangles, NaN vertices: left out */                         \
+    X(WARNING_REDUCED, "reduced")           /* a texture made smaller to keep within limits */                         \
+    X(WARNING_BAD_TEXTURE, "bad-texture")   /* an image that cannot be decoded */                                      \
+    X(WARNING_TRANSPARENCY, "transparency") /* drawn as a cut-out */                                                   \
+    X(WARNING_NO_MATCH, "no-match")         /* a rule that selects nothing */                                          \
+    X(WARNING_LAYER_MEMORY, "layer-memory") /* layers were made the slower way */                                      \
+    X(WARNING_CUT_OPEN, "cut-open")         /* parts that are not closed have no cut face */                           \
+    X(WARNING_BACKGROUND, "background")     /* what a .csg file marks with % and does not count as the model */        \
+    X(WARNING_APPROXIMATE, "approximate")   /* drawn nearly as the file means it */                                    \
+    X(WARNING_NO_STROKES, "no-strokes")     /* what has no lines in vector drawings */                                 \
+    X(WARNING_PAGE, "page")                 /* what does not fit on a sheet, or is not known for it */                 \
+    X(WARNING_UNUSED, "unused")             /* a setting without effect */
 
 typedef enum warning_code {
 #define X(name, text) name,

@@ -29,8 +29,13 @@ static size_t machine_memory(void)
 static void begin(work *w, const lmn_task_desc *conditions, lmn_progress_fn progress, void *user)
 {
     double now = clock_ms();
-    work *outer = current;
-    *w = (work){.outer = outer, .conditions = conditions, .progress = progress, .user = user, .stage = "", .poll_ms = now + POLL_MS};
+    work  *outer = current;
+    *w = (work){.outer = outer,
+                .conditions = conditions,
+                .progress = progress,
+                .user = user,
+                .stage = "",
+                .poll_ms = now + POLL_MS};
     w->limits = conditions ? conditions->limits : lmn_limits_standard();
     w->memory = w->limits.memory ? (size_t)w->limits.memory : machine_memory() / 4 * 3;
     current = w;
@@ -53,9 +58,11 @@ static lmn_status explain(const work *w, lmn_error *error)
     switch ((work_stop)atomic_load(&w->stop)) {
     case WORK_GOES_ON: return LMN_OK;
     case WORK_CANCELLED: return error_set(error, LMN_CANCELLED, "cancelled");
-    case WORK_OUT_OF_TIME: return work_exceeded(error, "time", "this takes longer than %g s and was stopped", w->limits.time_s);
+    case WORK_OUT_OF_TIME:
+        return work_exceeded(error, "time", "this takes longer than %g s and was stopped", w->limits.time_s);
     case WORK_OUT_OF_MEMORY:
-        return work_exceeded(error, "memory", "this takes more than %.1f GiB of memory and was stopped", (double)w->memory / (1 << 30));
+        return work_exceeded(error, "memory", "this takes more than %.1f GiB of memory and was stopped",
+                             (double)w->memory / (1 << 30));
     }
     return LMN_OK;
 }
@@ -176,13 +183,14 @@ const lmn_task_desc *work_conditions(void)
 
 lmn_status work_exceeded(lmn_error *error, const char *name, const char *format, ...)
 {
-    char message[512];
+    char    message[512];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     error_set(error, LMN_LIMIT, "%s", message);
-    error_hint(error, "the limit '%s' can be raised: --limit %s=VALUE, or lmn_limits.%s", name, name, strcmp(name, "time") == 0 ? "time_s" : name);
+    error_hint(error, "the limit '%s' can be raised: --limit %s=VALUE, or lmn_limits.%s", name, name,
+               strcmp(name, "time") == 0 ? "time_s" : name);
     return LMN_LIMIT;
 }
 

@@ -6,10 +6,11 @@
 
 extern const kind kind_compose;
 
-extern const technique compose_opaque, compose_superimpose, compose_merged, compose_blueprint, compose_wire, compose_xray;
+extern const technique compose_opaque, compose_superimpose, compose_merged, compose_blueprint, compose_wire,
+    compose_xray;
 
-/* How lines look that are behind something. First member of the parameters of every composition of layers; the first four are
- * read by src/plan, which gives them to the line techniques of hidden layers. */
+/* How lines look that are behind something. First member of the parameters of every composition of layers; the
+ * first four are read by src/plan, which gives them to the line techniques of hidden layers. */
 typedef struct layer_style {
     colour hidden_colour;
     float  hidden_width, hidden_dash, hidden_gap;
@@ -17,42 +18,56 @@ typedef struct layer_style {
     bool   once;
 } layer_style;
 
-#define LAYER_STYLE_ROWS                                                                                                          \
-    PARAM_COLOUR_ROW(layer_style, hidden_colour, .can_auto = true, .def_auto = true, .cpu_only = true,                            \
-                     .doc = "Colour of all lines of hidden layers; auto takes those of the visible ones."),                       \
-    PARAM_FLOAT_ROW(layer_style, hidden_width, .def = 1, .min = 0.5, .max = 32, .soft_max = 8, .unit = UNIT_PX, .can_auto = true, \
-                    .def_auto = true, .cpu_only = true, .doc = "Width of hidden lines; auto takes that of the visible ones."),    \
-    PARAM_FLOAT_ROW(layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 12, .unit = UNIT_PX, .along = true, .cpu_only = true,  \
-                    .doc = "Length of the dashes of hidden lines, along the line; 0 leaves them as visible lines are."),           \
-    PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true, \
-                    .only_if = "hidden_dash", .doc = "Length of the gaps between the dashes of hidden lines."),                   \
-    PARAM_FLOAT_ROW(layer_style, hidden_opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                                \
-                    .doc = "Opacity of the lines of the first hidden layer."),                                                    \
-    PARAM_FLOAT_ROW(layer_style, fade, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                                          \
-                    .doc = "Every layer's lines have this share of the opacity of those in front; 1 keeps all alike."),           \
-    PARAM_FLOAT_ROW(layer_style, clutter, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                       \
-                    .doc = "How much what is behind fades by importance: creases before outlines, and more where many lines "     \
-                           "are in front; nothing is cut off."),                                                                   \
-    PARAM_BOOL_ROW(layer_style, once, .def = 1, .variant = true,                                                                  \
-                   .doc = "An edge that repeats in the next layer is drawn once."),                                               \
-    PARAM_FLOAT_ROW(layer_style, halo, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,                             \
-                    .doc = "Gap in farther lines beside nearer ones, as on drawings of crossing tubes; 0 leaves none.")
+#define LAYER_STYLE_ROWS                                                                                               \
+    PARAM_COLOUR_ROW(layer_style, hidden_colour, .can_auto = true, .def_auto = true, .cpu_only = true,                 \
+                     .doc = "Colour of all lines of hidden layers; auto takes those of the visible ones."),            \
+        PARAM_FLOAT_ROW(layer_style, hidden_width, .def = 1, .min = 0.5, .max = 32, .soft_max = 8, .unit = UNIT_PX,    \
+                        .can_auto = true, .def_auto = true, .cpu_only = true,                                          \
+                        .doc = "Width of hidden lines; auto takes that of the visible ones."),                         \
+        PARAM_FLOAT_ROW(                                                                                               \
+            layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 12, .unit = UNIT_PX, .along = true,  \
+            .cpu_only = true,                                                                                          \
+            .doc = "Length of the dashes of hidden lines, along the line; 0 leaves them as visible lines are."),       \
+        PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX,    \
+                        .along = true, .cpu_only = true, .only_if = "hidden_dash",                                     \
+                        .doc = "Length of the gaps between the dashes of hidden lines."),                              \
+        PARAM_FLOAT_ROW(layer_style, hidden_opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                 \
+                        .doc = "Opacity of the lines of the first hidden layer."),                                     \
+        PARAM_FLOAT_ROW(                                                                                               \
+            layer_style, fade, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                                       \
+            .doc = "Every layer's lines have this share of the opacity of those in front; 1 keeps all alike."),        \
+        PARAM_FLOAT_ROW(                                                                                               \
+            layer_style, clutter, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                    \
+            .doc = "How much what is behind fades by importance: creases before outlines, and more where many lines "  \
+                   "are in front; nothing is cut off."),                                                               \
+        PARAM_BOOL_ROW(layer_style, once, .def = 1, .variant = true,                                                   \
+                       .doc = "An edge that repeats in the next layer is drawn once."),                                \
+        PARAM_FLOAT_ROW(                                                                                               \
+            layer_style, halo, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,                          \
+            .doc = "Gap in farther lines beside nearer ones, as on drawings of crossing tubes; 0 leaves none.")
 
 /* What every composition of layers reads, and the passes behind it. */
-#define LAYER_READS                                                                                                               \
-    {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE, TARGET_NEARER, TARGET_NORMAL_DEPTH, \
-     TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES}
+#define LAYER_READS                                                                                                    \
+    {                                                                                                                  \
+        TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE,            \
+            TARGET_NEARER, TARGET_NORMAL_DEPTH, TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES                   \
+    }
 /* A picture that compositions of layers keep for themselves: nearer lines, on the way to TARGET_NEARER. */
 #define LAYER_NEARER_ROW TARGET_OWN(0)
-#define LAYER_TARGETS .targets = &layer_nearer_row, .target_count = 1
+#define LAYER_TARGETS    .targets = &layer_nearer_row, .target_count = 1
 extern const target_row layer_nearer_row;
 
 /* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the place is. */
-#define NEARER_LINES_PASSES(condition)                                                                                            \
-    {.name = "nearer lines across", .shader = "compose/nearer_row.frag", .reads = {TARGET_EDGE}, .writes = LAYER_NEARER_ROW,     \
-     .when = condition},                                                                                                          \
-    {.name = "nearer lines", .shader = "compose/nearer.frag", .reads = {LAYER_NEARER_ROW, TARGET_NEARER},                        \
-     .writes = TARGET_NEARER, .when = condition}
+#define NEARER_LINES_PASSES(condition)                                                                                 \
+    {.name = "nearer lines across",                                                                                    \
+     .shader = "compose/nearer_row.frag",                                                                              \
+     .reads = {TARGET_EDGE},                                                                                           \
+     .writes = LAYER_NEARER_ROW,                                                                                       \
+     .when = condition},                                                                                               \
+    {                                                                                                                  \
+        .name = "nearer lines", .shader = "compose/nearer.frag", .reads = {LAYER_NEARER_ROW, TARGET_NEARER},           \
+        .writes = TARGET_NEARER, .when = condition                                                                     \
+    }
 #define LAYER_PASSES_BEHIND NEARER_LINES_PASSES("halo"), NEARER_LINES_PASSES("clutter&!halo")
 
 #endif

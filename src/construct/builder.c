@@ -45,7 +45,7 @@ void builder_release(solid_builder *b)
     *b = (solid_builder){0};
 }
 
-/* --- points at the same place ------------------------------------------------------------------------------------- */
+/* --- points at the same place --------------------------------------------------------------------------- */
 
 static uint64_t hash_point(const point3 *p)
 {
@@ -85,7 +85,7 @@ static void use_places(solid_builder *b, const uint32_t *places, uint8_t *used)
     size_t kept = 0;
     for (size_t i = 0; i < b->triangle_count; i++) {
         const uint32_t *t = &b->triangles[i * 3];
-        uint32_t at[3] = {places[t[0]], places[t[1]], places[t[2]]};
+        uint32_t        at[3] = {places[t[0]], places[t[1]], places[t[2]]};
         if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0])
             continue;
         for (int k = 0; k < 3; k++) {
@@ -114,8 +114,8 @@ static void drop_unused(solid_builder *b, uint32_t *numbers, const uint8_t *used
 static bool weld(solid_builder *b)
 {
     uint32_t *places = mem_calloc(b->point_count, sizeof *places);
-    uint8_t *used = mem_calloc(b->point_count, 1);
-    bool done = places && used && find_places(b->points, b->point_count, places);
+    uint8_t  *used = mem_calloc(b->point_count, 1);
+    bool      done = places && used && find_places(b->points, b->point_count, places);
     if (done) {
         use_places(b, places, used);
         drop_unused(b, places, used);
@@ -143,7 +143,7 @@ lmn_status builder_finish(solid_builder *b, polyhedron *out, lmn_error *error)
     return LMN_OK;
 }
 
-/* --- questions ---------------------------------------------------------------------------------------------------- */
+/* --- questions ------------------------------------------------------------------------------------------ */
 
 double polyhedron_volume(const polyhedron *p)
 {
@@ -183,7 +183,7 @@ static int compare_edges(const void *a, const void *b)
 
 bool polyhedron_is_closed(const polyhedron *p, bool *failed)
 {
-    size_t count = p->triangle_count * 3;
+    size_t    count = p->triangle_count * 3;
     uint64_t *edges = mem_calloc(count * 2, sizeof *edges), *back = edges ? edges + count : NULL;
     *failed = !edges;
     if (!edges)

@@ -9,8 +9,8 @@
 /* OpenSCAD takes lengths below this as zero. */
 #define LENGTH_TINY 0.00000095367431640625
 
-/* Sine and cosine of degrees, exact at multiples of 30 and 90 and with the same value in all quadrants: what is symmetric
- * stays so, and a full turn ends where it began. */
+/* Sine and cosine of degrees, exact at multiples of 30 and 90 and with the same value in all quadrants: what is
+ * symmetric stays so, and a full turn ends where it began. */
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 
@@ -43,30 +43,32 @@ bool polyhedron_is_closed(const polyhedron *p, bool *failed);
 lmn_status check_numbers(const char *shape, const double *numbers, size_t count, lmn_error *error);
 lmn_status check_point_count(const char *shape, double count, lmn_error *error);
 
-/* Triangulates outlines in the plane by their winding (GLU): anticlockwise ones enclose, clockwise ones leave out. The triangles'
- * corners are the numbers of the points, counted through all contours. No corner is added: *exact is false where edges cross
- * or touch and the triangles' border is not the contours. Three corners a triangle in *corners, which the caller frees. */
-lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact,
-                                lmn_error *error);
+/* Triangulates outlines in the plane by their winding (GLU): anticlockwise ones enclose, clockwise ones leave out.
+ * The triangles' corners are the numbers of the points, counted through all contours. No corner is added: *exact is
+ * false where edges cross or touch and the triangles' border is not the contours. Three corners a triangle in
+ * *corners, which the caller frees. */
+lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count,
+                                bool *exact, lmn_error *error);
 
-/* --- regions ------------------------------------------------------------------------------------------------------- */
+/* --- regions -------------------------------------------------------------------------------------------- */
 
-/* OpenSCAD's operations on regions work on whole multiples of this. What is not one is cut off towards zero, as there. */
+/* OpenSCAD's operations on regions work on whole multiples of this. What is not one is cut off towards zero, as
+ * there. */
 #define GRID (1.0 / 65536)
 double grid_place(double value);
 
-/* A region that grows contour by contour. Zero-initialise; the first failure to get memory sticks in `failed`. The last contour
- * grows; one of fewer than three points is taken back when it is ended. */
+/* A region that grows contour by contour. Zero-initialise; the first failure to get memory sticks in `failed`. The
+ * last contour grows; one of fewer than three points is taken back when it is ended. */
 typedef struct region_builder {
     contour *contours;
     size_t   count, capacity, point_capacity;
     bool     failed;
 } region_builder;
 
-void builder_contour(region_builder *b);
-void builder_place(region_builder *b, double x, double y);
-void builder_end_contour(region_builder *b);
-void region_builder_release(region_builder *b);
+void       builder_contour(region_builder *b);
+void       builder_place(region_builder *b, double x, double y);
+void       builder_end_contour(region_builder *b);
+void       region_builder_release(region_builder *b);
 lmn_status region_builder_finish(region_builder *b, region *out, lmn_error *error);
 
 /* Twice the signed area. */
@@ -82,8 +84,9 @@ typedef struct plane_edge {
 /* By x, then y; by where they begin, then where they end. */
 int compare_places(const void *a, const void *b);
 int compare_plane_edges(const void *a, const void *b);
-/* The contours around faces that lie side by side, from the edges of all of them, the inside on the left: none crosses another, none
- * touches itself, none has corners on straight lines where no other touches it. Sorts the edges. False when memory is gone. */
+/* The contours around faces that lie side by side, from the edges of all of them, the inside on the left: none
+ * crosses another, none touches itself, none has corners on straight lines where no other touches it. Sorts the
+ * edges. False when memory is gone. */
 bool edges_trace(region *out, plane_edge *edges, size_t count);
 
 /* An edge of a contour of an operand. */
@@ -101,10 +104,12 @@ typedef struct edge_strips {
 /* Owns the edges from now on, on failure too: release it in any case. False when memory is gone. */
 bool edge_strips_make(edge_strips *s, wound_edge *edges, size_t count);
 void edge_strips_release(edge_strips *s);
-/* Adds to each operand's number how often its contours run anticlockwise round the place: edges that cross the ray to the right. */
+/* Adds to each operand's number how often its contours run anticlockwise round the place: edges that cross the ray
+ * to the right. */
 void edge_strips_wind(const edge_strips *s, double x, double y, int *windings);
 
-/* Which places are inside, by how often the contours of each operand run round them. ODD and POSITIVE have one operand. */
+/* Which places are inside, by how often the contours of each operand run round them. ODD and POSITIVE have one
+ * operand. */
 typedef enum cover_rule { COVER_ODD, COVER_POSITIVE, COVER_UNION, COVER_INTERSECTION, COVER_DIFFERENCE } cover_rule;
 /* Contours of any kind on the grid to a region without crossings and without corners on straight lines. */
 lmn_status region_cover(region *out, const region *operands, size_t count, cover_rule rule, lmn_error *error);

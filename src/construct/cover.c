@@ -1,5 +1,6 @@
-/* Contours of any kind to clean regions, by GEOS: all edges are cut where they cross, on a fixed grid; the faces between them are
- * kept or not by how often the contours run round them; what is kept is traced. GEOS takes memory past base/memory.h. */
+/* Contours of any kind to clean regions, by GEOS: all edges are cut where they cross, on a fixed grid; the faces
+ * between them are kept or not by how often the contours run round them; what is kept is traced. GEOS takes memory
+ * past base/memory.h. */
 #include <geos_c.h>
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,7 @@ typedef struct cover {
     edge_strips         edges;
     int                *windings; /* of one place, by operand */
     cover_rule          rule;
-    bool                failed;   /* memory is gone, ours */
+    bool                failed; /* memory is gone, ours */
 } cover;
 
 static void keep_message(const char *message, void *user)
@@ -57,7 +58,7 @@ static lmn_status cover_end(cover *c, lmn_status status, lmn_error *error)
     return LMN_OK;
 }
 
-/* --- contours to lines ---------------------------------------------------------------------------------------------- */
+/* --- contours to lines ---------------------------------------------------------------------------------- */
 
 /* The contour on the grid, without points repeated in a row. */
 static bool make_path(path *out, const contour *from, size_t operand)
@@ -72,7 +73,8 @@ static bool make_path(path *out, const contour *from, size_t operand)
             continue;
         out->points[out->count++] = p;
     }
-    while (out->count > 1 && out->points[0].x == out->points[out->count - 1].x && out->points[0].y == out->points[out->count - 1].y)
+    while (out->count > 1 && out->points[0].x == out->points[out->count - 1].x &&
+           out->points[0].y == out->points[out->count - 1].y)
         out->count--;
     return true;
 }
@@ -128,8 +130,8 @@ static GEOSGeometry *make_geometry(cover *c, bool polygons)
         GEOSCoordSequence *sequence = make_sequence(c, c->paths[made].points, c->paths[made].count);
         if (!sequence)
             break;
-        GEOSGeometry *ring = polygons ? GEOSGeom_createLinearRing_r(c->geos, sequence)
-                                      : GEOSGeom_createLineString_r(c->geos, sequence);
+        GEOSGeometry *ring =
+            polygons ? GEOSGeom_createLinearRing_r(c->geos, sequence) : GEOSGeom_createLineString_r(c->geos, sequence);
         parts[made] = polygons && ring ? GEOSGeom_createPolygon_r(c->geos, ring, NULL, 0) : ring;
         if (!parts[made])
             break;
@@ -143,7 +145,7 @@ static GEOSGeometry *make_geometry(cover *c, bool polygons)
     return all;
 }
 
-/* --- which faces are inside ------------------------------------------------------------------------------------------- */
+/* --- which faces are inside ----------------------------------------------------------------------------- */
 
 static bool index_edges(cover *c)
 {
@@ -171,28 +173,24 @@ static bool is_inside(cover *c, double x, double y)
         all = all && c->windings[i] > 0;
     }
     switch (c->rule) {
-    case COVER_UNION:
-        return first || any;
-    case COVER_INTERSECTION:
-        return first && all;
-    case COVER_DIFFERENCE:
-        return first && !any;
-    default:
-        return first;
+    case COVER_UNION: return first || any;
+    case COVER_INTERSECTION: return first && all;
+    case COVER_DIFFERENCE: return first && !any;
+    default: return first;
     }
 }
 
 /* A face too small to have a place of its own inside is outside. */
 static bool face_is_inside(cover *c, const GEOSGeometry *face)
 {
-    double x, y;
+    double        x, y;
     GEOSGeometry *place = GEOSPointOnSurface_r(c->geos, face);
-    bool found = place && GEOSGeomGetX_r(c->geos, place, &x) == 1 && GEOSGeomGetY_r(c->geos, place, &y) == 1;
+    bool          found = place && GEOSGeomGetX_r(c->geos, place, &x) == 1 && GEOSGeomGetY_r(c->geos, place, &y) == 1;
     GEOSGeom_destroy_r(c->geos, place);
     return found && is_inside(c, x, y);
 }
 
-/* --- back to a region --------------------------------------------------------------------------------------------------- */
+/* --- back to a region ----------------------------------------------------------------------------------- */
 
 typedef struct border {
     plane_edge *edges;
@@ -203,7 +201,7 @@ typedef struct border {
 static point2 *ring_points(cover *c, const GEOSGeometry *ring, size_t *count)
 {
     const GEOSCoordSequence *sequence = GEOSGeom_getCoordSeq_r(c->geos, ring);
-    unsigned size = 0;
+    unsigned                 size = 0;
     if (!sequence || GEOSCoordSeq_getSize_r(c->geos, sequence, &size) != 1 || size < 4)
         return NULL;
     point2 *points = mem_calloc(size, sizeof *points);
@@ -217,7 +215,7 @@ static point2 *ring_points(cover *c, const GEOSGeometry *ring, size_t *count)
 /* The ring's edges, turned so that the inside is on the left. */
 static void add_ring(cover *c, border *out, const GEOSGeometry *ring, bool hole)
 {
-    size_t count;
+    size_t  count;
     point2 *points = ring_points(c, ring, &count);
     if (!points)
         return;
@@ -247,7 +245,7 @@ static void add_polygon(cover *c, border *out, const GEOSGeometry *polygon)
 static lmn_status trace_faces(cover *c, region *out, const GEOSGeometry *faces, bool all)
 {
     border edges = {0};
-    int count = GEOSGetNumGeometries_r(c->geos, faces);
+    int    count = GEOSGetNumGeometries_r(c->geos, faces);
     for (int i = 0; i < count && !c->failed; i++) {
         const GEOSGeometry *face = GEOSGetGeometryN_r(c->geos, faces, i);
         if (all || face_is_inside(c, face))
@@ -261,7 +259,7 @@ static lmn_status trace_faces(cover *c, region *out, const GEOSGeometry *faces, 
 
 static lmn_status cover_paths(cover *c, region *out)
 {
-    lmn_status status = LMN_INTERNAL;
+    lmn_status    status = LMN_INTERNAL;
     GEOSGeometry *lines = make_geometry(c, false), *faces = NULL;
     GEOSGeometry *cut = lines ? GEOSUnaryUnionPrec_r(c->geos, lines, GRID) : NULL;
     if (cut)
@@ -300,7 +298,8 @@ static lmn_status unite_here(region *out, const region *polygons, lmn_error *err
     if (c.failed) {
         status = LMN_MEMORY;
     } else if (c.path_count > 0) {
-        GEOSGeometry *parts = make_geometry(&c, true), *whole = parts ? GEOSUnaryUnionPrec_r(c.geos, parts, GRID) : NULL;
+        GEOSGeometry *parts = make_geometry(&c, true),
+                     *whole = parts ? GEOSUnaryUnionPrec_r(c.geos, parts, GRID) : NULL;
         status = whole ? trace_faces(&c, out, whole, true) : LMN_INTERNAL;
         GEOSGeom_destroy_r(c.geos, whole);
         GEOSGeom_destroy_r(c.geos, parts);
@@ -308,7 +307,7 @@ static lmn_status unite_here(region *out, const region *polygons, lmn_error *err
     return cover_end(&c, status, error);
 }
 
-/* --- behind the fence and before it ------------------------------------------------------------------------------------- */
+/* --- behind the fence and before it --------------------------------------------------------------------- */
 
 enum { UNITE_POLYGONS = 1000 }; /* beside the rules */
 
@@ -323,14 +322,15 @@ static void release_all(region *regions, size_t count)
 static lmn_status cover_request(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(request, size);
-    uint32_t rule = fence_take_u32(&r), count = fence_take_u32(&r);
-    region *operands = mem_calloc(count, sizeof *operands), out = {0};
-    bool good = operands != NULL;
+    uint32_t     rule = fence_take_u32(&r), count = fence_take_u32(&r);
+    region      *operands = mem_calloc(count, sizeof *operands), out = {0};
+    bool         good = operands != NULL;
     for (uint32_t i = 0; good && i < count; i++)
         good = region_take(&operands[i], &r);
     lmn_status status = LMN_MEMORY;
     if (good)
-        status = rule == UNITE_POLYGONS ? unite_here(&out, operands, error) : cover_here(&out, operands, count, (cover_rule)rule, error);
+        status = rule == UNITE_POLYGONS ? unite_here(&out, operands, error)
+                                        : cover_here(&out, operands, count, (cover_rule)rule, error);
     else
         error_memory(error);
     if (status == LMN_OK)
@@ -347,7 +347,7 @@ static lmn_status cover_fenced(region *out, const region *operands, size_t count
     fence_put_u32(&request, (uint32_t)count);
     for (size_t i = 0; i < count; i++)
         region_put(&request, operands[i].contours, operands[i].count);
-    lmn_status status = fence_call_always(&answer, cover_request, "a set operation on regions", &request, error);
+    lmn_status   status = fence_call_always(&answer, cover_request, "a set operation on regions", &request, error);
     fence_reader r = fence_read(answer.bytes, answer.size);
     if (status == LMN_OK && !region_take(out, &r)) {
         region_release(out);
@@ -369,11 +369,13 @@ static bool is_large(const region *operands, size_t count)
 lmn_status region_cover(region *out, const region *operands, size_t count, cover_rule rule, lmn_error *error)
 {
     *out = (region){0};
-    return is_large(operands, count) ? cover_fenced(out, operands, count, (uint32_t)rule, error) : cover_here(out, operands, count, rule, error);
+    return is_large(operands, count) ? cover_fenced(out, operands, count, (uint32_t)rule, error)
+                                     : cover_here(out, operands, count, rule, error);
 }
 
 lmn_status region_unite_polygons(region *out, const region *polygons, lmn_error *error)
 {
     *out = (region){0};
-    return is_large(polygons, 1) ? cover_fenced(out, polygons, 1, UNITE_POLYGONS, error) : unite_here(out, polygons, error);
+    return is_large(polygons, 1) ? cover_fenced(out, polygons, 1, UNITE_POLYGONS, error)
+                                 : unite_here(out, polygons, error);
 }

@@ -4,14 +4,14 @@
 #include "base/memory.h"
 #include "construct/construct_private.h"
 
-/* --- caps --------------------------------------------------------------------------------------------------------- */
+/* --- caps ----------------------------------------------------------------------------------------------- */
 
 /* A region and the triangles that fill it, three corners each. */
 typedef struct cap {
-    region    cleaned; /* empty when the region is used as it is */
+    region        cleaned; /* empty when the region is used as it is */
     const region *outline;
-    uint32_t *corners;
-    size_t    corner_count;
+    uint32_t     *corners;
+    size_t        corner_count;
 } cap;
 
 static void cap_release(cap *c)
@@ -28,8 +28,8 @@ static lmn_status fill(cap *c, const region *r, bool *exact, lmn_error *error)
     return contours_triangulate(r->contours, r->count, &c->corners, &c->corner_count, exact, error);
 }
 
-/* Sides and caps must have the same points. Where an outline's edges touch or cross, by rounding after a turn for example, it is
- * cleaned first. */
+/* Sides and caps must have the same points. Where an outline's edges touch or cross, by rounding after a turn for
+ * example, it is cleaned first. */
 static lmn_status make_cap(cap *c, const region *r, const char *shape, lmn_error *error)
 {
     bool exact = false;
@@ -55,7 +55,7 @@ static void add_caps(solid_builder *b, const cap *c, uint32_t up, uint32_t down)
     }
 }
 
-/* --- linear: how many slices ------------------------------------------------------------------------------------------ */
+/* --- linear: how many slices ---------------------------------------------------------------------------- */
 
 typedef struct slicing {
     double radius; /* of the point farthest from the axis */
@@ -89,11 +89,12 @@ static double spiral_length(double a, double t)
     return 0.5 * a * (t * sqrt(1 + t * t) + asinh(t));
 }
 
-/* The way of the farthest point when it turns and comes nearer to the axis, or goes away from it, at once. OpenSCAD takes the
- * radius before scaling as the larger one in both cases, and so does this. */
+/* The way of the farthest point when it turns and comes nearer to the axis, or goes away from it, at once. OpenSCAD
+ * takes the radius before scaling as the larger one in both cases, and so does this. */
 static double conical_length(double radius, double height, double twist, double scale)
 {
-    double turn = fabs(twist) * PI / 180, end = scale > 1 ? turn * scale / (scale - 1) : turn / (1 - scale), start = end - turn;
+    double turn = fabs(twist) * PI / 180, end = scale > 1 ? turn * scale / (scale - 1) : turn / (1 - scale),
+           start = end - turn;
     double a = radius / end;
     return hypot(spiral_length(a, end) - spiral_length(a, start), height);
 }
@@ -110,7 +111,7 @@ static double slice_count(const region *r, const linear_extrusion *how, const do
     if (how->has_slices)
         return fmax(how->slices, 1);
     slicing s = measure(r, scale);
-    bool even = scale[0] == scale[1];
+    bool    even = scale[0] == scale[1];
     if (how->twist == 0)
         return even ? 1 : slices_of_shift(s.shift, how->height, how->facets);
     double helix = hypot(s.radius * how->twist * PI / 180, how->height);
@@ -118,10 +119,11 @@ static double slice_count(const region *r, const linear_extrusion *how, const do
     return slices_of_turn(length, how->twist, how->facets);
 }
 
-/* --- linear: the sides ------------------------------------------------------------------------------------------------ */
+/* --- linear: the sides ---------------------------------------------------------------------------------- */
 
 /* The region's points at this share of the height: turned, then scaled. */
-static void add_slice(solid_builder *b, const region *r, const linear_extrusion *how, const double scale[2], double share)
+static void add_slice(solid_builder *b, const region *r, const linear_extrusion *how, const double scale[2],
+                      double share)
 {
     double angle = -how->twist * share, c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
     double x = 1 - (1 - scale[0]) * share, y = 1 - (1 - scale[1]) * share;
@@ -143,13 +145,13 @@ static double plane_distance(const solid_builder *b, uint32_t i, uint32_t j)
     return hypot(b->points[i].x - b->points[j].x, b->points[i].y - b->points[j].y);
 }
 
-/* One quad of the side, cut along its shorter diagonal; among equal ones (to ten in a million) the twist decides. Where the slice
- * above is a line, OpenSCAD takes the longer one. */
-static void add_side(solid_builder *b, uint32_t below, uint32_t next_below, uint32_t above, uint32_t next_above, double twist,
-                     bool to_line)
+/* One quad of the side, cut along its shorter diagonal; among equal ones (to ten in a million) the twist decides.
+ * Where the slice above is a line, OpenSCAD takes the longer one. */
+static void add_side(solid_builder *b, uint32_t below, uint32_t next_below, uint32_t above, uint32_t next_above,
+                     double twist, bool to_line)
 {
     double forwards = plane_distance(b, below, next_above), backwards = plane_distance(b, next_below, above);
-    bool equal = fabs(forwards - backwards) * 2e5 <= forwards + backwards;
+    bool   equal = fabs(forwards - backwards) * 2e5 <= forwards + backwards;
     if (equal ? twist > 0 : (forwards < backwards) != to_line)
         builder_quad(b, below, next_below, next_above, above);
     else
@@ -170,15 +172,15 @@ static void add_sides(solid_builder *b, const region *r, uint32_t first, uint32_
 
 static lmn_status extrude(polyhedron *out, const cap *c, const linear_extrusion *how, lmn_error *error)
 {
-    const double scale[2] = {fmax(how->scale[0], 0), fmax(how->scale[1], 0)};
+    const double  scale[2] = {fmax(how->scale[0], 0), fmax(how->scale[1], 0)};
     const region *r = c->outline;
-    double slices = slice_count(r, how, scale);
-    size_t points = region_point_count(r);
-    lmn_status status = check_point_count("linear_extrude", (double)points * (slices + 1), error);
+    double        slices = slice_count(r, how, scale);
+    size_t        points = region_point_count(r);
+    lmn_status    status = check_point_count("linear_extrude", (double)points * (slices + 1), error);
     if (status != LMN_OK)
         return status;
-    bool line = (scale[0] == 0) != (scale[1] == 0);
-    int last = (int)slices;
+    bool          line = (scale[0] == 0) != (scale[1] == 0);
+    int           last = (int)slices;
     solid_builder b = {0};
     for (int i = 0; i <= last; i++)
         add_slice(&b, r, how, scale, i == last ? 1 : (double)i / last);
@@ -191,8 +193,9 @@ static lmn_status extrude(polyhedron *out, const cap *c, const linear_extrusion 
 lmn_status construct_linear_extrude(polyhedron *out, const region *r, const linear_extrusion *how, lmn_error *error)
 {
     *out = (polyhedron){0};
-    cap c;
-    lmn_status status = check_numbers("linear_extrude", (double[]){how->height, how->twist, how->scale[0], how->scale[1]}, 4, error);
+    cap        c;
+    lmn_status status =
+        check_numbers("linear_extrude", (double[]){how->height, how->twist, how->scale[0], how->scale[1]}, 4, error);
     if (status == LMN_OK)
         status = check_region("linear_extrude", r, error);
     if (status != LMN_OK || !(how->height > 0) || r->count == 0)
@@ -205,7 +208,7 @@ lmn_status construct_linear_extrude(polyhedron *out, const region *r, const line
     return status;
 }
 
-/* --- round the axis --------------------------------------------------------------------------------------------------- */
+/* --- round the axis ------------------------------------------------------------------------------------- */
 
 /* The region's points at this angle. Nearly on the axis is on it: there the ring is one place. */
 static void add_ring(solid_builder *b, const region *r, double angle, double reach)
@@ -235,10 +238,10 @@ static void add_turn(solid_builder *b, const region *r, uint32_t from, uint32_t 
 /* A full turn begins at 180 degrees, a part of one at 0. */
 static lmn_status turn(polyhedron *out, const cap *c, double angle, int pieces, double reach, lmn_error *error)
 {
-    bool full = fabs(angle) >= 360;
+    bool          full = fabs(angle) >= 360;
     const region *r = c->outline;
-    size_t points = region_point_count(r);
-    int rings = full ? pieces : pieces + 1;
+    size_t        points = region_point_count(r);
+    int           rings = full ? pieces : pieces + 1;
     solid_builder b = {0};
     for (int i = 0; i < rings; i++)
         add_ring(&b, r, (full ? 180 : 0) + (i == pieces ? angle : angle * i / pieces), reach);
@@ -258,7 +261,8 @@ static lmn_status measure_reach(const region *r, double *reach, lmn_error *error
     *reach = fmax(-low[0], high[0]);
     if (!(low[0] < -1e-12 * *reach && high[0] > 1e-12 * *reach))
         return LMN_OK;
-    error_set(error, LMN_FORMAT, "rotate_extrude: the outline lies on both sides of the axis, from x = %g to %g", low[0], high[0]);
+    error_set(error, LMN_FORMAT, "rotate_extrude: the outline lies on both sides of the axis, from x = %g to %g",
+              low[0], high[0]);
     error_hint(error, "move it to one side, or intersect it with one half of the plane");
     return LMN_FORMAT;
 }
@@ -266,8 +270,8 @@ static lmn_status measure_reach(const region *r, double *reach, lmn_error *error
 lmn_status construct_rotate_extrude(polyhedron *out, const region *r, double angle_degrees, facets f, lmn_error *error)
 {
     *out = (polyhedron){0};
-    double angle = fabs(angle_degrees) > 360 ? 360 : angle_degrees, reach = 0;
-    cap c;
+    double     angle = fabs(angle_degrees) > 360 ? 360 : angle_degrees, reach = 0;
+    cap        c;
     lmn_status status = check_numbers("rotate_extrude", &angle_degrees, 1, error);
     if (status == LMN_OK)
         status = check_region("rotate_extrude", r, error);

@@ -22,9 +22,9 @@ bool region_take(region *out, fence_reader *r)
         return false;
     out->contours = mem_calloc(count, sizeof *out->contours);
     for (uint32_t i = 0; out->contours && i < count; i++) {
-        uint32_t points = fence_take_u32(r);
+        uint32_t    points = fence_take_u32(r);
         const void *at = fence_take(r, (size_t)points * sizeof(point2));
-        point2 *copy = at ? mem_copy(at, (size_t)points * sizeof(point2)) : NULL;
+        point2     *copy = at ? mem_copy(at, (size_t)points * sizeof(point2)) : NULL;
         if (!copy)
             return false;
         out->contours[out->count++] = (contour){.points = copy, .count = points};

@@ -1,5 +1,5 @@
-/* Inside the construct folder: work of the geometry libraries that may take very long runs behind the fence, where it can be stopped at any moment.
- * What is small runs here: starting the child would take longer. */
+/* Inside the construct folder: work of the geometry libraries that may take very long runs behind the fence, where
+ * it can be stopped at any moment. What is small runs here: starting the child would take longer. */
 #ifndef LIMNER_CONSTRUCT_FENCED_H
 #define LIMNER_CONSTRUCT_FENCED_H
 

@@ -18,7 +18,7 @@ static void add_points(solid_builder *b, const field *f, double left, double fro
     for (size_t y = 0; y + 1 < f->rows; y++)
         for (size_t x = 0; x + 1 < f->columns; x++) {
             const double *h = &f->heights[y * f->columns + x];
-            double middle = (h[0] + h[1] + h[f->columns] + h[f->columns + 1]) / 4;
+            double        middle = (h[0] + h[1] + h[f->columns] + h[f->columns + 1]) / 4;
             builder_point(b, left + (double)x + 0.5, front + (double)y + 0.5, middle);
         }
     builder_point(b, left + (double)(f->columns - 1) / 2, front + (double)(f->rows - 1) / 2, f->base);
@@ -38,7 +38,7 @@ static void add_top(solid_builder *b, const field *f)
 /* One step along the rim, anticlockwise from above: a wall down to the base, and the base's triangle to its middle. */
 static void add_wall(solid_builder *b, const field *f, uint32_t from, uint32_t to, uint32_t middle)
 {
-    uint32_t down = (uint32_t)b->point_count;
+    uint32_t      down = (uint32_t)b->point_count;
     const point3 *p = b->failed ? NULL : b->points;
     if (!p)
         return;
@@ -62,7 +62,8 @@ static void add_walls(solid_builder *b, const field *f)
     }
 }
 
-lmn_status construct_heights(polyhedron *out, const double *heights, size_t columns, size_t rows, bool centre, lmn_error *error)
+lmn_status construct_heights(polyhedron *out, const double *heights, size_t columns, size_t rows, bool centre,
+                             lmn_error *error)
 {
     *out = (polyhedron){0};
     lmn_status status = check_point_count("surface", (double)columns * (double)rows * 2, error);

@@ -1,5 +1,5 @@
-/* Convex hulls in space and sums of convex polyhedra, by Qhull's reentrant library. It takes memory past base/memory.h and gives
- * all of it back. */
+/* Convex hulls in space and sums of convex polyhedra, by Qhull's reentrant library. It takes memory past
+ * base/memory.h and gives all of it back. */
 #include <libqhull_r/qhull_ra.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 static void add_facet(qhT *qh, solid_builder *b, facetT *facet)
 {
     uint32_t corners[3] = {0, 0, 0};
-    int count = 0;
+    int      count = 0;
     vertexT *vertex, **vertexp;
     FOREACHvertex_(facet->vertices)
     {
@@ -27,18 +27,19 @@ static void add_facet(qhT *qh, solid_builder *b, facetT *facet)
         builder_triangle(b, corners[0], corners[2], corners[1]);
 }
 
-/* Qhull's exit code. It reports in words as well; to a little memory, because a library does not print, and behind the fence no file can be opened. */
+/* Qhull's exit code. It reports in words as well; to a little memory, because a library does not print, and behind
+ * the fence no file can be opened. */
 static int find_hull_here(solid_builder *b)
 {
     enum { WORDS = 1 << 12 };
-    qhT qh;
+    qhT   qh;
     FILE *nowhere = fmemopen(NULL, WORDS, "w");
     if (!nowhere)
         return qh_ERRmem;
     qh_zero(&qh, nowhere);
     /* Qt: facets of more than three corners become triangles; Pp: no warnings about precision. */
-    char command[] = "qhull Qt Pp";
-    int code = qh_new_qhull(&qh, 3, (int)b->point_count, &b->points->x, False, command, nowhere, nowhere);
+    char    command[] = "qhull Qt Pp";
+    int     code = qh_new_qhull(&qh, 3, (int)b->point_count, &b->points->x, False, command, nowhere, nowhere);
     facetT *facet;
     if (code == qh_ERRnone)
         for (facet = qh.facet_list; facet && facet->next; facet = facet->next)
@@ -72,7 +73,7 @@ static lmn_status hull_request(const unsigned char *request, size_t size, fence_
 static lmn_status find_hull_fenced(solid_builder *b, int *code, lmn_error *error)
 {
     fence_bytes request = {.bytes = (unsigned char *)b->points, .size = b->point_count * sizeof *b->points}, answer;
-    lmn_status status = fence_call_always(&answer, hull_request, "the search for a hull", &request, error);
+    lmn_status  status = fence_call_always(&answer, hull_request, "the search for a hull", &request, error);
     if (status != LMN_OK)
         return status;
     fence_reader r = fence_read(answer.bytes, answer.size);
@@ -92,7 +93,7 @@ static lmn_status find_hull_fenced(solid_builder *b, int *code, lmn_error *error
 static lmn_status finish_hull(solid_builder *b, polyhedron *out, lmn_error *error)
 {
     *out = (polyhedron){0};
-    int code = qh_ERRsingular;
+    int        code = qh_ERRsingular;
     lmn_status status = LMN_OK;
     if (!b->failed && b->point_count > FENCED_HULL_POINTS)
         status = find_hull_fenced(b, &code, error);
@@ -110,7 +111,8 @@ static lmn_status finish_hull(solid_builder *b, polyhedron *out, lmn_error *erro
         builder_release(b);
         /* Flat ones have no hull in space; that is no mistake. */
         bool flat = code == qh_ERRsingular || code == qh_ERRinput || code == qh_ERRprec;
-        return flat ? LMN_OK : error_set(error, LMN_INTERNAL, "no convex hull could be made: Qhull ended with %d", code);
+        return flat ? LMN_OK
+                    : error_set(error, LMN_INTERNAL, "no convex hull could be made: Qhull ended with %d", code);
     }
     status = builder_finish(b, out, error);
     out->convex = status == LMN_OK && out->triangle_count > 0;
@@ -125,7 +127,7 @@ static lmn_status check_points(const char *shape, const polyhedron *p, lmn_error
 lmn_status polyhedron_hull(polyhedron *out, const polyhedron *operands, size_t count, lmn_error *error)
 {
     *out = (polyhedron){0};
-    double total = 0;
+    double     total = 0;
     lmn_status status = LMN_OK;
     for (size_t i = 0; status == LMN_OK && i < count; i++) {
         total += (double)operands[i].point_count;
@@ -159,10 +161,12 @@ lmn_status polyhedron_minkowski(polyhedron *out, const polyhedron *a, const poly
     if (status != LMN_OK || a->triangle_count == 0 || b->triangle_count == 0)
         return status;
     if (!is_convex(a) || !is_convex(b))
-        return error_set(error, LMN_UNSUPPORTED, "minkowski: only sums of convex shapes can be made, and one here is not convex");
+        return error_set(error, LMN_UNSUPPORTED,
+                         "minkowski: only sums of convex shapes can be made, and one here is not convex");
     solid_builder sum = {0};
     for (size_t i = 0; i < a->point_count; i++)
         for (size_t k = 0; k < b->point_count; k++)
-            builder_point(&sum, a->points[i].x + b->points[k].x, a->points[i].y + b->points[k].y, a->points[i].z + b->points[k].z);
+            builder_point(&sum, a->points[i].x + b->points[k].x, a->points[i].y + b->points[k].y,
+                          a->points[i].z + b->points[k].z);
     return finish_hull(&sum, out, error);
 }

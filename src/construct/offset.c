@@ -1,14 +1,15 @@
-/* Offsets of regions. Each edge moves out along its normal; a corner that opens is joined by a mitre, a chamfer or an arc, one that
- * closes goes through the corner itself, so that the loop there runs the other way round and is dropped. */
+/* Offsets of regions. Each edge moves out along its normal; a corner that opens is joined by a mitre, a chamfer or
+ * an arc, one that closes goes through the corner itself, so that the loop there runs the other way round and is
+ * dropped. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "construct/construct_private.h"
 
 typedef struct offsetting {
-    double distance;
-    bool   rounded, chamfer;
-    double step; /* radians of an arc between two points */
+    double         distance;
+    bool           rounded, chamfer;
+    double         step; /* radians of an arc between two points */
     region_builder b;
 } offsetting;
 
@@ -65,7 +66,8 @@ static void join(offsetting *o, point2 at, point2 n, point2 m)
         place(o, at, m.x, m.y);
     } else if (o->rounded) {
         join_arc(o, at, n, m, angle);
-    } else if (o->chamfer || 1 + cosine < 2e-12) { /* a mitre that would run out a million times as far is cut as well */
+    } else if (o->chamfer ||
+               1 + cosine < 2e-12) { /* a mitre that would run out a million times as far is cut as well */
         join_chamfer(o, at, n, m, angle);
     } else {
         place(o, at, (n.x + m.x) / (1 + cosine), (n.y + m.y) / (1 + cosine));
@@ -105,17 +107,19 @@ static void offset_contour(offsetting *o, const contour *c)
     mem_free(points);
 }
 
-/* Radians between two points of an arc; never more than that of a sagitta of a quarter of the radius, nor finer than the grid. */
+/* Radians between two points of an arc; never more than that of a sagitta of a quarter of the radius, nor finer
+ * than the grid. */
 static double arc_step(double distance, int facets)
 {
     double step = fmin(2 * PI / facets, 2 * acos(0.75));
     return fmax(step, 2 * GRID / distance);
 }
 
-lmn_status region_offset(region *out, const region *r, double distance, bool rounded, bool chamfer, facets f, lmn_error *error)
+lmn_status region_offset(region *out, const region *r, double distance, bool rounded, bool chamfer, facets f,
+                         lmn_error *error)
 {
     *out = (region){0};
-    int facets = facets_of_circle(fabs(distance), f);
+    int        facets = facets_of_circle(fabs(distance), f);
     lmn_status status = check_numbers("offset", &distance, 1, error);
     if (status == LMN_OK)
         status = check_region("offset", r, error);

@@ -30,18 +30,19 @@ bool polyhedron_bounds(const polyhedron *p, point3 *low, point3 *high)
 /* Determinant of the upper left 3×3. */
 static double mirrors(const double *m)
 {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+           m[8] * (m[1] * m[6] - m[2] * m[5]);
 }
 
 lmn_status polyhedron_transform(polyhedron *out, const polyhedron *p, const mat4 *m, lmn_error *error)
 {
     *out = (polyhedron){0};
     const double *e = m->m;
-    lmn_status status = check_numbers("multmatrix", e, 16, error);
+    lmn_status    status = check_numbers("multmatrix", e, 16, error);
     if (status != LMN_OK || p->triangle_count == 0)
         return status;
     /* OpenSCAD divides by the last row. */
-    double w = e[15] != 0 ? e[15] : 1;
+    double     w = e[15] != 0 ? e[15] : 1;
     polyhedron moved = *p;
     moved.points = mem_calloc(p->point_count, sizeof *moved.points);
     moved.triangles = mem_copy(p->triangles, p->triangle_count * 3 * sizeof *moved.triangles);
@@ -61,16 +62,17 @@ lmn_status polyhedron_transform(polyhedron *out, const polyhedron *p, const mat4
     return LMN_OK;
 }
 
-/* Beyond this many comparisons of a point with a plane (a second) it is not worth knowing: nothing is wrong without it. */
+/* Beyond this many comparisons of a point with a plane (a second) it is not worth knowing: nothing is wrong without
+ * it. */
 #define CONVEX_TESTS_MAX 5e8
 
 /* Is every point on or behind the plane of this triangle? Slivers have no plane worth asking. */
 static bool all_behind(const polyhedron *p, const uint32_t *t, double extent)
 {
     const point3 *a = &p->points[t[0]], *b = &p->points[t[1]], *c = &p->points[t[2]];
-    double u[3] = {b->x - a->x, b->y - a->y, b->z - a->z}, v[3] = {c->x - a->x, c->y - a->y, c->z - a->z};
-    double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double        u[3] = {b->x - a->x, b->y - a->y, b->z - a->z}, v[3] = {c->x - a->x, c->y - a->y, c->z - a->z};
+    double        n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    double        length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (length <= 1e-12 * extent * extent)
         return true;
     for (size_t i = 0; i < p->point_count; i++) {
@@ -95,12 +97,13 @@ bool polyhedron_check_convex(polyhedron *p)
     return true;
 }
 
-/* --- into a scene --------------------------------------------------------------------------------------------------- */
+/* --- into a scene --------------------------------------------------------------------------------------- */
 
 /* In single precision points may meet; triangles that become edges are left out, and what is closed stays so. */
 static bool make_primitive(primitive *out, const polyhedron *p)
 {
-    *out = (primitive){.vertex_count = (uint32_t)p->point_count, .index_count = (uint32_t)p->triangle_count * 3, .material = NONE};
+    *out = (primitive){
+        .vertex_count = (uint32_t)p->point_count, .index_count = (uint32_t)p->triangle_count * 3, .material = NONE};
     out->positions = mem_calloc(p->point_count, sizeof *out->positions);
     out->indices = mem_copy(p->triangles, p->triangle_count * 3 * sizeof *out->indices);
     if (!out->positions || !out->indices)
@@ -133,7 +136,7 @@ bool polyhedron_into_mesh(mesh *out, const polyhedron *p)
 
 int32_t polyhedron_into_scene(lmn_scene *scene, const polyhedron *p)
 {
-    mesh made;
+    mesh  made;
     mesh *m = polyhedron_into_mesh(&made, p) ? scene_append_mesh(scene) : NULL;
     if (!m) {
         mesh_release(&made);

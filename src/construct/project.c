@@ -5,10 +5,10 @@
 #include "base/memory.h"
 #include "construct/construct_private.h"
 
-/* --- the cut ---------------------------------------------------------------------------------------------------------- */
+/* --- the cut -------------------------------------------------------------------------------------------- */
 
-/* Where the plane cuts one triangle: from the edge on which its border comes down to that on which it goes up, so that the inside
- * is on the left. An edge is known by its two points, the smaller number first. */
+/* Where the plane cuts one triangle: from the edge on which its border comes down to that on which it goes up, so
+ * that the inside is on the left. An edge is known by its two points, the smaller number first. */
 typedef struct segment {
     uint64_t from, to;
     bool     used;
@@ -31,10 +31,10 @@ static bool is_above(const section *s, uint32_t point)
 static void cut_triangle(section *s, const uint32_t *t)
 {
     segment found = {0};
-    int crossings = 0;
+    int     crossings = 0;
     for (int k = 0; k < 3; k++) {
         uint32_t a = t[k], b = t[(k + 1) % 3];
-        bool above = is_above(s, a);
+        bool     above = is_above(s, a);
         if (above == is_above(s, b))
             continue;
         uint64_t edge = a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
@@ -78,18 +78,20 @@ static segment *find_next(const section *s, uint64_t edge)
 static void add_crossing(const section *s, region_builder *b, uint64_t edge)
 {
     const point3 *a = &s->p->points[edge >> 32], *c = &s->p->points[edge & UINT32_MAX];
-    double t = a->z / (a->z - c->z);
+    double        t = a->z / (a->z - c->z);
     builder_place(b, a->x + (c->x - a->x) * t, a->y + (c->y - a->y) * t);
 }
 
-/* Leaves out points where only the triangles of one flat face meet: nearer than this to the line through their neighbours. */
+/* Leaves out points where only the triangles of one flat face meet: nearer than this to the line through their
+ * neighbours. */
 static void drop_straight(contour *c, double nearness)
 {
     size_t kept = 0;
     for (size_t i = 0; i < c->count; i++) {
-        point2 a = c->points[kept > 0 ? kept - 1 : c->count - 1], b = c->points[i], next = c->points[i + 1 < c->count ? i + 1 : 0];
+        point2 a = c->points[kept > 0 ? kept - 1 : c->count - 1], b = c->points[i],
+               next = c->points[i + 1 < c->count ? i + 1 : 0];
         double x = next.x - a.x, y = next.y - a.y, length = hypot(x, y);
-        bool between = (b.x - a.x) * x + (b.y - a.y) * y > 0 && (next.x - b.x) * x + (next.y - b.y) * y > 0;
+        bool   between = (b.x - a.x) * x + (b.y - a.y) * y > 0 && (next.x - b.x) * x + (next.y - b.y) * y > 0;
         if (!between || fabs(x * (b.y - a.y) - y * (b.x - a.x)) > nearness * length)
             c->points[kept++] = b;
     }
@@ -121,9 +123,9 @@ static void chain_segments(section *s, region_builder *b, double nearness)
 
 static lmn_status cut(region *out, const polyhedron *p, bool at_is_above, lmn_error *error)
 {
-    section s = {.p = p, .at_is_above = at_is_above};
+    section        s = {.p = p, .at_is_above = at_is_above};
     region_builder b = {0};
-    point3 low, high;
+    point3         low, high;
     *out = (region){0};
     if (!polyhedron_bounds(p, &low, &high))
         return LMN_OK;
@@ -143,11 +145,12 @@ static lmn_status check_points(const char *shape, const polyhedron *p, lmn_error
     return p->point_count > 0 ? check_numbers(shape, &p->points->x, p->point_count * 3, error) : LMN_OK;
 }
 
-/* A face that lies in the plane belongs to the cut, whether the solid is above it or below: both cases are looked at. */
+/* A face that lies in the plane belongs to the cut, whether the solid is above it or below: both cases are looked
+ * at. */
 lmn_status polyhedron_slice(region *out, const polyhedron *p, lmn_error *error)
 {
     *out = (region){0};
-    region both[2] = {{0}, {0}};
+    region     both[2] = {{0}, {0}};
     lmn_status status = check_points("projection", p, error);
     for (int i = 0; status == LMN_OK && i < 2; i++)
         status = cut(&both[i], p, i == 1, error);
@@ -158,7 +161,7 @@ lmn_status polyhedron_slice(region *out, const polyhedron *p, lmn_error *error)
     return status;
 }
 
-/* --- the shadow ------------------------------------------------------------------------------------------------------- */
+/* --- the shadow ----------------------------------------------------------------------------------------- */
 
 lmn_status polyhedron_shadow(region *out, const polyhedron *p, lmn_error *error)
 {

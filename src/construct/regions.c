@@ -61,7 +61,7 @@ bool region_bounds(const region *r, double low[2], double high[2])
     return low[0] <= high[0];
 }
 
-/* --- growing ---------------------------------------------------------------------------------------------------------- */
+/* --- growing -------------------------------------------------------------------------------------------- */
 
 void builder_contour(region_builder *b)
 {
@@ -116,7 +116,7 @@ lmn_status region_copy(region *out, const region *r, lmn_error *error)
     return region_transform(out, r, (const double[]){1, 0, 0, 1, 0, 0}, error);
 }
 
-/* --- plain regions ---------------------------------------------------------------------------------------------------- */
+/* --- plain regions -------------------------------------------------------------------------------------- */
 
 lmn_status construct_square(region *out, const double size[2], bool centre, lmn_error *error)
 {
@@ -124,8 +124,8 @@ lmn_status construct_square(region *out, const double size[2], bool centre, lmn_
     lmn_status status = check_numbers("square", size, 2, error);
     if (status != LMN_OK || !(size[0] > 0 && size[1] > 0))
         return status;
-    double x1 = centre ? -size[0] / 2 : 0, x2 = centre ? size[0] / 2 : size[0];
-    double y1 = centre ? -size[1] / 2 : 0, y2 = centre ? size[1] / 2 : size[1];
+    double         x1 = centre ? -size[0] / 2 : 0, x2 = centre ? size[0] / 2 : size[0];
+    double         y1 = centre ? -size[1] / 2 : 0, y2 = centre ? size[1] / 2 : size[1];
     region_builder b = {0};
     builder_contour(&b);
     builder_place(&b, x1, y1);
@@ -139,7 +139,7 @@ lmn_status construct_square(region *out, const double size[2], bool centre, lmn_
 lmn_status construct_circle(region *out, double radius, facets f, lmn_error *error)
 {
     *out = (region){0};
-    int count = facets_of_circle(radius, f);
+    int        count = facets_of_circle(radius, f);
     lmn_status status = check_numbers("circle", &radius, 1, error);
     if (status == LMN_OK)
         status = check_point_count("circle", count, error);
@@ -155,8 +155,8 @@ lmn_status construct_circle(region *out, double radius, facets f, lmn_error *err
     return region_builder_finish(&b, out, error);
 }
 
-static lmn_status check_paths(size_t point_count, const uint32_t *corners, const uint32_t *path_sizes, size_t path_count,
-                              lmn_error *error)
+static lmn_status check_paths(size_t point_count, const uint32_t *corners, const uint32_t *path_sizes,
+                              size_t path_count, lmn_error *error)
 {
     double total = 0;
     for (size_t i = 0; i < path_count; i++)
@@ -164,7 +164,8 @@ static lmn_status check_paths(size_t point_count, const uint32_t *corners, const
     lmn_status status = check_point_count("polygon", total, error);
     for (size_t i = 0; status == LMN_OK && i < (size_t)total; i++)
         if (corners[i] >= point_count)
-            return error_set(error, LMN_FORMAT, "polygon: a path has point %u, but there are only %zu", corners[i], point_count);
+            return error_set(error, LMN_FORMAT, "polygon: a path has point %u, but there are only %zu", corners[i],
+                             point_count);
     return status;
 }
 
@@ -192,9 +193,10 @@ lmn_status construct_polygon(region *out, const point2 *points, size_t point_cou
     return status;
 }
 
-/* --- set operations and transforms -------------------------------------------------------------------------------- */
+/* --- set operations and transforms ---------------------------------------------------------------------- */
 
-lmn_status region_combine(region *out, const region *operands, size_t count, region_operation operation, lmn_error *error)
+lmn_status region_combine(region *out, const region *operands, size_t count, region_operation operation,
+                          lmn_error *error)
 {
     static const cover_rule rules[] = {COVER_UNION, COVER_INTERSECTION, COVER_DIFFERENCE};
     *out = (region){0};
@@ -215,7 +217,7 @@ lmn_status region_transform(region *out, const region *r, const double m[6], lmn
     lmn_status status = check_numbers("multmatrix", m, 6, error);
     if (status != LMN_OK)
         return status;
-    double determinant = m[0] * m[3] - m[1] * m[2];
+    double         determinant = m[0] * m[3] - m[1] * m[2];
     region_builder b = {0};
     for (size_t i = 0; determinant != 0 && i < r->count; i++) {
         builder_contour(&b);
@@ -228,7 +230,7 @@ lmn_status region_transform(region *out, const region *r, const double m[6], lmn
     return region_builder_finish(&b, out, error);
 }
 
-/* --- hulls ------------------------------------------------------------------------------------------------------------ */
+/* --- hulls ---------------------------------------------------------------------------------------------- */
 
 /* Does the way from a over b to c turn left? Nearly straight ones do not: such corners are rounding. */
 static bool turns_left(point2 a, point2 b, point2 c)
@@ -265,7 +267,7 @@ static lmn_status hull_of_points(region *out, point2 *points, size_t count, lmn_
     point2 *hull = mem_calloc(count + 1, sizeof *hull);
     if (!hull)
         return error_memory(error);
-    size_t size = find_hull(points, count, hull);
+    size_t         size = find_hull(points, count, hull);
     region_builder b = {0};
     if (size >= 3 && contour_area2(hull, size) > 0) {
         builder_contour(&b);
@@ -280,7 +282,7 @@ static lmn_status hull_of_points(region *out, point2 *points, size_t count, lmn_
 lmn_status region_hull(region *out, const region *operands, size_t count, lmn_error *error)
 {
     *out = (region){0};
-    size_t total = 0, at = 0;
+    size_t     total = 0, at = 0;
     lmn_status status = LMN_OK;
     for (size_t i = 0; status == LMN_OK && i < count; i++) {
         status = check_region("hull", &operands[i], error);
@@ -302,14 +304,14 @@ lmn_status region_hull(region *out, const region *operands, size_t count, lmn_er
     return status;
 }
 
-/* --- sums ------------------------------------------------------------------------------------------------------------- */
+/* --- sums ----------------------------------------------------------------------------------------------- */
 
 static bool is_convex(const region *r)
 {
     if (r->count != 1)
         return false;
     const contour *c = r->contours;
-    double turned = 0;
+    double         turned = 0;
     for (size_t i = 0; i < c->count; i++) {
         point2 p = c->points[i], q = c->points[(i + 1) % c->count], s = c->points[(i + 2) % c->count];
         double ux = q.x - p.x, uy = q.y - p.y, vx = s.x - q.x, vy = s.y - q.y, cross = ux * vy - uy * vx;
@@ -368,7 +370,7 @@ static lmn_status sum_of_borders(region *out, const region *a, const region *b, 
                                   &d->points[(q + 1) % d->count]);
             }
         }
-    region borders;
+    region     borders;
     lmn_status status = region_builder_finish(&sum, &borders, error);
     if (status == LMN_OK)
         status = region_unite_polygons(out, &borders, error);
@@ -412,7 +414,8 @@ lmn_status region_minkowski(region *out, const region *a, const region *b, lmn_e
         return convex_sum(out, a->contours, b->contours, error);
     /* Uniting parallelograms takes far longer than making points. */
     region sum = {0};
-    status = check_point_count("minkowski", 16.0 * (double)region_point_count(a) * (double)region_point_count(b), error);
+    status =
+        check_point_count("minkowski", 16.0 * (double)region_point_count(a) * (double)region_point_count(b), error);
     if (status == LMN_OK)
         status = sum_of_borders(&sum, a, b, error);
     if (status == LMN_OK)

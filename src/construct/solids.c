@@ -19,7 +19,8 @@ lmn_status construct_cube(polyhedron *out, const double size[3], bool centre, lm
     solid_builder b = {0};
     for (int i = 0; i < 8; i++)
         builder_point(&b, i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
-    static const uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+    static const uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                         {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
     for (int i = 0; i < 6; i++)
         builder_quad(&b, faces[i][0], faces[i][1], faces[i][2], faces[i][3]);
     status = builder_finish(&b, out, error);
@@ -56,7 +57,7 @@ static void add_disc(solid_builder *b, uint32_t first, uint32_t count, bool up)
 lmn_status construct_sphere(polyhedron *out, double radius, facets f, lmn_error *error)
 {
     *out = (polyhedron){0};
-    int facets = facets_of_circle(radius, f), rings = (facets + 1) / 2;
+    int        facets = facets_of_circle(radius, f), rings = (facets + 1) / 2;
     lmn_status status = check_numbers("sphere", &radius, 1, error);
     if (status == LMN_OK)
         status = check_point_count("sphere", (double)facets * rings, error);
@@ -76,17 +77,18 @@ lmn_status construct_sphere(polyhedron *out, double radius, facets f, lmn_error 
     return status;
 }
 
-lmn_status construct_cylinder(polyhedron *out, double height, double r1, double r2, bool centre, facets f, lmn_error *error)
+lmn_status construct_cylinder(polyhedron *out, double height, double r1, double r2, bool centre, facets f,
+                              lmn_error *error)
 {
     *out = (polyhedron){0};
-    int facets = facets_of_circle(fmax(r1, r2), f);
+    int        facets = facets_of_circle(fmax(r1, r2), f);
     lmn_status status = check_numbers("cylinder", (double[]){height, r1, r2}, 3, error);
     if (status == LMN_OK)
         status = check_point_count("cylinder", 2.0 * facets, error);
     if (status != LMN_OK || !(height > 0 && r1 >= 0 && r2 >= 0 && fmax(r1, r2) > 0))
         return status;
-    double z1 = centre ? -height / 2 : 0, z2 = centre ? height / 2 : height;
-    uint32_t count = (uint32_t)facets;
+    double        z1 = centre ? -height / 2 : 0, z2 = centre ? height / 2 : height;
+    uint32_t      count = (uint32_t)facets;
     solid_builder b = {0};
     /* The ring of an apex is one place, and welding leaves one triangle of each quad. */
     add_ring(&b, r1, z1, facets);
@@ -101,7 +103,7 @@ lmn_status construct_cylinder(polyhedron *out, double height, double r1, double 
     return status;
 }
 
-/* --- polyhedra from faces ----------------------------------------------------------------------------------------- */
+/* --- polyhedra from faces ------------------------------------------------------------------------------- */
 
 /* Twice the area times the normal (Newell), of corners from last to first: faces come clockwise. */
 static void face_normal(const point3 *points, const uint32_t *corners, uint32_t size, double normal[3])
@@ -130,24 +132,25 @@ static uint32_t face_corners(const point3 *points, const uint32_t *corners, uint
     return kept;
 }
 
-/* Fills a face, looking along the largest part of its normal. What crosses itself there becomes a fan: its edges stay. */
-static lmn_status fill_face(solid_builder *b, const point3 *points, const uint32_t *face, uint32_t size, const double normal[3],
-                            lmn_error *error)
+/* Fills a face, looking along the largest part of its normal. What crosses itself there becomes a fan: its edges
+ * stay. */
+static lmn_status fill_face(solid_builder *b, const point3 *points, const uint32_t *face, uint32_t size,
+                            const double normal[3], lmn_error *error)
 {
     int axis = fabs(normal[0]) > fabs(normal[1]) ? 0 : 1;
     axis = fabs(normal[2]) >= fabs(normal[axis]) ? 2 : axis;
-    bool mirrored = normal[axis] < 0;
+    bool    mirrored = normal[axis] < 0;
     contour outline = {mem_calloc(size, sizeof(point2)), size};
     if (!outline.points)
         return error_memory(error);
     for (uint32_t i = 0; i < size; i++) {
         const double p[3] = {points[face[i]].x, points[face[i]].y, points[face[i]].z};
-        double x = p[(axis + 1) % 3], y = p[(axis + 2) % 3];
+        double       x = p[(axis + 1) % 3], y = p[(axis + 2) % 3];
         outline.points[i] = (point2){mirrored ? -x : x, y};
     }
-    uint32_t *corners = NULL;
-    size_t count = 0;
-    bool exact = false;
+    uint32_t  *corners = NULL;
+    size_t     count = 0;
+    bool       exact = false;
     lmn_status status = contours_triangulate(&outline, 1, &corners, &count, &exact, error);
     for (size_t i = 0; status == LMN_OK && exact && i < count; i += 3)
         builder_triangle(b, face[corners[i]], face[corners[i + 1]], face[corners[i + 2]]);
@@ -158,7 +161,8 @@ static lmn_status fill_face(solid_builder *b, const point3 *points, const uint32
     return status;
 }
 
-static lmn_status add_face(solid_builder *b, const point3 *points, const uint32_t *corners, uint32_t size, lmn_error *error)
+static lmn_status add_face(solid_builder *b, const point3 *points, const uint32_t *corners, uint32_t size,
+                           lmn_error *error)
 {
     if (size < 3)
         return LMN_OK;

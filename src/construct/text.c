@@ -1,5 +1,6 @@
-/* Outlines of letters: Fontconfig finds the font; behind the fence, HarfBuzz says which glyphs stand where and FreeType has their curves. The three
- * take memory past base/memory.h and give it back, but for what Fontconfig keeps about the installed fonts. */
+/* Outlines of letters: Fontconfig finds the font; behind the fence, HarfBuzz says which glyphs stand where and
+ * FreeType has their curves. The three take memory past base/memory.h and give it back, but for what Fontconfig
+ * keeps about the installed fonts. */
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -15,7 +16,8 @@
 #include "construct/construct_private.h"
 #include "fence/fence.h"
 
-/* OpenSCAD sets every font at this size, in 64ths of a point, at 100 dots an inch, and scales the outlines from there. */
+/* OpenSCAD sets every font at this size, in 64ths of a point, at 100 dots an inch, and scales the outlines from
+ * there. */
 #define FONT_SIZE       100000
 #define FONT_RESOLUTION 100
 /* What lies between glyphs comes out a little smaller than the glyphs themselves: 1000 by 1024. So it is there. */
@@ -23,19 +25,19 @@
 #define PIXEL       64
 
 typedef struct lettering {
-    FT_Library       library;
-    FT_Face          face;
-    hb_font_t       *font;
-    hb_buffer_t     *buffer;
-    double           size, spacing;
-    int              segments; /* of one curve */
-    double           x, y;     /* where the glyph begins */
-    point2           last;     /* where the curve begins, in the font's units */
-    region_builder   outline;  /* of one glyph */
-    size_t           points;   /* of all glyphs so far */
+    FT_Library     library;
+    FT_Face        face;
+    hb_font_t     *font;
+    hb_buffer_t   *buffer;
+    double         size, spacing;
+    int            segments; /* of one curve */
+    double         x, y;     /* where the glyph begins */
+    point2         last;     /* where the curve begins, in the font's units */
+    region_builder outline;  /* of one glyph */
+    size_t         points;   /* of all glyphs so far */
 } lettering;
 
-/* --- the font -------------------------------------------------------------------------------------------------------- */
+/* --- the font ------------------------------------------------------------------------------------------- */
 
 /* Is one of the wanted families that of the match? A pattern without a family has no wish. */
 static bool family_matches(FcPattern *wanted, FcPattern *match)
@@ -55,7 +57,7 @@ static FcPattern *match_font(const char *name, bool *missing)
 {
     FcPattern *wanted = FcNameParse((const FcChar8 *)(name && *name ? name : "Liberation Sans"));
     FcPattern *asked = wanted ? FcPatternDuplicate(wanted) : NULL, *match = NULL;
-    FcResult result;
+    FcResult   result;
     if (asked && FcPatternAddBool(asked, FC_SCALABLE, FcTrue) && FcConfigSubstitute(NULL, asked, FcMatchPattern)) {
         FcDefaultSubstitute(asked);
         match = FcFontMatch(NULL, asked, &result);
@@ -68,14 +70,16 @@ static FcPattern *match_font(const char *name, bool *missing)
     return match;
 }
 
-/* The font's file and which of its faces. The name comes from the model: Fontconfig's parser of names sees no more than NAME_LONGEST of it. */
+/* The font's file and which of its faces. The name comes from the model: Fontconfig's parser of names sees no more
+ * than NAME_LONGEST of it. */
 static lmn_status find_font(file_data *out, int *index, const char *name, bool *missing, lmn_error *error)
 {
     enum { NAME_LONGEST = 256 };
     FcChar8 *file;
     *index = 0;
     if (name && strlen(name) > NAME_LONGEST)
-        return error_set(error, LMN_FORMAT, "text: the name of the font has %zu letters; allowed are %d", strlen(name), NAME_LONGEST);
+        return error_set(error, LMN_FORMAT, "text: the name of the font has %zu letters; allowed are %d", strlen(name),
+                         NAME_LONGEST);
     FcPattern *match = match_font(name, missing);
     if (!match || FcPatternGetString(match, FC_FILE, 0, &file) != FcResultMatch) {
         if (match)
@@ -92,12 +96,13 @@ static lmn_status find_font(file_data *out, int *index, const char *name, bool *
 
 static lmn_status open_font(lettering *l, const void *bytes, size_t size, int index, lmn_error *error)
 {
-    bool opened = FT_Init_FreeType(&l->library) == 0 && FT_New_Memory_Face(l->library, bytes, (FT_Long)size, index, &l->face) == 0 &&
+    bool opened = FT_Init_FreeType(&l->library) == 0 &&
+                  FT_New_Memory_Face(l->library, bytes, (FT_Long)size, index, &l->face) == 0 &&
                   FT_Set_Char_Size(l->face, 0, FONT_SIZE, FONT_RESOLUTION, FONT_RESOLUTION) == 0;
     return opened ? LMN_OK : error_set(error, LMN_UNSUPPORTED, "text: the font cannot be read");
 }
 
-/* --- from letters to glyphs -------------------------------------------------------------------------------------------- */
+/* --- from letters to glyphs ----------------------------------------------------------------------------- */
 
 /* Script and direction that are not given come from the text. */
 static lmn_status shape(lettering *l, const char *utf8, const text_style *style, lmn_error *error)
@@ -109,32 +114,34 @@ static lmn_status shape(lettering *l, const char *utf8, const text_style *style,
         hb_buffer_set_direction(l->buffer, hb_direction_from_string(style->direction, -1));
     if (style->script && *style->script)
         hb_buffer_set_script(l->buffer, hb_script_from_string(style->script, -1));
-    hb_buffer_set_language(l->buffer, hb_language_from_string(style->language && *style->language ? style->language : "en", -1));
+    hb_buffer_set_language(l->buffer,
+                           hb_language_from_string(style->language && *style->language ? style->language : "en", -1));
     hb_buffer_guess_segment_properties(l->buffer);
     hb_shape(l->font, l->buffer, NULL, 0);
     return hb_buffer_allocation_successful(l->buffer) ? LMN_OK : error_memory(error);
 }
 
-/* --- where the text stands ------------------------------------------------------------------------------------------- */
+/* --- where the text stands ------------------------------------------------------------------------------ */
 
 /* All in units of the font. */
 typedef struct extent {
-    double advance_x, advance_y; /* with spacing */
+    double advance_x, advance_y;   /* with spacing */
     double width, ascent, descent; /* of the glyphs' boxes in whole pixels */
 } extent;
 
 static extent measure(const lettering *l)
 {
-    unsigned count;
-    hb_glyph_info_t *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
+    unsigned             count;
+    hb_glyph_info_t     *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
     hb_glyph_position_t *places = hb_buffer_get_glyph_positions(l->buffer, &count);
-    extent e = {0};
+    extent               e = {0};
     for (unsigned i = 0; i < count; i++) {
-        FT_BBox box;
+        FT_BBox  box;
         FT_Glyph glyph;
         e.advance_x += places[i].x_advance * l->spacing;
         e.advance_y += places[i].y_advance * l->spacing;
-        if (FT_Load_Glyph(l->face, glyphs[i].codepoint, FT_LOAD_DEFAULT) != 0 || FT_Get_Glyph(l->face->glyph, &glyph) != 0)
+        if (FT_Load_Glyph(l->face, glyphs[i].codepoint, FT_LOAD_DEFAULT) != 0 ||
+            FT_Get_Glyph(l->face->glyph, &glyph) != 0)
             continue;
         FT_Glyph_Get_CBox(glyph, FT_GLYPH_BBOX_PIXELS, &box);
         FT_Done_Glyph(glyph);
@@ -154,8 +161,9 @@ static bool is(const char *word, const char *name)
 static void align(lettering *l, const text_style *style)
 {
     extent e = measure(l);
-    bool vertical = HB_DIRECTION_IS_VERTICAL(hb_buffer_get_direction(l->buffer));
-    double width = vertical ? e.width : e.advance_x, top = vertical ? e.advance_y : e.ascent, bottom = vertical ? 0 : e.descent;
+    bool   vertical = HB_DIRECTION_IS_VERTICAL(hb_buffer_get_direction(l->buffer));
+    double width = vertical ? e.width : e.advance_x, top = vertical ? e.advance_y : e.ascent,
+           bottom = vertical ? 0 : e.descent;
     l->x = is(style->halign, "right") ? -width : is(style->halign, "center") ? -width / 2 : 0;
     if (is(style->valign, "top"))
         l->y = -top;
@@ -165,12 +173,13 @@ static void align(lettering *l, const text_style *style)
         l->y = -bottom;
 }
 
-/* --- from glyphs to outlines ------------------------------------------------------------------------------------------- */
+/* --- from glyphs to outlines ---------------------------------------------------------------------------- */
 
 static void add_point(lettering *l, double x, double y)
 {
     if (l->points++ < LIMIT_SHAPE_POINTS)
-        builder_place(&l->outline, (x / FONT_SIZE + l->x * PLACE_SCALE) * l->size, (y / FONT_SIZE + l->y * PLACE_SCALE) * l->size);
+        builder_place(&l->outline, (x / FONT_SIZE + l->x * PLACE_SCALE) * l->size,
+                      (y / FONT_SIZE + l->y * PLACE_SCALE) * l->size);
     l->last = (point2){x, y};
 }
 
@@ -194,10 +203,11 @@ static int on_line(const FT_Vector *to, void *user)
 static int on_conic(const FT_Vector *middle, const FT_Vector *to, void *user)
 {
     lettering *l = user;
-    point2 from = l->last;
+    point2     from = l->last;
     for (int i = 1; i <= l->segments && l->points < LIMIT_SHAPE_POINTS; i++) {
         double t = (double)i / l->segments, a = (1 - t) * (1 - t), b = 2 * t * (1 - t), c = t * t;
-        add_point(l, a * from.x + b * (double)middle->x + c * (double)to->x, a * from.y + b * (double)middle->y + c * (double)to->y);
+        add_point(l, a * from.x + b * (double)middle->x + c * (double)to->x,
+                  a * from.y + b * (double)middle->y + c * (double)to->y);
     }
     return l->outline.failed;
 }
@@ -205,9 +215,10 @@ static int on_conic(const FT_Vector *middle, const FT_Vector *to, void *user)
 static int on_cubic(const FT_Vector *first, const FT_Vector *second, const FT_Vector *to, void *user)
 {
     lettering *l = user;
-    point2 from = l->last;
+    point2     from = l->last;
     for (int i = 1; i <= l->segments && l->points < LIMIT_SHAPE_POINTS; i++) {
-        double t = (double)i / l->segments, s = 1 - t, a = s * s * s, b = 3 * s * s * t, c = 3 * s * t * t, d = t * t * t;
+        double t = (double)i / l->segments, s = 1 - t, a = s * s * s, b = 3 * s * s * t, c = 3 * s * t * t,
+               d = t * t * t;
         add_point(l, a * from.x + b * (double)first->x + c * (double)second->x + d * (double)to->x,
                   a * from.y + b * (double)first->y + c * (double)second->y + d * (double)to->y);
     }
@@ -215,7 +226,8 @@ static int on_cubic(const FT_Vector *first, const FT_Vector *second, const FT_Ve
 }
 
 /* The glyph's contours where it stands: how many, and each with its points. */
-static lmn_status put_glyph(lettering *l, unsigned glyph, const hb_glyph_position_t *place, fence_bytes *answer, lmn_error *error)
+static lmn_status put_glyph(lettering *l, unsigned glyph, const hb_glyph_position_t *place, fence_bytes *answer,
+                            lmn_error *error)
 {
     static const FT_Outline_Funcs functions = {on_move, on_line, on_conic, on_cubic, 0, 0};
     l->x += place->x_offset;
@@ -238,10 +250,10 @@ static lmn_status put_glyph(lettering *l, unsigned glyph, const hb_glyph_positio
 
 static lmn_status put_glyphs(lettering *l, fence_bytes *answer, lmn_error *error)
 {
-    unsigned count;
-    hb_glyph_info_t *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
+    unsigned             count;
+    hb_glyph_info_t     *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
     hb_glyph_position_t *places = hb_buffer_get_glyph_positions(l->buffer, &count);
-    lmn_status status = LMN_OK;
+    lmn_status           status = LMN_OK;
     fence_put_u32(answer, count);
     for (unsigned i = 0; status == LMN_OK && i < count; i++)
         status = put_glyph(l, glyphs[i].codepoint, &places[i], answer, error);
@@ -259,7 +271,7 @@ static void lettering_release(lettering *l)
         FT_Done_FreeType(l->library);
 }
 
-/* --- behind the fence and before it ------------------------------------------------------------------------------------- */
+/* --- behind the fence and before it --------------------------------------------------------------------- */
 
 /* What stands first in a request. Then: the texts of the style, the text itself, the font. */
 typedef struct text_numbers {
@@ -273,15 +285,16 @@ static lmn_status shape_text(const unsigned char *request, size_t size, fence_by
 {
     fence_reader r = fence_read(request, size);
     text_numbers n = {0};
-    const void *at = fence_take(&r, sizeof n);
+    const void  *at = fence_take(&r, sizeof n);
     if (at)
         memcpy(&n, at, sizeof n);
     char *texts[STYLE_TEXTS + 1];
-    bool good = true;
+    bool  good = true;
     for (int i = 0; i <= STYLE_TEXTS; i++)
         good = (texts[i] = fence_take_text(&r)) && good;
-    const text_style style = {.direction = texts[0], .language = texts[1], .script = texts[2], .halign = texts[3], .valign = texts[4]};
-    lettering l = {.size = n.size, .spacing = n.spacing, .segments = n.segments};
+    const text_style style = {
+        .direction = texts[0], .language = texts[1], .script = texts[2], .halign = texts[3], .valign = texts[4]};
+    lettering  l = {.size = n.size, .spacing = n.spacing, .segments = n.segments};
     lmn_status status = good ? open_font(&l, r.at, (size_t)(r.end - r.at), n.face, error) : error_memory(error);
     if (status == LMN_OK)
         status = shape(&l, texts[STYLE_TEXTS], &style, error);
@@ -300,7 +313,7 @@ static lmn_status take_glyph(region *out, fence_reader *r, lmn_error *error)
 {
     region_builder outline = {0};
     for (uint32_t i = 0, count = fence_take_u32(r); i < count && !r->ended && !outline.failed; i++) {
-        uint32_t points = fence_take_u32(r);
+        uint32_t             points = fence_take_u32(r);
         const unsigned char *at = fence_take(r, (size_t)points * sizeof(point2));
         builder_contour(&outline);
         for (uint32_t k = 0; at && k < points; k++) {
@@ -310,7 +323,7 @@ static lmn_status take_glyph(region *out, fence_reader *r, lmn_error *error)
         }
         builder_end_contour(&outline);
     }
-    region whole;
+    region     whole;
     lmn_status status = region_builder_finish(&outline, &whole, error);
     if (status == LMN_OK)
         status = check_region("text", &whole, error);
@@ -324,11 +337,11 @@ static lmn_status take_glyph(region *out, fence_reader *r, lmn_error *error)
 static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(answer->bytes, answer->size);
-    size_t count = fence_take_u32(&r), made = 0;
+    size_t       count = fence_take_u32(&r), made = 0;
     /* A glyph takes four bytes at least. */
     if (count > answer->size / 4)
         return error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
-    region *glyphs = mem_calloc(count, sizeof *glyphs);
+    region    *glyphs = mem_calloc(count, sizeof *glyphs);
     lmn_status status = glyphs ? LMN_OK : error_memory(error);
     while (status == LMN_OK && made < count)
         if ((status = take_glyph(&glyphs[made], &r, error)) == LMN_OK)
@@ -343,7 +356,8 @@ static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error 
     return status;
 }
 
-lmn_status construct_text(region *out, const char *utf8, const text_style *style, facets f, bool *missing, lmn_error *error)
+lmn_status construct_text(region *out, const char *utf8, const text_style *style, facets f, bool *missing,
+                          lmn_error *error)
 {
     *out = (region){0};
     *missing = false;
@@ -353,10 +367,11 @@ lmn_status construct_text(region *out, const char *utf8, const text_style *style
     if (status != LMN_OK || style->size == 0 || !*utf8)
         return status;
     /* A curve has an eighth of a circle's facets. */
-    text_numbers n = {.size = style->size, .spacing = style->spacing, .segments = facets_of_circle(style->size, f) / 8 + 1};
+    text_numbers n = {
+        .size = style->size, .spacing = style->spacing, .segments = facets_of_circle(style->size, f) / 8 + 1};
     n.segments = n.segments < 2 ? 2 : n.segments;
-    file_data font = {0};
-    int face = 0;
+    file_data   font = {0};
+    int         face = 0;
     fence_bytes request = {0}, answer = {0};
     status = find_font(&font, &face, style->font, missing, error);
     if (status == LMN_OK) {

@@ -17,7 +17,7 @@ int compare_places(const void *a, const void *b)
 int compare_plane_edges(const void *a, const void *b)
 {
     const plane_edge *p = a, *q = b;
-    int order = compare_places(&p->from, &q->from);
+    int               order = compare_places(&p->from, &q->from);
     return order ? order : compare_places(&p->to, &q->to);
 }
 
@@ -31,7 +31,7 @@ typedef struct walk {
     size_t         *position; /* of a vertex on the way; NOWHERE when it is not on it */
     size_t         *way;      /* vertices */
     size_t          way_length;
-    point2         *points;   /* room for one contour */
+    point2         *points; /* room for one contour */
     region_builder *b;
 } walk;
 
@@ -84,8 +84,9 @@ static size_t choose_next(const walk *w, size_t vertex, const plane_edge *arrive
     return best;
 }
 
-/* Leaves out points on the straight line between their neighbours, and spikes; until none is left. Where another contour touches
- * the line the point stays: without it the touching would be found again later, and not by all in the same way. */
+/* Leaves out points on the straight line between their neighbours, and spikes; until none is left. Where another
+ * contour touches the line the point stays: without it the touching would be found again later, and not by all in
+ * the same way. */
 static size_t drop_straight(const walk *w, point2 *points, size_t count)
 {
     size_t before = count + 1;
@@ -93,7 +94,8 @@ static size_t drop_straight(const walk *w, point2 *points, size_t count)
         before = count;
         size_t kept = 0;
         for (size_t i = 0; i < before; i++) {
-            point2 a = points[kept > 0 ? kept - 1 : before - 1], b = points[i], next = points[i + 1 < before ? i + 1 : 0];
+            point2 a = points[kept > 0 ? kept - 1 : before - 1], b = points[i],
+                   next = points[i + 1 < before ? i + 1 : 0];
             bool straight = (b.x - a.x) * (next.y - b.y) == (b.y - a.y) * (next.x - b.x);
             if (!straight || is_shared(w, find_vertex(w, b)))
                 points[kept++] = b;
@@ -124,7 +126,7 @@ static void take_loop(walk *w, size_t from)
 static void walk_from(walk *w, size_t edge)
 {
     const plane_edge *arrived = NULL;
-    size_t vertex = find_vertex(w, w->edges[edge].from);
+    size_t            vertex = find_vertex(w, w->edges[edge].from);
     for (;;) {
         if (w->position[vertex] != NOWHERE) {
             take_loop(w, w->position[vertex]);
@@ -165,7 +167,7 @@ static size_t cancel_inner(plane_edge *edges, size_t count, bool *inner)
 bool edges_trace(region *out, plane_edge *edges, size_t count)
 {
     region_builder b = {0};
-    walk w = {.edges = edges, .b = &b};
+    walk           w = {.edges = edges, .b = &b};
     *out = (region){0};
     w.used = mem_calloc(count, sizeof *w.used);
     w.position = mem_calloc(count, sizeof *w.position);

@@ -1,4 +1,5 @@
-/* Outlines in the plane to triangles, by GLU's tessellator. It takes memory past base/memory.h and gives all of it back. */
+/* Outlines in the plane to triangles, by GLU's tessellator. It takes memory past base/memory.h and gives all of it
+ * back. */
 #include <GL/glu.h>
 #include <math.h>
 #include <stdlib.h>
@@ -45,7 +46,8 @@ static void GLAPIENTRY on_error(GLenum error, void *user)
     f->failed = f->failed || error == GLU_OUT_OF_MEMORY;
 }
 
-/* Two points at the same place are one. Where edges cross no point is made: the border comes out wrong and is found so. */
+/* Two points at the same place are one. Where edges cross no point is made: the border comes out wrong and is found
+ * so. */
 static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat shares[4], void **out, void *user)
 {
     (void)at;
@@ -81,13 +83,13 @@ static bool fill(filling *f, const contour *contours, size_t count)
     return !f->failed;
 }
 
-/* --- is the triangles' border that of the contours? ----------------------------------------------------------------- */
+/* --- is the triangles' border that of the contours? ----------------------------------------------------- */
 
 /* Both directions of each edge of the sum "contours minus triangles": it must be its own reverse, by places. */
-static bool borders_agree(const contour *contours, size_t count, const filling *f, const point2 *points, size_t point_count,
-                          bool *failed)
+static bool borders_agree(const contour *contours, size_t count, const filling *f, const point2 *points,
+                          size_t point_count, bool *failed)
 {
-    size_t total = f->count + point_count, at = 0;
+    size_t      total = f->count + point_count, at = 0;
     plane_edge *edges = mem_calloc(total * 2, sizeof *edges);
     *failed = !edges;
     if (!edges)
@@ -114,18 +116,19 @@ static point2 *all_points(const contour *contours, size_t count, size_t *point_c
     for (size_t i = 0; i < count; i++)
         *point_count += contours[i].count;
     point2 *points = mem_calloc(*point_count, sizeof *points);
-    size_t at = 0;
+    size_t  at = 0;
     for (size_t i = 0; points && i < count; i++)
         for (size_t k = 0; k < contours[i].count; k++)
             points[at++] = contours[i].points[k];
     return points;
 }
 
-static lmn_status triangulate_here(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact, lmn_error *error)
+static lmn_status triangulate_here(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count,
+                                   bool *exact, lmn_error *error)
 {
     filling f = {0};
-    size_t point_count;
-    bool failed = true;
+    size_t  point_count;
+    bool    failed = true;
     point2 *points = all_points(contours, count, &point_count);
     if (points && fill(&f, contours, count))
         *exact = borders_agree(contours, count, &f, points, point_count, &failed) && !f.refused;
@@ -139,17 +142,19 @@ static lmn_status triangulate_here(const contour *contours, size_t count, uint32
     return LMN_OK;
 }
 
-/* --- behind the fence and before it ------------------------------------------------------------------------------------- */
+/* --- behind the fence and before it --------------------------------------------------------------------- */
 
 /* Request: the contours. Answer: whether it is exact, then the corners. */
 static lmn_status triangulate_request(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(request, size);
-    region contours;
-    uint32_t *corners = NULL;
-    size_t count = 0;
-    bool exact = false;
-    lmn_status status = region_take(&contours, &r) ? triangulate_here(contours.contours, contours.count, &corners, &count, &exact, error) : error_memory(error);
+    region       contours;
+    uint32_t    *corners = NULL;
+    size_t       count = 0;
+    bool         exact = false;
+    lmn_status   status = region_take(&contours, &r)
+                              ? triangulate_here(contours.contours, contours.count, &corners, &count, &exact, error)
+                              : error_memory(error);
     if (status == LMN_OK) {
         fence_put_u32(answer, exact);
         fence_put(answer, corners, count * sizeof *corners);
@@ -159,7 +164,8 @@ static lmn_status triangulate_request(const unsigned char *request, size_t size,
     return status;
 }
 
-static lmn_status triangulate_fenced(const contour *contours, size_t count, size_t points, uint32_t **corners, size_t *corner_count, bool *exact, lmn_error *error)
+static lmn_status triangulate_fenced(const contour *contours, size_t count, size_t points, uint32_t **corners,
+                                     size_t *corner_count, bool *exact, lmn_error *error)
 {
     fence_bytes request = {0}, answer;
     region_put(&request, contours, count);
@@ -177,13 +183,15 @@ static lmn_status triangulate_fenced(const contour *contours, size_t count, size
     mem_free(answer.bytes);
     if (*corners && good)
         return LMN_OK;
-    status = *corners ? error_set(error, LMN_INTERNAL, "the division into triangles gave a wrong answer") : error_memory(error);
+    status = *corners ? error_set(error, LMN_INTERNAL, "the division into triangles gave a wrong answer")
+                      : error_memory(error);
     mem_free(*corners);
     *corners = NULL;
     return status;
 }
 
-lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count, bool *exact, lmn_error *error)
+lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count,
+                                bool *exact, lmn_error *error)
 {
     size_t points = 0;
     for (size_t i = 0; i < count; i++)
@@ -191,6 +199,7 @@ lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t 
     *corners = NULL;
     *corner_count = 0;
     *exact = false;
-    return points > FENCED_PLANE_POINTS ? triangulate_fenced(contours, count, points, corners, corner_count, exact, error)
-                                        : triangulate_here(contours, count, corners, corner_count, exact, error);
+    return points > FENCED_PLANE_POINTS
+               ? triangulate_fenced(contours, count, points, corners, corner_count, exact, error)
+               : triangulate_here(contours, count, corners, corner_count, exact, error);
 }

@@ -1,4 +1,5 @@
-/* How often contours run round a place. Edges are kept by horizontal strips, because a set operation asks for many places. */
+/* How often contours run round a place. Edges are kept by horizontal strips, because a set operation asks for many
+ * places. */
 #include <math.h>
 #include <string.h>
 
@@ -34,12 +35,13 @@ static void choose_strips(edge_strips *s)
     s->scale = (double)s->strip_count / (high - s->low);
 }
 
-/* Calls for each strip of each edge; without entries they are only counted, at the place after the next one's beginning. */
+/* Calls for each strip of each edge; without entries they are only counted, at the place after the next one's
+ * beginning. */
 static void visit_strips(edge_strips *s, bool count_only)
 {
     for (size_t i = 0; i < s->edge_count; i++) {
         const wound_edge *e = &s->edges[i];
-        size_t last = strip_of(s, fmax(e->from.y, e->to.y));
+        size_t            last = strip_of(s, fmax(e->from.y, e->to.y));
         for (size_t k = strip_of(s, fmin(e->from.y, e->to.y)); k <= last; k++) {
             if (count_only)
                 s->starts[k + 2]++;
@@ -79,7 +81,7 @@ void edge_strips_wind(const edge_strips *s, double x, double y, int *windings)
     size_t strip = strip_of(s, y);
     for (size_t i = s->starts[strip]; i < s->starts[strip + 1]; i++) {
         const wound_edge *e = &s->edges[s->entries[i]];
-        bool up = e->to.y > y;
+        bool              up = e->to.y > y;
         if ((e->from.y > y) == up)
             continue;
         double side = (e->to.x - e->from.x) * (y - e->from.y) - (e->to.y - e->from.y) * (x - e->from.x);

@@ -18,11 +18,11 @@ typedef struct group {
 
 typedef struct finder {
     const csg_soup *soup;
-    double    middle[3], extent;
-    group    *groups;
-    size_t    group_count, group_capacity;
-    uint32_t *cells; /* open hash of cell to group + 1 */
-    size_t    cell_count; /* a power of two */
+    double          middle[3], extent;
+    group          *groups;
+    size_t          group_count, group_capacity;
+    uint32_t       *cells;      /* open hash of cell to group + 1 */
+    size_t          cell_count; /* a power of two */
 } finder;
 
 static double dot3(const double a[3], const double b[3])
@@ -84,12 +84,13 @@ static uint32_t *cell_of(const finder *f, const int64_t at[KEYS])
     return &f->cells[(h ^ (h >> 29)) & (f->cell_count - 1)];
 }
 
-/* The group whose plane holds the triangle; UINT32_MAX when there is none. Near the border of a cell the neighbours are asked too. */
+/* The group whose plane holds the triangle; UINT32_MAX when there is none. Near the border of a cell the neighbours
+ * are asked too. */
 static uint32_t find_group(const finder *f, size_t triangle, const csg_plane *plane)
 {
     static const double NEAR = 0.05;
-    double c[KEYS];
-    int64_t low[KEYS], high[KEYS], at[KEYS];
+    double              c[KEYS];
+    int64_t             low[KEYS], high[KEYS], at[KEYS];
     coordinates(f, plane, c);
     for (int k = 0; k < KEYS; k++) {
         low[k] = (int64_t)floor(c[k] - NEAR);
@@ -109,7 +110,7 @@ static bool add_group(finder *f, const csg_plane *plane, uint32_t owner)
 {
     if (!mem_grow((void **)&f->groups, &f->group_capacity, f->group_count + 1, sizeof *f->groups))
         return false;
-    double c[KEYS];
+    double  c[KEYS];
     int64_t at[KEYS];
     coordinates(f, plane, c);
     for (int k = 0; k < KEYS; k++)
@@ -125,7 +126,8 @@ static void measure(finder *f)
     box3 box = box3_empty();
     for (size_t i = 0; i < 3 * f->soup->triangle_count; i++)
         box = box3_with_point(box, f->soup->positions[f->soup->indices[i]]);
-    double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z}, high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
+    double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z},
+           high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
     for (int k = 0; k < 3; k++)
         f->middle[k] = (low[k] + high[k]) / 2;
     f->extent = f->soup->extent;
@@ -133,18 +135,18 @@ static void measure(finder *f)
 
 /* Boxes of operands, and for each those of others that meet it, one list after the other. */
 typedef struct neighbours {
-    box3   *boxes;
-    size_t *first; /* per operand, and one more */
+    box3     *boxes;
+    size_t   *first; /* per operand, and one more */
     uint32_t *others;
-    size_t  capacity;
+    size_t    capacity;
 } neighbours;
 
 /* Boxes that lie apart by less than what counts as coincident touch. */
 static bool boxes_meet(const finder *f, box3 a, box3 b)
 {
     float room = (float)(2 * COINCIDENT * f->extent);
-    return a.min.x <= b.max.x + room && b.min.x <= a.max.x + room && a.min.y <= b.max.y + room && b.min.y <= a.max.y + room &&
-           a.min.z <= b.max.z + room && b.min.z <= a.max.z + room;
+    return a.min.x <= b.max.x + room && b.min.x <= a.max.x + room && a.min.y <= b.max.y + room &&
+           b.min.y <= a.max.y + room && a.min.z <= b.max.z + room && b.min.z <= a.max.z + room;
 }
 
 static bool find_neighbours(const finder *f, neighbours *n)
@@ -181,7 +183,7 @@ static bool find_neighbours(const finder *f, neighbours *n)
 static bool meets_another(const finder *f, const neighbours *n, size_t triangle)
 {
     uint32_t owner = f->soup->owners[triangle];
-    box3 box = box3_empty();
+    box3     box = box3_empty();
     for (size_t k = 0; k < 3; k++)
         box = box3_with_point(box, f->soup->positions[f->soup->indices[3 * triangle + k]]);
     for (size_t i = n->first[owner]; i < n->first[owner + 1]; i++)
@@ -230,7 +232,8 @@ static int by_group(const void *a, const void *b)
     return (x->owner > y->owner) - (x->owner < y->owner);
 }
 
-/* The operands of groups that have several, and which of them may lie on each other: most faces that share a plane are far apart. */
+/* The operands of groups that have several, and which of them may lie on each other: most faces that share a plane
+ * are far apart. */
 static bool find_members(const finder *f, const neighbours *n, const uint32_t *group_of, member_list *l)
 {
     size_t room = 0, unique = 0;
@@ -249,17 +252,19 @@ static bool find_members(const finder *f, const neighbours *n, const uint32_t *g
     l->count = unique;
     for (size_t i = 0; i < l->count; i++)
         for (size_t k = i + 1; k < l->count && l->items[k].group == l->items[i].group; k++)
-            if (!(l->items[i].meets && l->items[k].meets) && boxes_meet(f, n->boxes[l->items[i].owner], n->boxes[l->items[k].owner]))
+            if (!(l->items[i].meets && l->items[k].meets) &&
+                boxes_meet(f, n->boxes[l->items[i].owner], n->boxes[l->items[k].owner]))
                 l->items[i].meets = l->items[k].meets = true;
     return true;
 }
 
-static bool number_planes(const finder *f, const neighbours *n, const uint32_t *group_of, uint16_t *numbers, csg_plane **planes, size_t *plane_count)
+static bool number_planes(const finder *f, const neighbours *n, const uint32_t *group_of, uint16_t *numbers,
+                          csg_plane **planes, size_t *plane_count)
 {
     member_list l = {.count = 0};
-    uint16_t *given = mem_calloc(f->group_count + 1, sizeof *given);
-    bool good = given && find_members(f, n, group_of, &l);
-    size_t count = 0;
+    uint16_t   *given = mem_calloc(f->group_count + 1, sizeof *given);
+    bool        good = given && find_members(f, n, group_of, &l);
+    size_t      count = 0;
     for (size_t i = 0; good && i < l.count; i++)
         if (l.items[i].meets && !given[l.items[i].group] && count < CSG_PLANES_MAX)
             given[l.items[i].group] = (uint16_t)++count;
@@ -272,8 +277,9 @@ static bool number_planes(const finder *f, const neighbours *n, const uint32_t *
             p->distance += dot3(p->normal, f->middle);
         }
     for (size_t i = 0; *planes && i < f->soup->triangle_count; i++) {
-        member own = {group_of[i], f->soup->owners[i], false};
-        const member *at = own.group != UINT32_MAX && given[own.group] ? bsearch(&own, l.items, l.count, sizeof own, by_group) : NULL;
+        member        own = {group_of[i], f->soup->owners[i], false};
+        const member *at =
+            own.group != UINT32_MAX && given[own.group] ? bsearch(&own, l.items, l.count, sizeof own, by_group) : NULL;
         numbers[i] = at && at->meets ? given[own.group] : 0;
     }
     mem_free(given);
@@ -287,16 +293,17 @@ bool csg_find_planes(const csg_soup *soup, uint16_t **numbers, csg_plane **plane
     while (f.cell_count < soup->triangle_count)
         f.cell_count *= 2;
     measure(&f);
-    size_t room = soup->triangle_count ? soup->triangle_count : 1;
+    size_t    room = soup->triangle_count ? soup->triangle_count : 1;
     uint32_t *group_of = mem_alloc(room * sizeof *group_of);
     f.cells = mem_calloc(f.cell_count, sizeof *f.cells);
     *numbers = mem_calloc(room, sizeof **numbers);
     *planes = NULL;
     *plane_count = 0;
     neighbours n = {.boxes = NULL};
-    bool good = group_of && f.cells && *numbers;
+    bool       good = group_of && f.cells && *numbers;
     if (good && f.extent > 0)
-        good = find_neighbours(&f, &n) && sort_into_groups(&f, &n, group_of) && number_planes(&f, &n, group_of, *numbers, planes, plane_count);
+        good = find_neighbours(&f, &n) && sort_into_groups(&f, &n, group_of) &&
+               number_planes(&f, &n, group_of, *numbers, planes, plane_count);
     mem_free(n.boxes);
     mem_free(n.first);
     mem_free(n.others);

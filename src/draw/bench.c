@@ -49,7 +49,8 @@ static json_t *passes_of(series *s, int repeat)
         frame_draw(f, s->session.out);
     json_t *array = json_array();
     for (size_t i = 0; i < f->profile.count; i++)
-        json_array_append_new(array, json_pack("{s:s, s:f}", "name", f->profile.times[i].name, "ms", f->profile.times[i].ms / repeat));
+        json_array_append_new(
+            array, json_pack("{s:s, s:f}", "name", f->profile.times[i].name, "ms", f->profile.times[i].ms / repeat));
     return array;
 }
 
@@ -58,8 +59,8 @@ static json_t *series_json(series *s, const series *plain, int repeat)
     double *ratios = mem_alloc(sizeof(double) * (size_t)repeat);
     for (int i = 0; ratios && i < repeat; i++)
         ratios[i] = s->ms[i] / plain->ms[i];
-    json_t *out = json_pack("{s:f, s:f, s:o}", "ms", median_of(s->ms, repeat), "ratio", ratios ? median_of(ratios, repeat) : 0.0,
-                            "passes", passes_of(s, repeat));
+    json_t *out = json_pack("{s:f, s:f, s:o}", "ms", median_of(s->ms, repeat), "ratio",
+                            ratios ? median_of(ratios, repeat) : 0.0, "passes", passes_of(s, repeat));
     mem_free(ratios);
     return out;
 }
@@ -72,16 +73,18 @@ static lmn_status measure(char **out, series *all, size_t count, const lmn_look 
             double ms = time_frame(&all[k]);
             if (i >= 0)
                 all[k].ms[i] = ms;
-            if (desc->progress && !desc->progress((double)(i + WARM_UPS) / (repeat + WARM_UPS), "measuring", desc->progress_user))
+            if (desc->progress &&
+                !desc->progress((double)(i + WARM_UPS) / (repeat + WARM_UPS), "measuring", desc->progress_user))
                 return error_set(error, LMN_CANCELLED, "cancelled");
         }
     const gpu_capabilities *facts = gpu_capabilities_of(r->g);
-    json_t *root = json_object(), *table = json_object();
+    json_t                 *root = json_object(), *table = json_object();
     json_object_set_new(root, "plain_ms", json_real(median_of(all[0].ms, repeat)));
     json_object_set_new(root, "size", json_pack("[i, i]", desc->width, desc->height));
     json_object_set_new(root, "triangles", json_integer((json_int_t)r->up.triangles));
-    json_object_set_new(root, "gpu", json_pack("{s:s, s:s, s:s}", "vendor", facts->vendor, "renderer", facts->renderer, "version",
-                                               facts->version));
+    json_object_set_new(
+        root, "gpu",
+        json_pack("{s:s, s:s, s:s}", "vendor", facts->vendor, "renderer", facts->renderer, "version", facts->version));
     for (size_t k = 1; k < count; k++)
         json_object_set_new(table, looks[k - 1]->name, series_json(&all[k], &all[0], repeat));
     json_object_set_new(root, "looks", table);
@@ -94,12 +97,13 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
                       const lmn_look *plain, const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
     *out = NULL;
-    series *all = mem_calloc(count + 1, sizeof *all);
+    series    *all = mem_calloc(count + 1, sizeof *all);
     lmn_status status = all ? LMN_OK : error_memory(error);
-    warnings notes = {0};
+    warnings   notes = {0};
     for (size_t k = 0; k <= count && status == LMN_OK; k++) {
         all[k].ms = mem_calloc((size_t)repeat, sizeof(double));
-        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain, &(draw_options){.desc = desc}, &notes, error)
+        status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain,
+                                          &(draw_options){.desc = desc}, &notes, error)
                            : error_memory(error);
     }
     if (status == LMN_OK)

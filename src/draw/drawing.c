@@ -56,18 +56,22 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, lmn_error 
 static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_desc *desc, lmn_error *error)
 {
     const lmn_scene *scene = p->scene;
-    upload_desc wanted = {.crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
-    bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) && (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
-    bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene && r->up.revision == scene->revision && same_meshes;
+    upload_desc      wanted = {
+             .crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
+    bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) &&
+                       (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
+    bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
+                 r->up.revision == scene->revision && same_meshes;
     if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
         return LMN_OK;
     upload earlier = r->up;
-    bool related = r->up_valid && earlier.identity == scene->identity && same_meshes;
+    bool   related = r->up_valid && earlier.identity == scene->identity && same_meshes;
     if (related)
         wanted.needs = earlier.needs; /* what is taken over has them */
     else
         upload_release(&earlier, r->g); /* at once: two scenes may not fit */
-    lmn_status status = upload_create(&r->up, r->g, &r->pose, &wanted, related ? &earlier : NULL, desc->progress, desc->progress_user, error);
+    lmn_status status = upload_create(&r->up, r->g, &r->pose, &wanted, related ? &earlier : NULL, desc->progress,
+                                      desc->progress_user, error);
     if (status != LMN_OK)
         refuse_in_file(error, scene);
     upload_release(&earlier, r->g);
@@ -94,18 +98,25 @@ static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *
         if (scene->nodes[i].light < 0)
             continue;
         if (scene->lights[scene->nodes[i].light].type != LIGHT_DIRECTIONAL)
-            warnings_add(notes, WARNING_UNUSED, "scene.shadows: the file's first light shines from a place; only light from one direction throws shadows");
+            warnings_add(notes, WARNING_UNUSED,
+                         "scene.shadows: the file's first light shines from a place; only light from one direction "
+                         "throws shadows");
         return;
     }
 }
 
 /* The plan, and on the GPU what it needs. */
-static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side, warnings *notes, lmn_error *error)
+static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side,
+                          warnings *notes, lmn_error *error)
 {
-    lmn_renderer *r = s->renderer;
+    lmn_renderer        *r = s->renderer;
     const lmn_draw_desc *desc = w->desc;
-    plan_options options = {.select = desc->select, .background = desc->background, .pixel_scale = side, .as_sprites = w->maps, .surfaces_only = w->surfaces_only};
-    lmn_status status = room_check_sides(r->g, desc->width, desc->height, side, error);
+    plan_options         options = {.select = desc->select,
+                                    .background = desc->background,
+                                    .pixel_scale = side,
+                                    .as_sprites = w->maps,
+                                    .surfaces_only = w->surfaces_only};
+    lmn_status           status = room_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
         status = bring_pose(r, scene, error);
     if (status == LMN_OK)
@@ -115,7 +126,9 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
     if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
         gpu_targets_trim(r->g);
     if (status == LMN_OK)
-        status = room_check(r->g, &s->plan, &(room_options){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)}, error);
+        status = room_check(r->g, &s->plan,
+                            &(room_options){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)},
+                            error);
     if (status == LMN_OK)
         note_lights(scene, look, notes);
     if (status == LMN_OK)
@@ -123,11 +136,12 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
     return status;
 }
 
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, warnings *notes, lmn_error *error)
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                        const draw_options *options, warnings *notes, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
-    int side = options->maps ? 1 : square_root(desc->samples);
-    frame *f = &s->frame;
+    int                  side = options->maps ? 1 : square_root(desc->samples);
+    frame               *f = &s->frame;
     memset(s, 0, sizeof *s);
     s->renderer = r;
     gpu_make_current(r->g);
@@ -210,16 +224,18 @@ static lmn_status refuse_strokes(const refusal *r, const session *s, const uploa
     bool solids = false, cut = false;
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
-        bool strokes = has_strokes(fig->rule);
+        bool          strokes = has_strokes(fig->rule);
         solids = solids || (strokes && has_solids(&s->plan, fig));
         cut = cut || (strokes && up->section.cut.cell_count > 0);
     }
     const char *instead = "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)";
-    lmn_status status = LMN_OK;
+    lmn_status  status = LMN_OK;
     if (solids)
-        status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, instead, "lines 'strokes' are those of meshes: solids have none");
+        status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, instead,
+                        "lines 'strokes' are those of meshes: solids have none");
     if (cut && status == LMN_OK)
-        status = refuse(r, LMN_USAGE, WARNING_UNUSED, instead, "lines 'strokes' are those of whole parts: what a section takes away is drawn too");
+        status = refuse(r, LMN_USAGE, WARNING_UNUSED, instead,
+                        "lines 'strokes' are those of whole parts: what a section takes away is drawn too");
     return status;
 }
 
@@ -227,11 +243,12 @@ static lmn_status refuse_strokes(const refusal *r, const session *s, const uploa
 static lmn_status refuse_marks(const refusal *r, const session *s)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
-        const figure *fig = &s->plan.figures[i];
+        const figure        *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
         if (!surface || !surface->technique->surface->marks || fig->unmarked || !has_solids(&s->plan, fig))
             continue;
-        lmn_status status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, "'dots' and 'hatch' are worked out on any surface (--set surface.technique=hatch)",
+        lmn_status status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED,
+                                   "'dots' and 'hatch' are worked out on any surface (--set surface.technique=hatch)",
                                    "surface '%s' lies on meshes: solids have none", surface->technique->name);
         if (status != LMN_OK)
             return status;
@@ -242,25 +259,28 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
 static void note_marks(const session *s, warnings *notes)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
-        const figure *fig = &s->plan.figures[i];
+        const figure        *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE), *compose = rule_shades_again(fig->rule);
         if (!surface || !surface->technique->surface->marks || fig->unmarked)
             continue;
         if (compose)
-            warnings_add(notes, WARNING_UNUSED, "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them", compose->technique->name, surface->technique->name);
+            warnings_add(notes, WARNING_UNUSED,
+                         "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them",
+                         compose->technique->name, surface->technique->name);
     }
 }
 
 /* What could not be drawn as it was asked for. */
-static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const session *s)
+static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                       const session *s)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
-    const upload *up = &r->up;
-    bool cut_out = false, spares = false;
+    const upload       *up = &r->up;
+    bool                cut_out = false, spares = false;
     note_marks(s, &d->warnings);
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
-        bool blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;
+        bool             blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;
         cut_out = blended && s->plan.opaque[item->part_index]; /* what is seen through keeps its opacity */
     }
     if (cut_out)
@@ -268,8 +288,8 @@ static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *s
     if (up->section.cut.cell_count > 0 && up->triangles == 0)
         warnings_add(&d->warnings, WARNING_UNUSED, "the section leaves nothing of the model: the page stays empty");
     if (up->open_parts)
-        warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there", up->open_parts,
-                     scene->part_count);
+        warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there",
+                     up->open_parts, scene->part_count);
     for (size_t i = 0; up->section.spared && i < up->part_count; i++)
         spares = spares || up->section.spared[i];
     if (up->section.spared && v->cut_keep.text[0] && !spares)
@@ -296,18 +316,19 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     refusal refusals = {scene, desc->lenient, &d->warnings, error};
     status = refuse_time(&refusals, look, desc->time_s, true);
     if (status == LMN_OK && s->plan.figure_count == 0)
-        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL, "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
+        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL,
+                        "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
     if (status == LMN_OK)
         status = refuse_strokes(&refusals, s, &r->up);
     return status == LMN_OK ? refuse_marks(&refusals, s) : status;
 }
 
 /* An extra frame with one sample and all buffers read back. */
-static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
-                            lmn_error *error)
+static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                            const lmn_draw_desc *desc, lmn_error *error)
 {
     enum { LARGE = 1 << 21 }; /* pixels from which on the drawing's own pictures are not kept while maps are read */
-    session s;
+    session  s;
     warnings ignored = {0};
     if ((int64_t)desc->width * desc->height >= LARGE)
         gpu_targets_trim(r->g);
@@ -346,7 +367,8 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
     d->layers = s->frame.producer ? s->frame.layers : 1;
     d->producer = s->frame.producer;
     if (s->frame.lists_full)
-        warnings_add(&d->warnings, WARNING_LAYER_MEMORY, "layers did not fit into layers.memory and were peeled instead, which takes longer");
+        warnings_add(&d->warnings, WARNING_LAYER_MEMORY,
+                     "layers did not fit into layers.memory and were peeled instead, which takes longer");
     if (status == LMN_OK)
         status = read_pixels(d, s, error);
     if (status != LMN_OK || !desc->profile)
@@ -362,7 +384,8 @@ static bool cancelled(const lmn_draw_desc *desc, double fraction, const char *st
     return desc->progress && !desc->progress(fraction, stage, desc->progress_user);
 }
 
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, lmn_error *error)
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                         const draw_options *options, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
     *out = NULL;
@@ -371,7 +394,7 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
         return error_memory(error);
     d->width = desc->width;
     d->height = desc->height;
-    session s;
+    session    s;
     lmn_status status = session_open(&s, r, scene, look, options, &d->warnings, error);
     if (status == LMN_OK && cancelled(desc, 0.3, "drawing"))
         status = error_set(error, LMN_CANCELLED, "cancelled");

@@ -9,41 +9,42 @@
 #include "stage/made_textures.h"
 
 struct lmn_renderer {
-    gpu            *g;
-    pose            pose; /* of the last scene that was drawn */
-    upload          up;
+    gpu             *g;
+    pose             pose; /* of the last scene that was drawn */
+    upload           up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
-    bool            up_valid;
-    made_textures   made;
-    int             width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
+    bool             up_valid;
+    made_textures    made;
+    int width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
 };
 
 struct lmn_drawing {
-    int         width, height;
-    uint8_t    *pixels; /* RGBA, row 0 on top */
-    frame_maps  maps;   /* all NULL unless asked for */
-    warnings    warnings;
+    int        width, height;
+    uint8_t   *pixels; /* RGBA, row 0 on top */
+    frame_maps maps;   /* all NULL unless asked for */
+    warnings   warnings;
     /* for the report */
     report_facts facts;
-    view_camera camera;
-    char       *vendor, *renderer, *version;
-    uint64_t   *part_pixels; /* per part; NULL unless profiled */
-    double      frame_ms;
-    gpu_profile profile;
-    uint64_t    strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
-    int         layers;
-    const char *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
-    size_t      programs; /* compiled by the renderer so far */
+    view_camera  camera;
+    char        *vendor, *renderer, *version;
+    uint64_t    *part_pixels; /* per part; NULL unless profiled */
+    double       frame_ms;
+    gpu_profile  profile;
+    uint64_t     strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
+    int          layers;
+    const char  *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
+    size_t       programs; /* compiled by the renderer so far */
 };
 
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
 /* What a drawing is made for. */
 typedef struct draw_options {
     const lmn_draw_desc *desc;
-    bool                 maps;          /* its buffers alone, one sample a pixel */
-    bool                 surfaces_only; /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
+    bool                 maps; /* its buffers alone, one sample a pixel */
+    bool surfaces_only;        /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
 } draw_options;
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, lmn_error *error);
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                         const draw_options *options, lmn_error *error);
 void       renderer_destroy(lmn_renderer **r);
 char      *renderer_json(const lmn_renderer *r);
 char      *drawing_report_json(const lmn_drawing *d);
@@ -57,7 +58,8 @@ typedef struct session {
     frame         frame;
     gpu_texture  *out;
 } session;
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options, warnings *notes, lmn_error *error);
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                        const draw_options *options, warnings *notes, lmn_error *error);
 void       session_close(session *s);
 
 lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,

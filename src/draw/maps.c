@@ -1,4 +1,6 @@
-/* The maps as files: depth.pfm, normal.pfm, id.png, edge.png, shade.png, uncertainty.pfm where something is perturbed, direction.pfm where strokes follow the form on the page, and the same for each layer. PNG rows run from the top, PFM rows from the bottom. */
+/* The maps as files: depth.pfm, normal.pfm, id.png, edge.png, shade.png, uncertainty.pfm where something is
+ * perturbed, direction.pfm where strokes follow the form on the page, and the same for each layer. PNG rows run
+ * from the top, PFM rows from the bottom. */
 #include "draw/maps.h"
 
 #include <math.h>
@@ -17,7 +19,7 @@ static lmn_status store(const char *directory, const char *name, export_bytes *b
 {
     text path = {0};
     text_append(&path, "%s/%s", directory, name);
-    char *finished = text_take(&path);
+    char      *finished = text_take(&path);
     lmn_status status = finished ? file_store(finished, bytes->data, bytes->size, error) : error_memory(error);
     mem_free(finished);
     mem_free(bytes->data);
@@ -31,27 +33,30 @@ static uint8_t byte_of(float v)
 }
 
 /* Part ids of a map, or of one of its layers when that is not NULL. */
-static lmn_status write_ids(const frame_maps *m, const layer_map *layer, size_t part_count, const char *directory, const char *name,
-                            lmn_error *error)
+static lmn_status write_ids(const frame_maps *m, const layer_map *layer, size_t part_count, const char *directory,
+                            const char *name, lmn_error *error)
 {
-    size_t count = (size_t)m->width * (size_t)m->height;
-    bool wide = part_count > IDS_IN_16_BITS;
+    size_t         count = (size_t)m->width * (size_t)m->height;
+    bool           wide = part_count > IDS_IN_16_BITS;
     unsigned char *pixels = mem_calloc(count, 4);
     if (!pixels)
         return error_memory(error);
     for (int y = 0; y < m->height; y++)
         for (int x = 0; x < m->width; x++) {
-            size_t from = (size_t)(m->height - 1 - y) * (size_t)m->width + (size_t)x;
+            size_t   from = (size_t)(m->height - 1 - y) * (size_t)m->width + (size_t)x;
             uint32_t id = layer ? layer[from].id : m->id[from];
-            size_t at = (size_t)y * (size_t)m->width + (size_t)x;
+            size_t   at = (size_t)y * (size_t)m->width + (size_t)x;
             if (wide)
-                memcpy(pixels + 4 * at, (unsigned char[]){(unsigned char)id, (unsigned char)(id >> 8), (unsigned char)(id >> 16), 255}, 4);
+                memcpy(pixels + 4 * at,
+                       (unsigned char[]){(unsigned char)id, (unsigned char)(id >> 8), (unsigned char)(id >> 16), 255},
+                       4);
             else
                 memcpy(pixels + 2 * at, &(uint16_t){(uint16_t)id}, 2);
         }
     export_bytes bytes;
-    lmn_status status = wide ? export_png(&bytes, pixels, m->width, m->height, error)
-                             : export_png_grey16(&bytes, (const uint16_t *)(const void *)pixels, m->width, m->height, error);
+    lmn_status   status =
+        wide ? export_png(&bytes, pixels, m->width, m->height, error)
+               : export_png_grey16(&bytes, (const uint16_t *)(const void *)pixels, m->width, m->height, error);
     mem_free(pixels);
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
 }
@@ -84,10 +89,10 @@ static void layer_shade_texel(const void *source, size_t index, uint8_t out[4])
 }
 
 /* An RGBA picture, row 0 on top, of a source whose row 0 is at the bottom. */
-static lmn_status write_picture(const frame_maps *m, texel_fn *texel, const void *source, const char *directory, const char *name,
-                                lmn_error *error)
+static lmn_status write_picture(const frame_maps *m, texel_fn *texel, const void *source, const char *directory,
+                                const char *name, lmn_error *error)
 {
-    size_t width = (size_t)m->width, height = (size_t)m->height;
+    size_t   width = (size_t)m->width, height = (size_t)m->height;
     uint8_t *pixels = mem_alloc(width * height * 4);
     if (!pixels)
         return error_memory(error);
@@ -95,31 +100,33 @@ static lmn_status write_picture(const frame_maps *m, texel_fn *texel, const void
         for (size_t x = 0; x < width; x++)
             texel(source, (height - 1 - y) * width + x, &pixels[4 * (y * width + x)]);
     export_bytes bytes;
-    lmn_status status = export_png_raw(&bytes, pixels, m->width, m->height, error);
+    lmn_status   status = export_png_raw(&bytes, pixels, m->width, m->height, error);
     mem_free(pixels);
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
 }
 
-static lmn_status write_layer_floats(const frame_maps *m, const layer_map *layer, int channels, const char *directory, const char *name,
-                                     lmn_error *error)
+static lmn_status write_layer_floats(const frame_maps *m, const layer_map *layer, int channels, const char *directory,
+                                     const char *name, lmn_error *error)
 {
     size_t count = (size_t)m->width * (size_t)m->height;
     float *values = mem_alloc(count * (size_t)channels * sizeof *values);
     if (!values)
         return error_memory(error);
     for (size_t i = 0; i < count; i++)
-        memcpy(&values[i * (size_t)channels], channels == 1 ? &layer[i].depth : layer[i].normal, (size_t)channels * sizeof *values);
+        memcpy(&values[i * (size_t)channels], channels == 1 ? &layer[i].depth : layer[i].normal,
+               (size_t)channels * sizeof *values);
     export_bytes bytes;
-    lmn_status status = export_pfm(&bytes, values, channels, m->width, m->height, error);
+    lmn_status   status = export_pfm(&bytes, values, channels, m->width, m->height, error);
     mem_free(values);
     return status == LMN_OK ? store(directory, name, &bytes, error) : status;
 }
 
 /* layerK.depth.pfm, .normal.pfm, .id.png, .edge.png, .shade.png */
-static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_count, const char *directory, lmn_error *error)
+static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_count, const char *directory,
+                              lmn_error *error)
 {
     const layer_map *layer = m->layers[index];
-    char name[48];
+    char             name[48];
     snprintf(name, sizeof name, "layer%zu.depth.pfm", index);
     lmn_status status = write_layer_floats(m, layer, 1, directory, name, error);
     snprintf(name, sizeof name, "layer%zu.normal.pfm", index);
@@ -137,7 +144,7 @@ static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_cou
 
 lmn_status maps_write(const frame_maps *m, size_t part_count, const char *directory, lmn_error *error)
 {
-    lmn_status status = file_make_folder(directory, error);
+    lmn_status   status = file_make_folder(directory, error);
     export_bytes bytes;
     if (status == LMN_OK)
         status = export_pfm(&bytes, m->depth, 1, m->width, m->height, error);

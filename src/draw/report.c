@@ -21,8 +21,8 @@ static json_t *parts_json(const lmn_drawing *d)
     json_t *array = json_array();
     for (size_t i = 0; i < d->facts.part_count && d->part_pixels; i++)
         if (d->part_pixels[i])
-            json_array_append_new(array, json_pack("{s:I, s:s, s:I}", "id", (json_int_t)(i + 1), "name", d->facts.part_names[i], "pixels",
-                                                   (json_int_t)d->part_pixels[i]));
+            json_array_append_new(array, json_pack("{s:I, s:s, s:I}", "id", (json_int_t)(i + 1), "name",
+                                                   d->facts.part_names[i], "pixels", (json_int_t)d->part_pixels[i]));
     return array;
 }
 
@@ -53,18 +53,20 @@ char *drawing_report_json(const lmn_drawing *d)
 char *renderer_json(const lmn_renderer *r)
 {
     const gpu_capabilities *f = gpu_capabilities_of(r->g);
-    json_t *root = json_object();
+    json_t                 *root = json_object();
     json_object_set_new(root, "limner", json_string(LMN_VERSION));
     json_object_set_new(root, "gpu", gpu_json(f->vendor, f->renderer, f->version));
     json_object_set_new(root, "shading_language", json_string(f->shading));
     json_object_set_new(root, "api", json_string(f->es ? "OpenGL ES" : "OpenGL core"));
     json_object_set_new(root, "path", json_string(f->fast ? "fast" : "floor"));
-    json_object_set_new(root, "limits", json_pack("{s:i, s:i, s:i, s:i}", "texture_size", f->max_texture, "samples", f->max_samples,
-                                                  "colour_attachments", f->max_attachments, "storage_block_mib", f->max_storage_mib));
+    json_object_set_new(root, "limits",
+                        json_pack("{s:i, s:i, s:i, s:i}", "texture_size", f->max_texture, "samples", f->max_samples,
+                                  "colour_attachments", f->max_attachments, "storage_block_mib", f->max_storage_mib));
     json_object_set_new(root, "input_limits",
-                        json_pack("{s:I, s:I, s:I, s:I, s:I, s:i, s:i, s:i}", "file_bytes", (json_int_t)LIMIT_FILE_BYTES, "vertices",
-                                  (json_int_t)LIMIT_VERTICES, "triangles", (json_int_t)LIMIT_TRIANGLES, "nodes", (json_int_t)LIMIT_NODES,
-                                  "instances", (json_int_t)LIMIT_INSTANCES, "node_depth", LIMIT_NODE_DEPTH, "image_side", LIMIT_IMAGE_SIDE,
-                                  "picture_side", LIMIT_PICTURE_SIDE));
+                        json_pack("{s:I, s:I, s:I, s:I, s:I, s:i, s:i, s:i}", "file_bytes",
+                                  (json_int_t)LIMIT_FILE_BYTES, "vertices", (json_int_t)LIMIT_VERTICES, "triangles",
+                                  (json_int_t)LIMIT_TRIANGLES, "nodes", (json_int_t)LIMIT_NODES, "instances",
+                                  (json_int_t)LIMIT_INSTANCES, "node_depth", LIMIT_NODE_DEPTH, "image_side",
+                                  LIMIT_IMAGE_SIDE, "picture_side", LIMIT_PICTURE_SIDE));
     return report_dump(root);
 }

@@ -1,5 +1,6 @@
-/* DXF of a sheet: release 12 in ASCII, which everything reads. Millimetres, the sheet's lower left corner at the origin, y up. A layer for each class of lines and for what is
- * hidden; lines of two points are LINE, others POLYLINE, dots are CIRCLE, texts TEXT. Pictures have no place in it; areas are their borders. */
+/* DXF of a sheet: release 12 in ASCII, which everything reads. Millimetres, the sheet's lower left corner at the
+ * origin, y up. A layer for each class of lines and for what is hidden; lines of two points are LINE, others
+ * POLYLINE, dots are CIRCLE, texts TEXT. Pictures have no place in it; areas are their borders. */
 #include "export/export.h"
 
 #include <math.h>
@@ -25,11 +26,13 @@ typedef struct dxf_writer {
 } dxf_writer;
 
 /* The colours of AutoCAD's palette that have names; 7 is black on paper. */
-static const float palette[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, {0.5f, 0.5f, 0.5f}, {0.75f, 0.75f, 0.75f}};
+static const float palette[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},          {0, 1, 1},
+                                   {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, {0.5f, 0.5f, 0.5f}, {0.75f, 0.75f, 0.75f}};
 
 static int palette_index(colour ink)
 {
-    float own[3] = {colour_from_linear(ink.r), colour_from_linear(ink.g), colour_from_linear(ink.b)}, nearest = INFINITY;
+    float own[3] = {colour_from_linear(ink.r), colour_from_linear(ink.g), colour_from_linear(ink.b)},
+          nearest = INFINITY;
     int index = 7;
     for (int i = 1; i <= 9; i++) {
         float distance = 0;
@@ -43,12 +46,12 @@ static int palette_index(colour ink)
     return index;
 }
 
-/* --- what a file is made of: pairs of a code and a value ------------------------------------------------------------ */
+/* --- what a file is made of: pairs of a code and a value ------------------------------------------------ */
 
 static void put(dxf_writer *w, int code, const char *value)
 {
     char room[16];
-    int size = snprintf(room, sizeof room, "%d\n", code);
+    int  size = snprintf(room, sizeof room, "%d\n", code);
     text_append_bytes(&w->out, room, (size_t)size);
     text_append_bytes(&w->out, value, strlen(value));
     text_append_bytes(&w->out, "\n", 1);
@@ -62,10 +65,11 @@ static void put_whole(dxf_writer *w, int code, int value)
 /* Four decimals: a tenth of a thousandth of a millimetre. */
 static void put_number(dxf_writer *w, int code, double value)
 {
-    char room[48];
-    long long scaled = isfinite(value) ? llround(value * 10000) : 0;
+    char               room[48];
+    long long          scaled = isfinite(value) ? llround(value * 10000) : 0;
     unsigned long long left = scaled < 0 ? (unsigned long long)-scaled : (unsigned long long)scaled;
-    int size = snprintf(room, sizeof room, "%d\n%s%llu.%04llu\n", code, scaled < 0 ? "-" : "", left / 10000, left % 10000);
+    int                size =
+        snprintf(room, sizeof room, "%d\n%s%llu.%04llu\n", code, scaled < 0 ? "-" : "", left / 10000, left % 10000);
     text_append_bytes(&w->out, room, (size_t)size);
 }
 
@@ -76,13 +80,13 @@ static void put_place(dxf_writer *w, int code, double x, double y)
     put_number(w, code + 20, 0);
 }
 
-/* --- layers ------------------------------------------------------------------------------------------------------------ */
+/* --- layers --------------------------------------------------------------------------------------------- */
 
 /* A group's layer: its classes, "HIDDEN-CREASE"; "SHEET" where it has none. */
 static void layer_name(const sheet_group *g, char out[LAYER_NAME_ROOM])
 {
     const char *name = g->css_class && *g->css_class ? g->css_class : "sheet";
-    int size = snprintf(out, LAYER_NAME_ROOM, "%s", name);
+    int         size = snprintf(out, LAYER_NAME_ROOM, "%s", name);
     for (int i = 0; i < size && i < LAYER_NAME_ROOM - 1; i++) {
         bool letter = (out[i] >= 'a' && out[i] <= 'z') || (out[i] >= 'A' && out[i] <= 'Z');
         out[i] = letter ? (char)(out[i] & ~0x20) : out[i] >= '0' && out[i] <= '9' ? out[i] : '-';
@@ -128,7 +132,7 @@ static const dxf_layer *layer_of(const dxf_writer *w, const sheet_item *item)
     return &w->layers[item->group < w->s->group_count ? w->layer_of[item->group] : 0];
 }
 
-/* --- sections ---------------------------------------------------------------------------------------------------------- */
+/* --- sections ------------------------------------------------------------------------------------------- */
 
 static void put_header(dxf_writer *w)
 {
@@ -189,7 +193,7 @@ static void put_tables(dxf_writer *w)
 static void begin_entity(dxf_writer *w, const char *type, const sheet_item *item)
 {
     const dxf_layer *layer = layer_of(w, item);
-    int ink = palette_index(item->ink);
+    int              ink = palette_index(item->ink);
     put(w, 0, type);
     put(w, 8, layer->name);
     if (ink != layer->ink)
@@ -209,7 +213,7 @@ static void put_dots(dxf_writer *w, const sheet_item *item, const sheet_path *pa
 
 static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *path)
 {
-    const float (*points)[2] = (const float (*)[2])w->s->points + path->first;
+    const float(*points)[2] = (const float(*)[2])w->s->points + path->first;
     bool closed = path->closed || path->filled;
     if (path->count == 2 && !closed) {
         begin_entity(w, "LINE", item);
@@ -235,14 +239,15 @@ static void put_words(dxf_writer *w, const char *words)
 {
     text_append_bytes(&w->out, "1\n", 2);
     for (const unsigned char *at = (const unsigned char *)words; *at;) {
-        size_t length = *at >= 0xF0 ? 4 : *at >= 0xE0 ? 3 : *at >= 0xC0 ? 2 : 1, seen = 1;
+        size_t   length = *at >= 0xF0 ? 4 : *at >= 0xE0 ? 3 : *at >= 0xC0 ? 2 : 1, seen = 1;
         uint32_t code = length == 1 ? *at : *at & (0xFFu >> (length + 1));
         for (; seen < length && (at[seen] & 0xC0) == 0x80; seen++)
             code = code << 6 | (at[seen] & 0x3F);
         if (*at >= 0x20 && *at < 0x7F)
             text_append_bytes(&w->out, (const char *)at, 1);
         else
-            text_append(&w->out, *at >= 0x80 ? "\\U+%04X" : " ", (unsigned)(seen < length || (length == 1 && *at >= 0x80) || code > 0xFFFF ? 0xFFFD : code));
+            text_append(&w->out, *at >= 0x80 ? "\\U+%04X" : " ",
+                        (unsigned)(seen < length || (length == 1 && *at >= 0x80) || code > 0xFFFF ? 0xFFFD : code));
         at += seen;
     }
     text_append_bytes(&w->out, "\n", 1);

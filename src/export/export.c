@@ -9,9 +9,12 @@
 
 /* The first of each sort is the one of standard output. */
 const export_format export_formats[] = {
-    {".png", "Pixels, 8 bits for each of red, green, blue and opacity.", .ground = true, .pictures = true, .write_pixels = export_png},
-    {".svg", "Vectors for screens, in groups to edit.", .ground = true, .pictures = true, .areas = true, .title = true, .write_sheet = export_svg},
-    {".pdf", "Vectors for print, on one page.", .ground = true, .pictures = true, .areas = true, .title = true, .write_sheet = export_pdf},
+    {".png", "Pixels, 8 bits for each of red, green, blue and opacity.", .ground = true, .pictures = true,
+     .write_pixels = export_png},
+    {".svg", "Vectors for screens, in groups to edit.", .ground = true, .pictures = true, .areas = true, .title = true,
+     .write_sheet = export_svg},
+    {".pdf", "Vectors for print, on one page.", .ground = true, .pictures = true, .areas = true, .title = true,
+     .write_sheet = export_pdf},
     {".dxf", "Lines alone, for CAD programs: release 12, in millimetres.", .write_sheet = export_dxf},
 };
 const size_t export_format_count = sizeof export_formats / sizeof *export_formats;

@@ -1,4 +1,5 @@
-/* PDF of a sheet, through cairo; texts through pango, so that every script finds a font. The dates are fixed, so that equal sheets are equal files. */
+/* PDF of a sheet, through cairo; texts through pango, so that every script finds a font. The dates are fixed, so
+ * that equal sheets are equal files. */
 #include "export/export.h"
 
 #include <cairo-pdf.h>
@@ -51,7 +52,8 @@ static cairo_status_t give_bytes(void *user, unsigned char *to, unsigned int siz
 static void set_ink(cairo_t *c, colour ink)
 {
     double alpha = ink.a < 1 ? fmax((double)ink.a, 0) : 1;
-    double parts[3] = {(double)colour_from_linear(ink.r), (double)colour_from_linear(ink.g), (double)colour_from_linear(ink.b)};
+    double parts[3] = {(double)colour_from_linear(ink.r), (double)colour_from_linear(ink.g),
+                       (double)colour_from_linear(ink.b)};
     cairo_set_source_rgba(c, parts[0], parts[1], parts[2], alpha);
 }
 
@@ -68,7 +70,8 @@ static char *clean_text(const char *words)
 
 static void set_metadata(pdf_writer *w, cairo_surface_t *surface)
 {
-    char *title = clean_text(w->s->title ? w->s->title : ""), *subject = clean_text(w->s->description ? w->s->description : "");
+    char *title = clean_text(w->s->title ? w->s->title : ""),
+         *subject = clean_text(w->s->description ? w->s->description : "");
     w->failed = w->failed || !title || !subject;
     if (title && *title)
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
@@ -81,7 +84,7 @@ static void set_metadata(pdf_writer *w, cairo_surface_t *surface)
     mem_free(subject);
 }
 
-/* --- items ------------------------------------------------------------------------------------------------------------- */
+/* --- items ---------------------------------------------------------------------------------------------- */
 
 static void add_path(pdf_writer *w, const sheet_path *path, bool dots)
 {
@@ -106,7 +109,7 @@ static bool same_pen(const sheet_path *a, const sheet_path *b)
 static void draw_paths(pdf_writer *w, const sheet_item *item)
 {
     cairo_t *c = w->context;
-    bool dots = item->kind == SHEET_DOTS;
+    bool     dots = item->kind == SHEET_DOTS;
     set_ink(c, item->ink);
     for (uint32_t k = 0; k < item->count;) {
         const sheet_path *first = &w->s->paths[item->first + k];
@@ -126,12 +129,14 @@ static void draw_paths(pdf_writer *w, const sheet_item *item)
 
 static void draw_image(pdf_writer *w, const sheet_item *item)
 {
-    cairo_t *c = w->context;
-    cairo_surface_t *image = cairo_image_surface_create_from_png_stream(give_bytes, &(png_reader){item->png, item->png_size});
+    cairo_t         *c = w->context;
+    cairo_surface_t *image =
+        cairo_image_surface_create_from_png_stream(give_bytes, &(png_reader){item->png, item->png_size});
     if (cairo_surface_status(image) == CAIRO_STATUS_SUCCESS) {
         cairo_save(c);
         cairo_translate(c, item->box[0], item->box[1]);
-        cairo_scale(c, item->box[2] / cairo_image_surface_get_width(image), item->box[3] / cairo_image_surface_get_height(image));
+        cairo_scale(c, item->box[2] / cairo_image_surface_get_width(image),
+                    item->box[3] / cairo_image_surface_get_height(image));
         cairo_set_source_surface(c, image, 0, 0);
         cairo_paint(c);
         cairo_restore(c);
@@ -155,7 +160,7 @@ static void set_true_metrics(PangoLayout *layout)
 static void draw_text(pdf_writer *w, const sheet_item *item)
 {
     cairo_t *c = w->context;
-    char *words = clean_text(item->text);
+    char    *words = clean_text(item->text);
     if (!words) {
         w->failed = true;
         return;
@@ -163,14 +168,15 @@ static void draw_text(pdf_writer *w, const sheet_item *item)
     PangoLayout *layout = pango_cairo_create_layout(c);
     set_true_metrics(layout);
     PangoFontDescription *font = pango_font_description_from_string("Liberation Sans, Arial, Helvetica, sans-serif");
-    int width, height;
+    int                   width, height;
     pango_font_description_set_absolute_size(font, item->box[3] * PANGO_SCALE);
     pango_layout_set_font_description(layout, font);
     pango_layout_set_text(layout, words, -1);
     pango_layout_get_size(layout, &width, &height);
     double share = item->anchor < 0 ? 0 : item->anchor == 0 ? 0.5 : 1;
     set_ink(c, item->ink);
-    cairo_move_to(c, item->box[0] - share * width / PANGO_SCALE, item->box[1] - (double)pango_layout_get_baseline(layout) / PANGO_SCALE);
+    cairo_move_to(c, item->box[0] - share * width / PANGO_SCALE,
+                  item->box[1] - (double)pango_layout_get_baseline(layout) / PANGO_SCALE);
     pango_cairo_show_layout(c, layout);
     pango_font_description_free(font);
     g_object_unref(layout);
@@ -212,7 +218,8 @@ static void draw_sheet(pdf_writer *w)
         set_ink(c, w->s->ground);
         cairo_paint(c);
     }
-    for (size_t i = 0; i < w->s->item_count && !w->failed && !work_stopped() && cairo_status(c) == CAIRO_STATUS_SUCCESS; i++)
+    for (size_t i = 0; i < w->s->item_count && !w->failed && !work_stopped() && cairo_status(c) == CAIRO_STATUS_SUCCESS;
+         i++)
         draw_item(w, &w->s->items[i]);
     w->failed = w->failed || work_stopped();
     cairo_show_page(c);
@@ -222,7 +229,8 @@ lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error)
 {
     pdf_writer w = {.s = s, .failed = s->failed};
     *out = (export_bytes){NULL, 0};
-    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(take_bytes, &w, s->width * points_per_mm, s->height * points_per_mm);
+    cairo_surface_t *surface =
+        cairo_pdf_surface_create_for_stream(take_bytes, &w, s->width * points_per_mm, s->height * points_per_mm);
     set_metadata(&w, surface);
     w.context = cairo_create(surface);
     draw_sheet(&w);

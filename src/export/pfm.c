@@ -8,8 +8,8 @@
 
 lmn_status export_pfm(export_bytes *out, const float *values, int channels, int width, int height, lmn_error *error)
 {
-    char header[64];
-    int length = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", channels == 3 ? "PF" : "Pf", width, height);
+    char   header[64];
+    int    length = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", channels == 3 ? "PF" : "Pf", width, height);
     size_t size = (size_t)width * (size_t)height * (size_t)channels * sizeof(float);
     out->data = mem_alloc((size_t)length + size);
     if (!out->data)

@@ -1,5 +1,6 @@
-/* PNG through libdeflate: one fixed filter and level 6 beat libpng's defaults in size and time on drawings. It compresses all at once, which takes long
- * for very large pictures; those go through zlib in pieces, between which one can stop. */
+/* PNG through libdeflate: one fixed filter and level 6 beat libpng's defaults in size and time on drawings. It
+ * compresses all at once, which takes long for very large pictures; those go through zlib in pieces, between which
+ * one can stop. */
 #include "export/export.h"
 
 #include <libdeflate.h>
@@ -46,7 +47,8 @@ static bool allocate_rows(png_image *png, int width, int height, int colour_type
     return png->rows != NULL;
 }
 
-/* Turns plain rows, already laid out with room for the filter byte, into differences to the row above; bottom row first. */
+/* Turns plain rows, already laid out with room for the filter byte, into differences to the row above; bottom row
+ * first. */
 static void filter_up(png_image *png)
 {
     size_t stride = (size_t)png->width * (size_t)png->pixel_bytes + 1;
@@ -73,10 +75,11 @@ static size_t compress_at_once(const png_image *png, unsigned char *out, size_t 
 static size_t compress_in_pieces(const png_image *png, unsigned char *out, size_t room)
 {
     z_stream z = {0};
-    int result = deflateInit(&z, LEVEL);
-    size_t read = 0, written = 0;
+    int      result = deflateInit(&z, LEVEL);
+    size_t   read = 0, written = 0;
     while (result == Z_OK && !work_stopped() && work_check(NULL) == LMN_OK) {
-        size_t some = png->rows_size - read < PIECE ? png->rows_size - read : PIECE, left = room - written < PIECE ? room - written : PIECE;
+        size_t some = png->rows_size - read < PIECE ? png->rows_size - read : PIECE,
+               left = room - written < PIECE ? room - written : PIECE;
         z.next_in = png->rows + read;
         z.avail_in = (uInt)some;
         z.next_out = out + written;
@@ -99,7 +102,7 @@ static lmn_status compress_rows(export_bytes *out, png_image *png, lmn_error *er
 {
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
     filter_up(png);
-    size_t bound = compressed_most(png);
+    size_t         bound = compressed_most(png);
     unsigned char *data = mem_alloc(bound + 128);
     if (!data) {
         mem_free(png->rows);
@@ -114,7 +117,8 @@ static lmn_status compress_rows(export_bytes *out, png_image *png, lmn_error *er
     size_t at = 8;
     at += put_chunk(data + at, "IHDR", header, sizeof header);
     at += put_chunk(data + at, "sRGB", (const unsigned char[]){0}, 1);
-    size_t size = png->rows_size > AT_ONCE_MOST ? compress_in_pieces(png, data + at + 8, bound) : compress_at_once(png, data + at + 8, bound);
+    size_t size = png->rows_size > AT_ONCE_MOST ? compress_in_pieces(png, data + at + 8, bound)
+                                                : compress_at_once(png, data + at + 8, bound);
     if (size == 0) {
         mem_free(png->rows);
         mem_free(data);
@@ -128,10 +132,11 @@ static lmn_status compress_rows(export_bytes *out, png_image *png, lmn_error *er
     return LMN_OK;
 }
 
-static lmn_status export_rgba(export_bytes *out, const uint8_t *rgba, int width, int height, bool keep_alpha, lmn_error *error)
+static lmn_status export_rgba(export_bytes *out, const uint8_t *rgba, int width, int height, bool keep_alpha,
+                              lmn_error *error)
 {
     png_image png;
-    int bytes = keep_alpha ? 4 : 3;
+    int       bytes = keep_alpha ? 4 : 3;
     if (!allocate_rows(&png, width, height, keep_alpha ? COLOUR_RGBA : COLOUR_RGB, 8, bytes))
         return error_memory(error);
     size_t stride = (size_t)width * (size_t)bytes + 1;
@@ -149,7 +154,7 @@ static lmn_status export_rgba(export_bytes *out, const uint8_t *rgba, int width,
 
 lmn_status export_png(export_bytes *out, const uint8_t *rgba, int width, int height, lmn_error *error)
 {
-    size_t count = (size_t)width * (size_t)height;
+    size_t        count = (size_t)width * (size_t)height;
     unsigned char all = 255;
     for (size_t i = 0; i < count; i++)
         all &= rgba[4 * i + 3];
@@ -168,7 +173,7 @@ lmn_status export_png_grey16(export_bytes *out, const uint16_t *grey, int width,
         return error_memory(error);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            uint16_t value = grey[(size_t)y * (size_t)width + (size_t)x];
+            uint16_t       value = grey[(size_t)y * (size_t)width + (size_t)x];
             unsigned char *at = png.rows + (size_t)y * ((size_t)width * 2 + 1) + 1 + 2 * (size_t)x;
             at[0] = (unsigned char)(value >> 8);
             at[1] = (unsigned char)value;

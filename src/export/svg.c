@@ -1,5 +1,6 @@
-/* SVG of a sheet: millimetres, a group for each of the sheet's groups, styles as classes. Numbers have three decimals at most, so that files are small; between points of a
- * path it is their rounded differences that are written, which add up without drift. */
+/* SVG of a sheet: millimetres, a group for each of the sheet's groups, styles as classes. Numbers have three
+ * decimals at most, so that files are small; between points of a path it is their rounded differences that are
+ * written, which add up without drift. */
 #include "export/export.h"
 
 #include <math.h>
@@ -30,10 +31,10 @@ typedef struct svg_writer {
     size_t       style_count, style_capacity;
     uint32_t    *style_slots; /* hash of styles: style + 1 */
     size_t       style_slot_count;
-    int32_t      open;     /* the innermost group that is open, −1: none */
+    int32_t      open; /* the innermost group that is open, −1: none */
 } svg_writer;
 
-/* --- text and numbers ---------------------------------------------------------------------------------------------- */
+/* --- text and numbers ----------------------------------------------------------------------------------- */
 
 static void put(svg_writer *w, const char *words)
 {
@@ -43,9 +44,10 @@ static void put(svg_writer *w, const char *words)
 /* Thousandths as a decimal number without what is not needed: "-.5", "12", "0". */
 static size_t print_thousandths(char *to, long long value)
 {
-    char   digits[24];
-    size_t count = 0, at = 0;
-    unsigned long long left = value < 0 ? (unsigned long long)-value : (unsigned long long)value, whole = left / 1000, part = left % 1000;
+    char               digits[24];
+    size_t             count = 0, at = 0;
+    unsigned long long left = value < 0 ? (unsigned long long)-value : (unsigned long long)value, whole = left / 1000,
+                       part = left % 1000;
     if (value < 0)
         to[at++] = '-';
     for (; whole; whole /= 10)
@@ -87,7 +89,8 @@ static size_t xml_sequence(const unsigned char *at)
         if ((at[i] & 0xC0) != 0x80)
             return 0;
     uint32_t low = at[1];
-    bool beyond = (at[0] == 0xE0 && low < 0xA0) || (at[0] == 0xED && low > 0x9F) || (at[0] == 0xF0 && low < 0x90) || (at[0] == 0xF4 && low > 0x8F);
+    bool     beyond = (at[0] == 0xE0 && low < 0xA0) || (at[0] == 0xED && low > 0x9F) || (at[0] == 0xF0 && low < 0x90) ||
+                  (at[0] == 0xF4 && low > 0x8F);
     bool none = at[0] == 0xEF && low == 0xBF && at[2] >= 0xBE; /* U+FFFE, U+FFFF */
     return beyond || none || (at[0] == 0xC2 && low < 0xA0) ? 0 : length;
 }
@@ -125,7 +128,8 @@ static void put_base64(svg_writer *w, const unsigned char *data, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < size; i += 3) {
-        uint32_t bits = (uint32_t)data[i] << 16 | (uint32_t)(i + 1 < size ? data[i + 1] : 0) << 8 | (i + 2 < size ? data[i + 2] : 0);
+        uint32_t bits = (uint32_t)data[i] << 16 | (uint32_t)(i + 1 < size ? data[i + 1] : 0) << 8 |
+                        (i + 2 < size ? data[i + 2] : 0);
         char four[4] = {digits[bits >> 18], digits[bits >> 12 & 63], digits[bits >> 6 & 63], digits[bits & 63]};
         if (i + 2 >= size)
             four[3] = '=';
@@ -147,7 +151,7 @@ static double opacity_of(colour ink)
     return ink.a < 1 ? fmax((double)ink.a, 0) : 1;
 }
 
-/* --- styles ---------------------------------------------------------------------------------------------------------- */
+/* --- styles --------------------------------------------------------------------------------------------- */
 
 static uint64_t hash_bytes(const void *bytes, size_t size)
 {
@@ -177,7 +181,7 @@ static void style_of(svg_style *out, const sheet_item *item, const sheet_path *p
 
 static bool grow_style_slots(svg_writer *w)
 {
-    size_t count = w->style_slot_count ? 4 * w->style_slot_count : 256;
+    size_t    count = w->style_slot_count ? 4 * w->style_slot_count : 256;
     uint32_t *slots = mem_calloc(count, sizeof *slots);
     if (!slots)
         return false;
@@ -228,7 +232,7 @@ static void find_styles(svg_writer *w)
 static void put_style(svg_writer *w, size_t index)
 {
     const svg_style *style = &w->styles[index];
-    char ink[10];
+    char             ink[10];
     print_colour(ink, style->ink);
     text_append(&w->out, ".s%zu{", index);
     if (style->filled) {
@@ -260,19 +264,21 @@ static void put_style(svg_writer *w, size_t index)
 
 static void put_styles(svg_writer *w)
 {
-    put(w, "<style>\npath{fill:none;stroke-linecap:round;stroke-linejoin:round}\ntext{font-family:'Liberation Sans',Arial,Helvetica,sans-serif}\n");
+    put(w, "<style>\npath{fill:none;stroke-linecap:round;stroke-linejoin:round}\ntext{font-family:'Liberation "
+           "Sans',Arial,Helvetica,sans-serif}\n");
     for (size_t i = 0; i < w->style_count && !w->out.failed; i++)
         put_style(w, i);
     put(w, "</style>\n");
 }
 
-/* --- groups ---------------------------------------------------------------------------------------------------------- */
+/* --- groups --------------------------------------------------------------------------------------------- */
 
 /* Letters that every reader of ids takes. */
 static void append_id(text *id, const char *name)
 {
     for (const char *at = name ? name : ""; *at; at++) {
-        bool plain = (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || (*at >= '0' && *at <= '9') || *at == '-' || *at == '_';
+        bool plain = (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || (*at >= '0' && *at <= '9') ||
+                     *at == '-' || *at == '_';
         text_append_bytes(id, plain ? at : "_", 1);
     }
 }
@@ -290,7 +296,7 @@ static size_t id_slot(const svg_writer *w, const char *id)
 static bool name_group(svg_writer *w, size_t index)
 {
     const sheet_group *g = &w->s->groups[index];
-    text id = {0};
+    text               id = {0};
     if (g->parent >= 0)
         text_append(&id, "%s-", w->ids[g->parent]);
     if (g->part)
@@ -404,7 +410,7 @@ static void put_clips(svg_writer *w)
     put(w, any ? "</defs>\n" : "");
 }
 
-/* --- items ------------------------------------------------------------------------------------------------------------- */
+/* --- items ---------------------------------------------------------------------------------------------- */
 
 /* A command letter and two numbers. */
 static size_t print_pair(char *to, char letter, long long x, long long y)
@@ -422,13 +428,13 @@ static size_t print_pair(char *to, char letter, long long x, long long y)
 
 static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
 {
-    char room[64];
+    char      room[64];
     long long before[2] = {0, 0};
-    bool lined = false;
+    bool      lined = false;
     for (uint32_t i = 0; i < path->count; i++) {
         const float *p = w->s->points[path->first + i];
-        long long x = thousandths((double)p[0]), y = thousandths((double)p[1]);
-        size_t size;
+        long long    x = thousandths((double)p[0]), y = thousandths((double)p[1]);
+        size_t       size;
         if (dots || i == 0)
             size = print_pair(room, 'M', x, y);
         else if (x == before[0] && y == before[1] && !(i == 1 && path->count == 2))
@@ -454,7 +460,7 @@ static void put_paths(svg_writer *w, const sheet_item *item)
     size_t current = SIZE_MAX;
     for (uint32_t k = 0; k < item->count; k++) {
         const sheet_path *path = &w->s->paths[item->first + k];
-        svg_style style;
+        svg_style         style;
         style_of(&style, item, path);
         size_t index = find_style(w, &style);
         if (index != current) {
@@ -508,7 +514,9 @@ static void put_text(svg_writer *w, const sheet_item *item)
 
 static void put_item(svg_writer *w, const sheet_item *item)
 {
-    if (item->kind == SHEET_IMAGE ? item->png == NULL : item->kind == SHEET_TEXT ? item->text == NULL : item->count == 0)
+    if (item->kind == SHEET_IMAGE  ? item->png == NULL
+        : item->kind == SHEET_TEXT ? item->text == NULL
+                                   : item->count == 0)
         return;
     if (item->group < w->s->group_count)
         go_to_group(w, (int32_t)item->group);

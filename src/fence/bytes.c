@@ -48,7 +48,7 @@ const void *fence_take(fence_reader *r, size_t size)
 
 uint32_t fence_take_u32(fence_reader *r)
 {
-    uint32_t value = 0;
+    uint32_t    value = 0;
     const void *at = fence_take(r, sizeof value);
     if (at)
         memcpy(&value, at, sizeof value);
@@ -57,9 +57,9 @@ uint32_t fence_take_u32(fence_reader *r)
 
 char *fence_take_text(fence_reader *r)
 {
-    size_t size = fence_take_u32(r);
+    size_t      size = fence_take_u32(r);
     const char *at = fence_take(r, size);
-    char *text = at ? mem_alloc(size + 1) : NULL;
+    char       *text = at ? mem_alloc(size + 1) : NULL;
     if (text) {
         memcpy(text, at, size);
         text[size] = '\0';

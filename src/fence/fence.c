@@ -39,7 +39,7 @@ typedef struct reply {
     size_t     size;
 } reply;
 
-/* --- the child ----------------------------------------------------------------------------------------------------------- */
+/* --- the child ------------------------------------------------------------------------------------------ */
 
 static bool receive_all(void *out, size_t size)
 {
@@ -91,7 +91,7 @@ static bool answer_one(void)
     if (request ? !receive_all(request, q.size) : !skip_all(q.size))
         return false;
     fence_bytes answer = {0};
-    reply r = {0};
+    reply       r = {0};
     if (request)
         request[q.size] = '\0';
     r.status = request ? q.fn(request, q.size, &answer, &r.error) : error_memory(&r.error);
@@ -104,8 +104,8 @@ static bool answer_one(void)
     return sent;
 }
 
-/* Another thread of the parent may have held a lock when the child was made, which then nobody gives back; whoever waits for it is told apart by not
- * saying that it is ready. */
+/* Another thread of the parent may have held a lock when the child was made, which then nobody gives back; whoever
+ * waits for it is told apart by not saying that it is ready. */
 static bool has_memory(void)
 {
     bool good = true;
@@ -117,8 +117,8 @@ static bool has_memory(void)
     return good;
 }
 
-/* Never returns. The work around it is the parent's, with callbacks that are not meant for this process; so are allocations that tests make fail: the child serves
- * those after it, too. */
+/* Never returns. The work around it is the parent's, with callbacks that are not meant for this process; so are
+ * allocations that tests make fail: the child serves those after it, too. */
 static void run_child(int channel, size_t address_space)
 {
     work_adopt(NULL);
@@ -129,7 +129,7 @@ static void run_child(int channel, size_t address_space)
     _exit(0);
 }
 
-/* --- the parent ---------------------------------------------------------------------------------------------------------- */
+/* --- the parent ----------------------------------------------------------------------------------------- */
 
 /* Bytes that a process has mapped (field 0 of its statm) or resident (field 1); 0 when that cannot be told. */
 static size_t process_memory(pid_t id, int field)
@@ -168,7 +168,7 @@ static void end_fence(struct fence *f)
 
 static lmn_status start_one(work *around, lmn_error *error)
 {
-    int ends[2];
+    int           ends[2];
     struct fence *f = mem_calloc(1, sizeof *f);
     if (!f)
         return error_memory(error);
@@ -203,7 +203,7 @@ static bool is_ready(const struct fence *f)
     double end = clock_ms() + READY_MS;
     while (clock_ms() < end && work_check(NULL) == LMN_OK) {
         struct pollfd wait = {.fd = f->channel, .events = POLLIN};
-        char byte = 0;
+        char          byte = 0;
         if (poll(&wait, 1, POLL_MS) > 0)
             return recv(f->channel, &byte, 1, 0) == 1 && byte == READY;
     }
@@ -238,14 +238,15 @@ static bool wait_for(exchange *e, short events)
 {
     for (;;) {
         struct pollfd wait = {.fd = e->fence->channel, .events = events};
-        int ready = poll(&wait, 1, POLL_MS);
+        int           ready = poll(&wait, 1, POLL_MS);
         if (ready > 0)
             return true;
         if (work_check(NULL) != LMN_OK)
             return false;
         e->timed_out = clock_ms() > e->end_ms;
 #ifdef FENCE_SANITIZED
-        e->too_big = process_memory(e->fence->child, 1) > memory_limit() / 4; /* what is touched, and not all that is asked for */
+        e->too_big = process_memory(e->fence->child, 1) >
+                     memory_limit() / 4; /* what is touched, and not all that is asked for */
 #endif
         if (e->timed_out || e->too_big)
             return false;
@@ -299,9 +300,9 @@ static bool receive_bytes(exchange *e, void *out, size_t size)
 /* How the child ended: it is gone, or about to be. */
 static int reap(struct fence *f)
 {
-    int status = 0;
+    int    status = 0;
     double until = clock_ms() + LEAVE_MS;
-    pid_t got;
+    pid_t  got;
     while ((got = waitpid(f->child, &status, WNOHANG)) == 0 && clock_ms() < until)
         poll(NULL, 0, 1);
     if (got == f->child)
@@ -315,10 +316,12 @@ static lmn_status explain(const exchange *e, int status)
     if (stopped != LMN_OK)
         return stopped;
     if (e->timed_out)
-        return error_set(e->error, LMN_LIMIT, "%s took longer than %d s and was stopped", e->what, LIMIT_IMPORT_SECONDS);
+        return error_set(e->error, LMN_LIMIT, "%s took longer than %d s and was stopped", e->what,
+                         LIMIT_IMPORT_SECONDS);
     bool aborted = WIFSIGNALED(status) && (WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGKILL);
     if (e->too_big || aborted || (WIFEXITED(status) && WEXITSTATUS(status) == 0))
-        return work_exceeded(e->error, "memory", "%s gave up: the data is damaged or needs more than %.1f GiB", e->what, (double)memory_limit() / (1 << 30));
+        return work_exceeded(e->error, "memory", "%s gave up: the data is damaged or needs more than %.1f GiB", e->what,
+                             (double)memory_limit() / (1 << 30));
     return error_set(e->error, LMN_FORMAT, "the data is damaged: %s crashed on it", e->what);
 }
 
@@ -330,7 +333,8 @@ static lmn_status receive_answer(exchange *e, fence_bytes *answer, bool *whole)
     if (!*whole)
         return LMN_OK;
     if (r.status != LMN_OK) {
-        r.error.message[sizeof r.error.message - 1] = r.error.hint[sizeof r.error.hint - 1] = r.error.file[sizeof r.error.file - 1] = '\0';
+        r.error.message[sizeof r.error.message - 1] = r.error.hint[sizeof r.error.hint - 1] =
+            r.error.file[sizeof r.error.file - 1] = '\0';
         r.error.status = r.status > LMN_OK && r.status <= LMN_INTERNAL ? r.status : LMN_INTERNAL;
         if (e->error)
             *e->error = r.error;
@@ -347,18 +351,19 @@ static lmn_status receive_answer(exchange *e, fence_bytes *answer, bool *whole)
     return answer->bytes ? LMN_OK : error_memory(e->error);
 }
 
-static lmn_status call_child(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request, lmn_error *error)
+static lmn_status call_child(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request,
+                             lmn_error *error)
 {
-    work *around = work_outermost();
+    work      *around = work_outermost();
     lmn_status status = around->fence ? LMN_OK : start(around, error);
     if (status != LMN_OK)
         return status;
     /* A callback that is asked meanwhile may call the library: what that needs decoded goes to a child of its own. */
     struct fence *f = around->fence;
     around->fence = NULL;
-    exchange e = {.fence = f, .what = what, .end_ms = clock_ms() + 1000.0 * LIMIT_IMPORT_SECONDS, .error = error};
+    exchange       e = {.fence = f, .what = what, .end_ms = clock_ms() + 1000.0 * LIMIT_IMPORT_SECONDS, .error = error};
     const question q = {fn, request->size};
-    bool whole = send_bytes(&e, &q, sizeof q) && send_bytes(&e, request->bytes, request->size);
+    bool           whole = send_bytes(&e, &q, sizeof q) && send_bytes(&e, request->bytes, request->size);
     if (whole)
         status = receive_answer(&e, answer, &whole);
     /* Whatever it still does is of no interest. */
@@ -377,7 +382,8 @@ static lmn_status call_here(fence_bytes *answer, fence_fn fn, const fence_bytes 
     return status == LMN_OK && answer->failed ? error_memory(error) : status;
 }
 
-static lmn_status call(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request, bool here, lmn_error *error)
+static lmn_status call(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request, bool here,
+                       lmn_error *error)
 {
     *answer = (fence_bytes){0};
     work own;
@@ -402,7 +408,8 @@ lmn_status fence_call(fence_bytes *answer, fence_fn fn, const char *what, const 
     return call(answer, fn, what, request, conditions && conditions->in_process, error);
 }
 
-lmn_status fence_call_always(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request, lmn_error *error)
+lmn_status fence_call_always(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request,
+                             lmn_error *error)
 {
     return call(answer, fn, what, request, false, error);
 }

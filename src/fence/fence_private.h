@@ -4,7 +4,8 @@
 
 #include "fence/fence.h"
 
-/* The address sanitizer maps terabytes, so that there the child's address space cannot be limited; its resident memory can. */
+/* The address sanitizer maps terabytes, so that there the child's address space cannot be limited; its resident
+ * memory can. */
 #if defined(__SANITIZE_ADDRESS__)
 #define FENCE_SANITIZED
 #elif defined(__has_feature)
@@ -15,7 +16,8 @@
 
 enum { FENCE_CHANNEL = 3 };
 
-/* In the child: gives up all but the channel, which becomes descriptor FENCE_CHANNEL. `address_space` 0: not limited. */
+/* In the child: gives up all but the channel, which becomes descriptor FENCE_CHANNEL. `address_space` 0: not
+ * limited. */
 bool fence_lock(int channel, size_t address_space);
 
 #endif

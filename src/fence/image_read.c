@@ -1,4 +1,5 @@
-/* PNG, JPEG and WebP to RGBA8. The decoders run behind the fence; what comes back is the pixels and, behind them, their size. */
+/* PNG, JPEG and WebP to RGBA8. The decoders run behind the fence; what comes back is the pixels and, behind them,
+ * their size. */
 #include <setjmp.h>
 #include <stdio.h>
 #include <string.h>
@@ -64,8 +65,8 @@ static void jpeg_silent(j_common_ptr info)
     (void)info;
 }
 
-/* Four inks to light: what each of them lets through, times what black does. Adobe's programs write how much is let through, others how much ink
- * there is. */
+/* Four inks to light: what each of them lets through, times what black does. Adobe's programs write how much is let
+ * through, others how much ink there is. */
 static void lay_inks(uint8_t *out, const uint8_t *inks, uint32_t width, bool adobe)
 {
     for (uint32_t x = 0; x < width; x++, out += 4, inks += 4) {
@@ -77,8 +78,8 @@ static void lay_inks(uint8_t *out, const uint8_t *inks, uint32_t width, bool ado
 }
 
 /* Rows arrive as RGBA through libjpeg-turbo's extension, alpha opaque, or as four inks in the row's own bytes. */
-static lmn_status decode_jpeg(struct jpeg_decompress_struct *info, image_pixels *out, const unsigned char *bytes, size_t size,
-                              lmn_error *error)
+static lmn_status decode_jpeg(struct jpeg_decompress_struct *info, image_pixels *out, const unsigned char *bytes,
+                              size_t size, lmn_error *error)
 {
     jpeg_mem_src(info, bytes, (unsigned long)size);
     jpeg_read_header(info, TRUE);
@@ -101,7 +102,7 @@ static lmn_status decode_jpeg(struct jpeg_decompress_struct *info, image_pixels 
 static lmn_status read_jpeg(image_pixels *out, const unsigned char *bytes, size_t size, lmn_error *error)
 {
     struct jpeg_decompress_struct info;
-    jpeg_failure failure = {.message = ""};
+    jpeg_failure                  failure = {.message = ""};
     info.err = jpeg_std_error(&failure.manager);
     failure.manager.error_exit = jpeg_failed;
     failure.manager.output_message = jpeg_silent;
@@ -139,7 +140,7 @@ static lmn_status decode(image_pixels *out, const unsigned char *bytes, size_t s
     return error_set(error, LMN_UNSUPPORTED, "an image that is neither PNG, JPEG nor WebP");
 }
 
-/* --- making it smaller ------------------------------------------------------------------------------------------------------ */
+/* --- making it smaller ---------------------------------------------------------------------------------- */
 
 /* Both ways between bytes and light; powers are dear. The sum of four lights is the index. */
 enum { LIGHT_STEPS = 1 << 14 };
@@ -166,8 +167,9 @@ void image_halve(image_pixels *image)
     uint8_t *out = image->rgba;
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++, out += 4) {
-            size_t right = image->width > 1 ? 4 : 0, below = image->height > 1 ? (size_t)image->width * 4 : 0;
-            const uint8_t *a = image->rgba + ((size_t)y * 2 * image->width + (size_t)x * 2) * 4, *b = a + right, *c = a + below, *d = c + right;
+            size_t         right = image->width > 1 ? 4 : 0, below = image->height > 1 ? (size_t)image->width * 4 : 0;
+            const uint8_t *a = image->rgba + ((size_t)y * 2 * image->width + (size_t)x * 2) * 4, *b = a + right,
+                          *c = a + below, *d = c + right;
             uint8_t pixel[4];
             for (int k = 0; k < 3; k++)
                 pixel[k] = table.byte[table.light[a[k]] + table.light[b[k]] + table.light[c[k]] + table.light[d[k]]];
@@ -179,7 +181,7 @@ void image_halve(image_pixels *image)
     image->halved++;
 }
 
-/* --- behind the fence and before it ------------------------------------------------------------------------------------------ */
+/* --- behind the fence and before it --------------------------------------------------------------------- */
 
 enum { HALVED_MOST = 14 }; /* from the longest side to one pixel */
 
@@ -188,16 +190,17 @@ typedef struct picture_size {
     int32_t  halved;
 } picture_size;
 
-/* Request: the most bytes, then the file. Answer: pixels, then picture_size; so that the pixels can be kept where they arrive. */
+/* Request: the most bytes, then the file. Answer: pixels, then picture_size; so that the pixels can be kept where
+ * they arrive. */
 static lmn_status decode_request(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(request, size);
-    uint64_t most = 0;
-    const void *at = fence_take(&r, sizeof most);
+    uint64_t     most = 0;
+    const void  *at = fence_take(&r, sizeof most);
     if (at)
         memcpy(&most, at, sizeof most);
     image_pixels picture = {0};
-    lmn_status status = decode(&picture, r.at, (size_t)(r.end - r.at), error);
+    lmn_status   status = decode(&picture, r.at, (size_t)(r.end - r.at), error);
     if (status != LMN_OK) {
         mem_free(picture.rgba);
         return status;
@@ -223,8 +226,9 @@ lmn_status image_read(image_pixels *out, const unsigned char *bytes, size_t size
     picture_size facts = {0};
     if (answer.size >= sizeof facts)
         memcpy(&facts, answer.bytes + answer.size - sizeof facts, sizeof facts);
-    if (!facts.width || !facts.height || facts.width > LIMIT_IMAGE_SIDE || facts.height > LIMIT_IMAGE_SIDE || facts.halved < 0 ||
-        facts.halved > HALVED_MOST || answer.size - sizeof facts != (size_t)facts.width * facts.height * 4) {
+    if (!facts.width || !facts.height || facts.width > LIMIT_IMAGE_SIDE || facts.height > LIMIT_IMAGE_SIDE ||
+        facts.halved < 0 || facts.halved > HALVED_MOST ||
+        answer.size - sizeof facts != (size_t)facts.width * facts.height * 4) {
         mem_free(answer.bytes);
         return error_set(error, LMN_FORMAT, "the reader of pictures gave a wrong answer");
     }
@@ -235,7 +239,7 @@ lmn_status image_read(image_pixels *out, const unsigned char *bytes, size_t size
 lmn_status image_load(image_pixels *out, const char *path, lmn_error *error)
 {
     *out = (image_pixels){0};
-    file_data file;
+    file_data  file;
     lmn_status status = file_load(&file, path, error);
     if (status != LMN_OK)
         return status;

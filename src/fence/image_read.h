@@ -10,8 +10,8 @@ typedef struct image_pixels {
     int      halved; /* how often width and height were halved so that it fits; 0: as the file has it */
 } image_pixels;
 
-/* PNG, JPEG or WebP to RGBA8, decoded behind the fence. A picture of more than `most_bytes` is halved until it fits (0: never). Errors: LMN_FORMAT,
- * LMN_LIMIT, LMN_UNSUPPORTED, LMN_MEMORY, LMN_CANCELLED; then *out is empty. */
+/* PNG, JPEG or WebP to RGBA8, decoded behind the fence. A picture of more than `most_bytes` is halved until it fits
+ * (0: never). Errors: LMN_FORMAT, LMN_LIMIT, LMN_UNSUPPORTED, LMN_MEMORY, LMN_CANCELLED; then *out is empty. */
 lmn_status image_read(image_pixels *out, const unsigned char *bytes, size_t size, size_t most_bytes, lmn_error *error);
 /* The same of a file, as large as it is; messages name it. Also LMN_READ. */
 lmn_status image_load(image_pixels *out, const char *path, lmn_error *error);

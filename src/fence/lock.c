@@ -12,25 +12,38 @@
 #include <errno.h>
 #include <seccomp.h>
 
-/* Memory, answering, the clock, and how a process ends. What is not here fails with an error, as do descriptors of files: none is open. */
+/* Memory, answering, the clock, and how a process ends. What is not here fails with an error, as do descriptors of
+ * files: none is open. */
 static bool forbid_the_rest(void)
 {
     static const int allowed[] = {
-        SCMP_SYS(read), SCMP_SYS(readv), SCMP_SYS(write), SCMP_SYS(writev), SCMP_SYS(sendto), SCMP_SYS(recvfrom), SCMP_SYS(close), SCMP_SYS(lseek), SCMP_SYS(fstat),
-        SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect), SCMP_SYS(madvise), SCMP_SYS(brk), SCMP_SYS(futex),
-        SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(rt_sigreturn), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigaction), SCMP_SYS(sigaltstack),
-        SCMP_SYS(getpid), SCMP_SYS(gettid), SCMP_SYS(getrusage), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
-        SCMP_SYS(getrandom), SCMP_SYS(sched_yield), SCMP_SYS(sched_getaffinity), SCMP_SYS(sysinfo), SCMP_SYS(restart_syscall),
+        SCMP_SYS(read),         SCMP_SYS(readv),
+        SCMP_SYS(write),        SCMP_SYS(writev),
+        SCMP_SYS(sendto),       SCMP_SYS(recvfrom),
+        SCMP_SYS(close),        SCMP_SYS(lseek),
+        SCMP_SYS(fstat),        SCMP_SYS(mmap),
+        SCMP_SYS(munmap),       SCMP_SYS(mremap),
+        SCMP_SYS(mprotect),     SCMP_SYS(madvise),
+        SCMP_SYS(brk),          SCMP_SYS(futex),
+        SCMP_SYS(exit),         SCMP_SYS(exit_group),
+        SCMP_SYS(rt_sigreturn), SCMP_SYS(rt_sigprocmask),
+        SCMP_SYS(rt_sigaction), SCMP_SYS(sigaltstack),
+        SCMP_SYS(getpid),       SCMP_SYS(gettid),
+        SCMP_SYS(getrusage),    SCMP_SYS(clock_gettime),
+        SCMP_SYS(gettimeofday), SCMP_SYS(getrandom),
+        SCMP_SYS(sched_yield),  SCMP_SYS(sched_getaffinity),
+        SCMP_SYS(sysinfo),      SCMP_SYS(restart_syscall),
 #ifdef FENCE_SANITIZED /* looks through a pipe whether memory can be read */
-        SCMP_SYS(pipe), SCMP_SYS(pipe2),
+        SCMP_SYS(pipe),         SCMP_SYS(pipe2),
 #endif
     };
     scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
-    bool good = filter != NULL;
+    bool            good = filter != NULL;
     for (size_t i = 0; good && i < sizeof allowed / sizeof *allowed; i++)
         good = seccomp_rule_add(filter, SCMP_ACT_ALLOW, allowed[i], 0) == 0;
     /* Aborting is a signal to oneself; others get none. */
-    good = good && seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1, SCMP_A0(SCMP_CMP_EQ, (scmp_datum_t)getpid())) == 0;
+    good = good && seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
+                                    SCMP_A0(SCMP_CMP_EQ, (scmp_datum_t)getpid())) == 0;
     good = good && seccomp_load(filter) == 0;
     seccomp_release(filter);
     return good;

@@ -17,12 +17,12 @@ typedef struct sheet_values {
 
 /* How the model stands to the viewer, as far as a paper that goes with it wants to know. */
 typedef struct sheet_view {
-    double anchor[2];  /* where its middle is on the page, pixels from the bottom left */
-    double scale;      /* pixels of a unit there */
-    double fitted;     /* the same when the model fills the page */
-    double radius;     /* of the ball that turns as the model does, units */
+    double anchor[2];          /* where its middle is on the page, pixels from the bottom left */
+    double scale;              /* pixels of a unit there */
+    double fitted;             /* the same when the model fills the page */
+    double radius;             /* of the ball that turns as the model does, units */
     double azimuth, elevation; /* of the viewer around the model, radians */
-    double roll;       /* of the upright on the page against the picture's, counterclockwise */
+    double roll;               /* of the upright on the page against the picture's, counterclockwise */
 } sheet_view;
 
 /* From pixels (x, y) to a paper that repeats: (a x − b y + u, b x + a y + v). */
@@ -30,17 +30,19 @@ typedef struct sheet_place {
     float a, b, u, v;
 } sheet_place;
 
-/* How the paper lies. Papers that zoom are two, of one octave each. A paper that has rolled half around has come to its end, and begins again: around there
- * some of its pieces are where it ends and some where it begins. */
+/* How the paper lies. Papers that zoom are two, of one octave each. A paper that has rolled half around has come to
+ * its end, and begins again: around there some of its pieces are where it ends and some where it begins. */
 typedef struct sheet_lie {
     sheet_place octaves[2];
-    float       finer;     /* share of the second octave; 0: there is one only */
-    float       begin[2];  /* of each octave, what is to be added to u where it begins again */
-    float       begun;     /* share of the pieces that do */
-    sheet_place pieces;    /* from pixels to what tells pieces apart: those begin whose contact there is less than the share */
+    float       finer;    /* share of the second octave; 0: there is one only */
+    float       begin[2]; /* of each octave, what is to be added to u where it begins again */
+    float       begun;    /* share of the pieces that do */
+    sheet_place
+        pieces; /* from pixels to what tells pieces apart: those begin whose contact there is less than the share */
 } sheet_lie;
 
-/* What the strongest ink differs by from a ground (linear, premultiplied), where it takes away from it and where it adds to it. */
+/* What the strongest ink differs by from a ground (linear, premultiplied), where it takes away from it and where it
+ * adds to it. */
 void sheet_room(const sheet_values *values, const float ground[4], float less[4], float more[4]);
 
 /* A function of the view alone. */

@@ -8,23 +8,33 @@
 static const char *const motion_names[] = {"fixed", "following", "zooming", NULL};
 
 static const param params[] = {
-    PARAM_COLOUR_ROW(sheet_values, ground, .def_colour = {1, 1, 1, 1}, .cpu_only = true, .doc = "Colour of the page; none leaves it transparent."),
+    PARAM_COLOUR_ROW(sheet_values, ground, .def_colour = {1, 1, 1, 1}, .cpu_only = true,
+                     .doc = "Colour of the page; none leaves it transparent."),
     PARAM_ENUM_ROW(sheet_values, paper, .names = paper_names, .cpu_only = true,
-                   .doc = "What is drawn on: ink stays on the hills of its grain and leaves out the valleys, the fainter the more. smooth, drawing (fine tooth), "
+                   .doc = "What is drawn on: ink stays on the hills of its grain and leaves out the valleys, the "
+                          "fainter the more. smooth, drawing (fine tooth), "
                           "rough, laid (ribs and chain lines) or canvas."),
-    PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "paper", .doc = "How much ink follows the grain."),
-    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1.5, .max = 32, .soft_max = 8, .unit = UNIT_PX, .logarithmic = true, .cpu_only = true, .only_if = "paper",
+    PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
+                    .doc = "How much ink follows the grain."),
+    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1.5, .max = 32, .soft_max = 8, .unit = UNIT_PX,
+                    .logarithmic = true, .cpu_only = true, .only_if = "paper",
                     .doc = "Size of the fine tooth; rough paper's hills, ribs and threads are a few times as large."),
     PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
-                    .doc = "1: where ink is full it fills the valleys, and tones stay what they are; below, the darkest strokes are broken too, and lighter for it."),
-    PARAM_COLOUR_ROW(sheet_values, ink, .def_colour = {NAN, NAN, NAN, 1}, .can_auto = true, .def_auto = true, .cpu_only = true, .only_if = "paper",
-                     .doc = "The strongest ink: the pencil's colour, beyond which hills do not go; auto: as far as colours go, so that grey ink gets black specks."),
-    PARAM_FLOAT_ROW(sheet_values, relief, .toggles = true, .def = 0, .min = 0, .max = 1, .soft_max = 0.3, .unit = UNIT_SHARE, .only_if = "paper",
+                    .doc = "1: where ink is full it fills the valleys, and tones stay what they are; below, the "
+                           "darkest strokes are broken too, and lighter for it."),
+    PARAM_COLOUR_ROW(sheet_values, ink, .def_colour = {NAN, NAN, NAN, 1}, .can_auto = true, .def_auto = true,
+                     .cpu_only = true, .only_if = "paper",
+                     .doc = "The strongest ink: the pencil's colour, beyond which hills do not go; auto: as far as "
+                            "colours go, so that grey ink gets black specks."),
+    PARAM_FLOAT_ROW(sheet_values, relief, .toggles = true, .def = 0, .min = 0, .max = 1, .soft_max = 0.3,
+                    .unit = UNIT_SHARE, .only_if = "paper",
                     .doc = "How much the bare paper shows its grain by light from the upper left."),
     PARAM_ENUM_ROW(sheet_values, motion, .names = motion_names, .variant = true, .only_if = "paper",
-                   .doc = "fixed: the paper lies still under what moves; following: it goes, turns and rolls along with the model; zooming: it also grows "
+                   .doc = "fixed: the paper lies still under what moves; following: it goes, turns and rolls along "
+                          "with the model; zooming: it also grows "
                           "with it, while finer grain appears."),
-    PARAM_INT_ROW(sheet_values, paper_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .only_if = "paper", .doc = "Another sheet of the same kind."),
+    PARAM_INT_ROW(sheet_values, paper_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true,
+                  .only_if = "paper", .doc = "Another sheet of the same kind."),
 };
 
 static void describe(text *out, const void *values)
@@ -44,20 +54,31 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
     return status;
 }
 
-static const texture_source textures[] = {{.name = "paper", .when = "paper&grain", .describe = describe, .make = make, .kept = true}};
+static const texture_source textures[] = {
+    {.name = "paper", .when = "paper&grain", .describe = describe, .make = make, .kept = true}};
 
 static const technique sheet = {
-    .name = "sheet", .doc = "The page's ground and the paper's grain.", .example = "{\"surface\": \"lit\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(sheet_values),
-    .textures = textures, .texture_count = PARAM_COUNT(textures),
+    .name = "sheet",
+    .doc = "The page's ground and the paper's grain.",
+    .example = "{\"surface\": \"lit\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(sheet_values),
+    .textures = textures,
+    .texture_count = PARAM_COUNT(textures),
 };
 
 static const technique *const techniques[] = {&sheet};
 
 const kind kind_finish = {
-    .id = KIND_FINISH, .name = "finish", .doc = "The sheet, for the whole look.",
-    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &sheet,
-    .selector_key = "technique", .look_wide = true,
+    .id = KIND_FINISH,
+    .name = "finish",
+    .doc = "The sheet, for the whole look.",
+    .techniques = techniques,
+    .technique_count = PARAM_COUNT(techniques),
+    .standard = &sheet,
+    .selector_key = "technique",
+    .look_wide = true,
 };
 
 void sheet_room(const sheet_values *values, const float ground[4], float less[4], float more[4])
@@ -70,11 +91,11 @@ void sheet_room(const sheet_values *values, const float ground[4], float less[4]
     }
 }
 
-/* --- where the paper lies ------------------------------------------------------------------------------------------ */
+/* --- where the paper lies ------------------------------------------------------------------------------- */
 
 static const double TURN = 6.283185307179586477;
-static const double END = 0.5;          /* radians before and after the half turn in which the paper begins again */
-static const double PIECE = 0.3;        /* size of a grain over that of a piece */
+static const double END = 0.5;   /* radians before and after the half turn in which the paper begins again */
+static const double PIECE = 0.3; /* size of a grain over that of a piece */
 
 static float fraction(double value)
 {
@@ -90,7 +111,8 @@ static sheet_place lay_at(const sheet_view *view, double tiles, double u, double
     return (sheet_place){(float)a, (float)b, fraction(u), fraction(v)};
 }
 
-/* One octave, which rolls along like a ball of `radius` pixels. Its number shifts it, so that it is not the next one magnified. */
+/* One octave, which rolls along like a ball of `radius` pixels. Its number shifts it, so that it is not the next
+ * one magnified. */
 static void roll_octave(sheet_lie *out, int index, const sheet_view *view, double tiles, double radius, double number)
 {
     double around = radius * tiles, shift = 0.381966 * number, azimuth = view->azimuth;

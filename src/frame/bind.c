@@ -12,11 +12,12 @@
 static void set_cut(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
-    float scale = (float)f->samples, colour[4], fill[4] = {1, 1, 1, -1};
+    float               scale = (float)f->samples, colour[4], fill[4] = {1, 1, 1, -1};
     uniforms_linear(v->cut_colour, colour);
     if (!isnan(v->cut_fill.r))
         uniforms_linear(v->cut_fill, fill);
-    gpu_set_vec4(f->g, "u_cut_lines", (float[]){v->cut_hatch * scale, v->cut_width * scale, v->cut_angle * (3.14159265f / 180), 0});
+    gpu_set_vec4(f->g, "u_cut_lines",
+                 (float[]){v->cut_hatch * scale, v->cut_width * scale, v->cut_angle * (3.14159265f / 180), 0});
     gpu_set_vec4(f->g, "u_cut_colour", colour);
     gpu_set_vec4(f->g, "u_cut_fill", fill);
 }
@@ -31,8 +32,8 @@ void frame_set_rest(frame *f, size_t part_index)
     if (!gpu_has_uniform(f->g, "u_rest") || !upload_part_frames(f->up, f->g))
         return;
     const float *rows = &f->up->part_frame_values[PART_FRAME_FLOATS * part_index];
-    double world[16];
-    float out[12];
+    double       world[16];
+    float        out[12];
     view_world_from_eye(&f->camera, f->up->frame_origin, world);
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 4; column++) {
@@ -49,8 +50,8 @@ void frame_set_rest(frame *f, size_t part_index)
 static void set_part_frames(frame *f, const figure_state *s)
 {
     gpu_texture *frames = upload_part_frames(f->up, f->g);
-    double exact[16];
-    float world[16];
+    double       exact[16];
+    float        world[16];
     view_world_from_eye(&f->camera, f->up->frame_origin, exact);
     for (int i = 0; i < 16; i++)
         world[i] = (float)exact[i];
@@ -67,7 +68,7 @@ void frame_set_numbers(frame *f, const technique_use *use)
 {
     if (!use->technique->numbers || !gpu_has_uniform(f->g, "u_numbers"))
         return;
-    float numbers[NUMBERS_MAX][4];
+    float  numbers[NUMBERS_MAX][4];
     size_t count = use->technique->numbers(use->values, f->seed, f->width, f->height, numbers);
     gpu_set_vec4_array(f->g, "u_numbers", numbers[0], (int)count);
 }
@@ -76,7 +77,7 @@ void frame_set_numbers(frame *f, const technique_use *use)
 static void set_field(frame *f, const figure_state *s)
 {
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
-    const perturbation *p = use->technique->perturbs;
+    const perturbation  *p = use->technique->perturbs;
     if (p->cell) {
         int size[2];
         target_size(f, s, SCALE_CELL, size);
@@ -89,8 +90,8 @@ static void set_field(frame *f, const figure_state *s)
     gpu_set_float(f->g, "u_empty", (float)(s->figure->layered ? f->camera.far : s->far));
 }
 
-/* The walls of a hole are where what was taken away ends. Both are found apart, so their depths differ by rounding, of places as shares of
- * the distance and of window depth: the ghost shall be in front, rather than in speckles. */
+/* The walls of a hole are where what was taken away ends. Both are found apart, so their depths differ by rounding,
+ * of places as shares of the distance and of window depth: the ghost shall be in front, rather than in speckles. */
 static float forward_of(const frame *f, const figure *fig)
 {
     double far = f->camera.far, range = far - f->camera.near;
@@ -101,22 +102,25 @@ static float forward_of(const frame *f, const figure *fig)
 static void set_focus(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
-    double nearest = INFINITY, farthest = -INFINITY;
+    double              nearest = INFINITY, farthest = -INFINITY;
     camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
     double range = fmax(farthest - nearest, 1e-30);
-    gpu_set_vec4(f->g, "u_focus", (float[]){v->focus, (float)(nearest + (double)v->focus_at * range), (float)(1 / ((double)v->focus_depth * range)), 0});
+    gpu_set_vec4(f->g, "u_focus",
+                 (float[]){v->focus, (float)(nearest + (double)v->focus_at * range),
+                           (float)(1 / ((double)v->focus_depth * range)), 0});
 }
 
 /* Where the middle of all that is drawn lies on the page: strokes on the page move with it. */
 static void set_anchor(frame *f)
 {
     const double *view = f->camera.view.m, *projection = f->camera.projection.m;
-    double middle[3], eye[3];
+    double        middle[3], eye[3];
     box3_middle(f->plan->box, middle);
     for (int k = 0; k < 3; k++)
         eye[k] = view[k] * middle[0] + view[4 + k] * middle[1] + view[8 + k] * middle[2] + view[12 + k];
     double depth = f->camera.orthographic ? 1 : fmax(-eye[2], f->camera.near);
-    gpu_set_vec2(f->g, "u_anchor", (float)((projection[0] * eye[0] / depth + 1) * f->width / 2), (float)((projection[5] * eye[1] / depth + 1) * f->height / 2));
+    gpu_set_vec2(f->g, "u_anchor", (float)((projection[0] * eye[0] / depth + 1) * f->width / 2),
+                 (float)((projection[5] * eye[1] / depth + 1) * f->height / 2));
 }
 
 void frame_set_common(frame *f, const figure_state *s)
@@ -180,7 +184,8 @@ const technique_use *rule_inked_lines(const rule *r)
 }
 
 static const gpu_format formats[TEXEL_FORMAT_COUNT] = {
-    [TEXEL_R8] = GPU_R8, [TEXEL_RGBA16F] = GPU_RGBA16F, [TEXEL_RGBA32F] = GPU_RGBA32F, [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F,
+    [TEXEL_R8] = GPU_R8,         [TEXEL_RGBA16F] = GPU_RGBA16F,   [TEXEL_RGBA32F] = GPU_RGBA32F,
+    [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F,
 };
 
 const target_row *target_row_of(const figure_state *s, target t)
@@ -207,7 +212,7 @@ static void size_apart(const frame *f, int out[2])
 static void size_in_cells(const frame *f, const figure_state *s, int out[2])
 {
     const technique_use *use = rule_use(s->figure->rule, KIND_PERTURB);
-    float cell = use->technique->perturbs->cell(use->values);
+    float                cell = use->technique->perturbs->cell(use->values);
     /* One more, so that every pixel lies between two texels. */
     out[0] = (int)ceilf((float)f->width / cell) + 1;
     out[1] = (int)ceilf((float)f->height / cell) + 1;
@@ -226,7 +231,7 @@ void target_size(const frame *f, const figure_state *s, target_scale scale, int 
 gpu_texture *frame_acquire_for(frame *f, const figure_state *s, target t)
 {
     const target_row *row = target_row_of(s, t);
-    int size[2];
+    int               size[2];
     target_size(f, s, row->scale, size);
     return gpu_target_acquire(f->g, size[0], size[1], formats[row->format]);
 }
@@ -239,10 +244,10 @@ gpu_texture *target_of(const frame *f, const figure_state *s, target t)
 bool pass_applies(kind_id id, const pass *p, const technique_use *use)
 {
     const technique *t = use->technique;
-    const kind *k = kinds[id];
+    const kind      *k = kinds[id];
     if (!p->when)
         return true;
-    char key[32];
+    char   key[32];
     size_t length = strcspn(p->when, "=<>&");
     if (length >= sizeof key)
         return false;
@@ -291,7 +296,8 @@ const pass *rule_merged_detection(const rule *r)
     const technique_use *compose = rule_use(r, KIND_COMPOSE), *lines = rule_inked_lines(r);
     if (!compose || !compose->technique->compose->merges_when || needs_map(compose) || rule_use(r, KIND_PERTURB) ||
         r->use_counts[KIND_LINES] != 1 || !lines->technique->lines->detect ||
-        !params_condition(compose->technique->compose->merges_when, kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, lines->values))
+        !params_condition(compose->technique->compose->merges_when, kinds[KIND_LINES]->common,
+                          kinds[KIND_LINES]->common_count, lines->values))
         return NULL;
     const pass *only = NULL;
     for (size_t i = 0; i < lines->technique->pass_count; i++) {
@@ -333,7 +339,7 @@ static int union_of_reads(const pass *a, const pass *b, target out[2 * PASS_READ
 void reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b)
 {
     target reads[2 * PASS_READS_MAX];
-    int count = union_of_reads(a, b, reads);
+    int    count = union_of_reads(a, b, reads);
     for (int i = 0; i < count; i++) {
         if (!target_of(f, s, reads[i]))
             continue;
@@ -348,7 +354,7 @@ void reads_declare(text *prelude, const frame *f, const figure_state *s, const p
 void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b)
 {
     target reads[2 * PASS_READS_MAX];
-    int count = union_of_reads(a, b, reads);
+    int    count = union_of_reads(a, b, reads);
     for (int i = 0; i < count; i++) {
         const target_row *row = target_row_of(s, reads[i]);
         gpu_set_texture(f->g, row->name, target_of(f, s, reads[i]), row->filtered);

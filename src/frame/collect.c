@@ -91,7 +91,7 @@ static void merge_layer(layer_map *layer, size_t count, const figure_state *s, c
 {
     for (size_t i = 0; i < count; i++) {
         layer_map *m = &layer[i];
-        bool own = is_own(s, &r->id[2 * i]);
+        bool       own = is_own(s, &r->id[2 * i]);
         for (size_t k = 0; k < 4; k++) {
             uint8_t edge = byte_of(r->edge[4 * i + k]);
             m->edge[k] = own || edge < m->edge[k] ? edge : m->edge[k];
@@ -131,8 +131,8 @@ void collect_edges(frame *f, figure_state *s)
 void collect_uncertainty(frame *f, figure_state *s)
 {
     frame_maps *m = f->maps;
-    size_t count = (size_t)f->width * (size_t)f->height;
-    float *field = mem_alloc(count * 4 * sizeof *field);
+    size_t      count = (size_t)f->width * (size_t)f->height;
+    float      *field = mem_alloc(count * 4 * sizeof *field);
     if (!m->uncertainty)
         m->uncertainty = mem_calloc(count, 3 * sizeof *m->uncertainty);
     if (!field || !m->uncertainty) {
@@ -151,7 +151,8 @@ void collect_uncertainty(frame *f, figure_state *s)
 void collect_direction(frame *f, figure_state *s)
 {
     frame_maps *m = f->maps;
-    int columns = gpu_texture_width(s->targets[TARGET_DIRECTION]), rows = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
+    int         columns = gpu_texture_width(s->targets[TARGET_DIRECTION]),
+        rows = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
     float *coarse = mem_alloc((size_t)columns * (size_t)rows * 4 * sizeof *coarse);
     if (m->whole && !m->direction)
         m->direction = mem_calloc((size_t)f->width * (size_t)f->height, 3 * sizeof *m->direction);
@@ -173,7 +174,7 @@ void collect_direction(frame *f, figure_state *s)
 static layer_map *layer_at(frame *f, size_t index)
 {
     frame_maps *m = f->maps;
-    size_t count = (size_t)f->width * (size_t)f->height;
+    size_t      count = (size_t)f->width * (size_t)f->height;
     while (m->layer_count <= index && !gpu_failed(f->g)) {
         layer_map *layer = mem_calloc(count, sizeof *layer);
         if (!layer || !mem_grow((void **)&m->layers, &m->layer_capacity, m->layer_count + 1, sizeof *m->layers)) {
@@ -193,8 +194,8 @@ static layer_map *layer_at(frame *f, size_t index)
 /* Reads the figure's pictures and merges them, into a layer's map too when the figure has several. */
 static void collect(frame *f, figure_state *s, bool layered)
 {
-    size_t count = (size_t)f->width * (size_t)f->height;
-    bool whole = f->maps->whole;
+    size_t   count = (size_t)f->width * (size_t)f->height;
+    bool     whole = f->maps->whole;
     readings r = {.normal_depth = mem_alloc(count * 16), .id = mem_alloc(count * 8), .edge = s->edges};
     if (whole) {
         r.shade = mem_alloc(count * 16);

@@ -9,7 +9,7 @@ static float lengths_of(const param *params, size_t count, const void *values)
     float sum = 0;
     for (size_t i = 0; i < count; i++) {
         const param *p = &params[i];
-        bool widens = p->unit == UNIT_PX && p->type == PARAM_FLOAT && !p->along && !param_is_auto(p, values);
+        bool         widens = p->unit == UNIT_PX && p->type == PARAM_FLOAT && !p->along && !param_is_auto(p, values);
         if (widens && params_condition(p->only_if, params, count, values))
             sum += fabsf(*(const float *)param_field(p, values)) * (p->reach > 0 ? p->reach : 1);
     }
@@ -19,7 +19,7 @@ static float lengths_of(const param *params, size_t count, const void *values)
 int figure_reach(const figure *fig)
 {
     const rule *r = fig->rule;
-    float widest = 0;
+    float       widest = 0;
     for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
         const technique_use *use = &r->uses[KIND_LINES][i];
         widest += lengths_of(kinds[KIND_LINES]->common, kinds[KIND_LINES]->common_count, use->values);
@@ -38,7 +38,7 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
 {
     *s = (figure_state){.figure = fig, .near = f->camera.near, .far = f->camera.far};
     double nearest = INFINITY, farthest = -INFINITY;
-    box3 box = fig->complement ? f->plan->box : fig->box;
+    box3   box = fig->complement ? f->plan->box : fig->box;
     camera_depth_range(&f->camera, box, &nearest, &farthest);
     double margin = fmax((farthest - nearest) * 1e-3, farthest * 1e-6);
     s->near = fmax(nearest - margin, f->camera.near);

@@ -47,7 +47,8 @@ static void draw_reflection(frame *f, figure_state *s)
 static void draw_sprite(frame *f, figure_state *s)
 {
     /* Lines that are folded into the fill would move with it. */
-    bool one_by_one = !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
+    bool one_by_one =
+        !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
     s->filled = true;
     for (int k = KIND_LAYERS; k < KIND_FINISH; k++) {
         bool wanted = !f->maps || (f->maps->whole && k != KIND_COMPOSE);
@@ -103,7 +104,7 @@ static void draw_figures(frame *f)
 static void encode(frame *f, gpu_texture *out)
 {
     stopwatch w = watch_start(&f->profile);
-    text prelude = {0};
+    text      prelude = {0};
     paper_declare(&prelude, f);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "finish/encode.frag", &prelude);
     if (p && !gpu_failed(f->g)) {

@@ -12,28 +12,29 @@
 typedef struct frame_maps frame_maps;
 
 typedef struct frame {
-    gpu             *g;
-    upload          *up;
-    const plan      *plan;
-    const used_textures *sheet;       /* of the plan's sheet */
-    view_camera      camera;
-    int              width, height;   /* of the page, supersamples counted */
-    int              samples;         /* a side */
-    colour           ground;
-    uint32_t         seed;
-    double           time_s;
-    gpu_profile      profile;
-    frame_maps      *maps;            /* collects the figures' buffers when not NULL */
-    gpu_texture     *page, *page_depth;
-    gpu_texture     *shadow;          /* depth of what the first light sees; NULL: it throws no shadow */
-    view_camera      shadow_camera;   /* the light's eye */
-    gpu_texture     *visibility;      /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor occlusion */
-    float            clip_plane[4];   /* eye space, while a mirror's view is drawn */
-    int              layers;          /* drawn by the deepest stack */
-    const char      *producer;        /* of layers; NULL: there were none */
-    bool             lists_full;      /* lists had no room, so that layers were peeled instead */
-    const figure    *mirror;          /* whose view is drawn; NULL: the scene itself */
-    uint64_t         strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
+    gpu                 *g;
+    upload              *up;
+    const plan          *plan;
+    const used_textures *sheet; /* of the plan's sheet */
+    view_camera          camera;
+    int                  width, height; /* of the page, supersamples counted */
+    int                  samples;       /* a side */
+    colour               ground;
+    uint32_t             seed;
+    double               time_s;
+    gpu_profile          profile;
+    frame_maps          *maps; /* collects the figures' buffers when not NULL */
+    gpu_texture         *page, *page_depth;
+    gpu_texture         *shadow;        /* depth of what the first light sees; NULL: it throws no shadow */
+    view_camera          shadow_camera; /* the light's eye */
+    gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
+                                occlusion */
+    float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
+    int           layers;                      /* drawn by the deepest stack */
+    const char   *producer;                    /* of layers; NULL: there were none */
+    bool          lists_full;                  /* lists had no room, so that layers were peeled instead */
+    const figure *mirror;                      /* whose view is drawn; NULL: the scene itself */
+    uint64_t      strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
 } frame;
 
 /* Draws the page and encodes it into `out` (RGBA8, width/samples wide). Errors stick to the GPU. */
@@ -41,25 +42,26 @@ void frame_draw(frame *f, gpu_texture *out);
 
 /* What one layer was made of: 28 bytes a pixel. */
 typedef struct layer_map {
-    float     depth;     /* eye depth, INFINITY where empty */
-    float     normal[3];
-    uint32_t  id;
-    uint8_t   edge[4], shade[4]; /* shade: sRGB, straight alpha */
+    float    depth; /* eye depth, INFINITY where empty */
+    float    normal[3];
+    uint32_t id;
+    uint8_t  edge[4], shade[4]; /* shade: sRGB, straight alpha */
 } layer_map;
 
 /* What the figures were made of, merged by nearest depth; row 0 at the bottom. */
 struct frame_maps {
     int       width, height;
-    float    *depth;   /* eye depth, INFINITY where empty */
-    float    *normal;  /* 3 */
+    float    *depth;  /* eye depth, INFINITY where empty */
+    float    *normal; /* 3 */
     uint32_t *id;
-    float    *edge;    /* 4 */
-    float    *shade;   /* 4, linear premultiplied */
+    float    *edge;        /* 4 */
+    float    *shade;       /* 4, linear premultiplied */
     float    *uncertainty; /* 3; NULL while nothing is perturbed */
-    float    *direction; /* 3: the way of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks for it */
-    bool       whole;   /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
+    float
+        *direction; /* 3: the way of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks for it */
+    bool        whole;  /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
     layer_map **layers; /* of figures that are seen through, nearest first */
-    size_t     layer_count, layer_capacity;
+    size_t      layer_count, layer_capacity;
 };
 lmn_status frame_maps_create(frame_maps *out, int width, int height, bool whole, lmn_error *error);
 void       frame_maps_release(frame_maps *m);

@@ -17,60 +17,60 @@ typedef struct tile_grid {
 } tile_grid;
 
 /* --- tiles.c --- */
-void   tiles_start(tile_grid *t, const int band[4]); /* all full */
-/* The full tiles and those within `margin` pixels of them as boxes, at most TILE_BOXES_MAX, inside `limits`. Tiles at the rim of the
- * band reach `margin` beyond it. Returns how many. */
+void tiles_start(tile_grid *t, const int band[4]); /* all full */
+/* The full tiles and those within `margin` pixels of them as boxes, at most TILE_BOXES_MAX, inside `limits`. Tiles
+ * at the rim of the band reach `margin` beyond it. Returns how many. */
 size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4]);
 
 /* A figure while it is drawn: its pictures and its range of depth. */
 typedef struct figure_state {
-    const figure *figure;
-    gpu_texture  *targets[TARGET_SLOTS];
+    const figure     *figure;
+    gpu_texture      *targets[TARGET_SLOTS];
     const target_row *own_targets; /* rows of the technique whose passes run; NULL: it has none */
-    gpu_texture  *geometry;  /* the normal-depth buffer as it was drawn; techniques may filter a copy of it */
-    float        *edges;     /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
-    int           pixels[4]; /* where the figure and its lines can be: scissor */
-    int           around[4]; /* what passes there can look at: cleared */
-    int           band[4];   /* layered: what is composed now, a part of `pixels` */
-    int           layer;     /* layered: 0 = visible */
-    int           index;     /* layered: of the figure among those that share their layers */
-    bool          shared;    /* layered: other figures' surfaces are in the layers too */
-    float         rear;      /* layered: opacity */
-    int         (*boxes)[4]; /* layered: where passes are drawn; NULL: all of `pixels` */
-    size_t        box_count;
-    bool          filled;    /* the fill is drawn with these lines */
-    double        near, far;
-    solid_layers  solids;    /* of the figure and what may hide it */
+    gpu_texture      *geometry;    /* the normal-depth buffer as it was drawn; techniques may filter a copy of it */
+    float            *edges;       /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
+    int               pixels[4];   /* where the figure and its lines can be: scissor */
+    int               around[4];   /* what passes there can look at: cleared */
+    int               band[4];     /* layered: what is composed now, a part of `pixels` */
+    int               layer;       /* layered: 0 = visible */
+    int               index;       /* layered: of the figure among those that share their layers */
+    bool              shared;      /* layered: other figures' surfaces are in the layers too */
+    float             rear;        /* layered: opacity */
+    int (*boxes)[4];               /* layered: where passes are drawn; NULL: all of `pixels` */
+    size_t       box_count;
+    bool         filled; /* the fill is drawn with these lines */
+    double       near, far;
+    solid_layers solids; /* of the figure and what may hide it */
 } figure_state;
 
 /* What the figures share that are seen through together: the pictures of one layer at a time. */
 typedef struct layer_stack {
-    figure_state *states;       /* one a figure; they borrow the pictures below and own their edge maps */
-    figure       *hidden;       /* the figures with the rules of hidden layers */
+    figure_state *states; /* one a figure; they borrow the pictures below and own their edge maps */
+    figure       *hidden; /* the figures with the rules of hidden layers */
     int           count;
     unsigned      channels;
-    int           limit;        /* layers at most */
-    int           reach;        /* of the widest lines, pixels */
-    int           box[4];       /* all that is drawn */
-    int           band[4];      /* that is drawn now */
-    int           around[4];    /* the band and what passes there look at */
-    tile_grid     tiles;        /* of the layer before, later of the current one */
-    int         (*boxes)[4];    /* room for TILE_BOXES_MAX */
-    size_t        box_count;
-    gpu_texture  *targets[TARGET_COUNT]; /* of the current layer */
-    gpu_texture  *before_depth, *before_id; /* of the layer in front */
-    gpu_texture  *mask;         /* depth of what is to be uncovered, or NULL */
-    gpu_texture  *nodes[2];     /* lists: nodes of up to eight layers */
-    gpu_buffer   *heads, *list, *counter;
-    int           node_vectors;
-    solid_layers  solids;       /* of all figures */
+    int           limit;     /* layers at most */
+    int           reach;     /* of the widest lines, pixels */
+    int           box[4];    /* all that is drawn */
+    int           band[4];   /* that is drawn now */
+    int           around[4]; /* the band and what passes there look at */
+    tile_grid     tiles;     /* of the layer before, later of the current one */
+    int (*boxes)[4];         /* room for TILE_BOXES_MAX */
+    size_t       box_count;
+    gpu_texture *targets[TARGET_COUNT];    /* of the current layer */
+    gpu_texture *before_depth, *before_id; /* of the layer in front */
+    gpu_texture *mask;                     /* depth of what is to be uncovered, or NULL */
+    gpu_texture *nodes[2];                 /* lists: nodes of up to eight layers */
+    gpu_buffer  *heads, *list, *counter;
+    int          node_vectors;
+    solid_layers solids; /* of all figures */
 } layer_stack;
 
 /* --- figure.c --- */
 /* Sets range and pixels; false when nothing of it is on the page. */
 bool figure_open(frame *f, figure_state *s, const figure *fig);
 /* How far the figure's lines reach beyond it, pixels. */
-int  figure_reach(const figure *fig);
+int figure_reach(const figure *fig);
 
 /* --- lighting.c: what programs that ask for light get --- */
 void lights_declare(text *prelude, const frame *f); /* soft shadows and occlusion too, where they were drawn */
@@ -83,7 +83,8 @@ bool shadow_is_soft(const frame *f);
 bool lights_first_direction(const frame *f, double out[3]);
 
 /* --- shadow.c --- */
-/* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a direction. The caller gives f->shadow back. */
+/* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a
+ * direction. The caller gives f->shadow back. */
 void shadow_draw(frame *f);
 
 /* --- visibility.c: soft shadows and ambient occlusion --- */
@@ -94,42 +95,44 @@ void visibility_draw(frame *f);
 solid_view frame_solid_view(frame *f);
 
 /* --- bind.c: what programs of all passes get --- */
-gpu_texture         *frame_acquire(frame *f, target t);
+gpu_texture *frame_acquire(frame *f, target t);
 /* The same in another size than the page's: of SCALE_OWN. */
-gpu_texture         *frame_acquire_sized(frame *f, target t, int width, int height);
+gpu_texture *frame_acquire_sized(frame *f, target t, int width, int height);
 /* Any picture, those of the technique that runs too, in the size that its row asks for. */
-gpu_texture         *frame_acquire_for(frame *f, const figure_state *s, target t);
-const target_row    *target_row_of(const figure_state *s, target t);
-void                 target_size(const frame *f, const figure_state *s, target_scale scale, int out[2]);
+gpu_texture      *frame_acquire_for(frame *f, const figure_state *s, target t);
+const target_row *target_row_of(const figure_state *s, target t);
+void              target_size(const frame *f, const figure_state *s, target_scale scale, int out[2]);
 /* What a technique works out once for all pixels. */
-void                 frame_set_numbers(frame *f, const technique_use *use);
-void                 frame_set_common(frame *f, const figure_state *s);
+void frame_set_numbers(frame *f, const technique_use *use);
+void frame_set_common(frame *f, const figure_state *s);
 /* For programs that tie something to parts: from eye space to the part's frame (upload_part_frames). */
 void frame_set_rest(frame *f, size_t part_index);
 /* The program of these files with this prelude, which is used up; NULL after an error. */
 gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
 param_set            use_own_set(kind_id id, const technique_use *use);
 param_set            use_common_set(kind_id id, const technique_use *use);
-const technique_use *rule_inked_lines(const rule *r); /* the line technique that a composition inks, or NULL */
+const technique_use *rule_inked_lines(const rule *r);      /* the line technique that a composition inks, or NULL */
 const pass          *rule_merged_detection(const rule *r); /* the pass that the composition does itself, or NULL */
 /* Declares, or sets, the pictures that these passes read and that are there; either pass may be NULL. */
-void                 reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
-void                 reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
+void reads_declare(text *prelude, const frame *f, const figure_state *s, const pass *a, const pass *b);
+void reads_set(frame *f, const figure_state *s, const pass *a, const pass *b);
 /* Does some line technique of the rule work on whole lines? */
-bool                 rule_traces_lines(const rule *r);
-bool                 pass_applies(kind_id id, const pass *p, const technique_use *use);
-gpu_texture         *target_of(const frame *f, const figure_state *s, target t);
+bool         rule_traces_lines(const rule *r);
+bool         pass_applies(kind_id id, const pass *p, const technique_use *use);
+gpu_texture *target_of(const frame *f, const figure_state *s, target t);
 
 /* --- raster.c: the geometry pass --- */
-void raster_figure(frame *f, figure_state *s);  /* G-buffer, and shade unless deferred */
-void raster_direct(frame *f, figure_state *s);  /* straight onto the page */
+void raster_figure(frame *f, figure_state *s);                    /* G-buffer, and shade unless deferred */
+void raster_direct(frame *f, figure_state *s);                    /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
 void raster_shade_deferred(frame *f, figure_state *s);
 /* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
-/* The figure's parts with their surfaces moved outwards by some pixels: x and y of the normal, part id, eye depth (0: empty). */
+/* The figure's parts with their surfaces moved outwards by some pixels: x and y of the normal, part id, eye depth
+ * (0: empty). */
 void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
-/* The depth of its own parts' faces that look away, moved outwards across the page. Solids have none: their surfaces are made for one place. */
+/* The depth of its own parts' faces that look away, moved outwards across the page. Solids have none: their
+ * surfaces are made for one place. */
 void raster_shell(frame *f, figure_state *s, target into, float pixels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
@@ -149,9 +152,9 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
 /* Draws `count` figures whose layers interleave. */
 void layered_draw(frame *f, const figure *figures, int count);
 
-/* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room is needed: 1 when
- * everything is there; otherwise the lists are not whole. */
-int  lists_build(frame *f, layer_stack *stack, size_t room);
+/* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room
+ * is needed: 1 when everything is there; otherwise the lists are not whole. */
+int lists_build(frame *f, layer_stack *stack, size_t room);
 /* Draws layer `index` into the stack's pictures. Layers are asked for in order. */
 void lists_layer(frame *f, layer_stack *stack, int index);
 void lists_release(frame *f, layer_stack *stack);
@@ -160,7 +163,8 @@ void lists_release(frame *f, layer_stack *stack);
 /* What a surface technique looks at when it shades from the G-buffer. */
 void passes_prepare(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
-/* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those before. */
+/* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those
+ * before. */
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
 
 /* --- strokes.c: lines with geometry --- */

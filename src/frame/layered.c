@@ -1,5 +1,5 @@
-/* Figures that are seen through: layer after layer, nearest first, each with its lines, put under those before. Several figures
- * share the layers, so that they interleave per pixel. Nienhaus 2005, chapter 5; rows B01–B13. */
+/* Figures that are seen through: layer after layer, nearest first, each with its lines, put under those before.
+ * Several figures share the layers, so that they interleave per pixel. Nienhaus 2005, chapter 5; rows B01–B13. */
 #include "frame/frame_private.h"
 
 #include <string.h>
@@ -112,7 +112,7 @@ typedef struct coverage {
 /* Takes the counts of the tiles; tiles that the layer before had left empty were not counted again. */
 static coverage take_counts(layer_stack *stack, const float *values)
 {
-    coverage out = {0};
+    coverage   out = {0};
     tile_grid *t = &stack->tiles;
     for (int y = 0; y < t->rows; y++)
         for (int x = 0; x < t->columns; x++) {
@@ -133,19 +133,19 @@ static coverage take_counts(layer_stack *stack, const float *values)
 /* Counted by a shader and read back as a small picture, which every driver can, WebGL too. */
 static coverage count_coverage(frame *f, layer_stack *stack)
 {
-    coverage out = {0};
+    coverage  out = {0};
     stopwatch w = watch_start(&f->profile);
-    text prelude = {0};
+    text      prelude = {0};
     if (stack->mask)
         text_append(&prelude, "#define HAS_MASK\n");
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/boxes.vert", "layer/coverage.frag", &prelude);
     gpu_texture *sums = gpu_target_acquire(f->g, TILES_SIDE, TILES_SIDE, GPU_RGBA32F);
-    float *values = mem_alloc(sizeof(float) * 4 * TILES_SIDE * TILES_SIDE);
+    float       *values = mem_alloc(sizeof(float) * 4 * TILES_SIDE * TILES_SIDE);
     if (!values)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     if (p && sums && !gpu_failed(f->g)) {
         const int *band = stack->band;
-        tile_grid counted = stack->tiles;
+        tile_grid  counted = stack->tiles;
         counted.size = 1;
         memcpy(counted.band, (int[]){0, 0, counted.columns, counted.rows}, sizeof counted.band);
         stack->box_count = tiles_boxes(&counted, 0, counted.band, stack->boxes);
@@ -235,7 +235,7 @@ static void set_boxes(const frame *f, layer_stack *stack)
 /* Draws the layers inside the current band; returns how many there were. */
 static int draw_layers(frame *f, layer_stack *stack, bool lists)
 {
-    int drawn = 0;
+    int  drawn = 0;
     bool finished[FIGURES_TOGETHER_MAX] = {false};
     tiles_start(&stack->tiles, stack->band);
     forget_lines(f, stack);
@@ -270,7 +270,7 @@ static int draw_layers(frame *f, layer_stack *stack, bool lists)
 static void put_on_page(frame *f, const layer_stack *stack, const int band[4])
 {
     stopwatch w = watch_start(&f->profile);
-    text prelude = {0};
+    text      prelude = {0};
     target_declare(&prelude, &target_rows[TARGET_LAYERS]);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "compose/stack.frag", &prelude);
     if (p && !gpu_failed(f->g)) {
@@ -298,7 +298,7 @@ static void clear_sum(frame *f, layer_stack *stack)
 /* Selects a band of the stack's box, and what is looked at around it. */
 static void set_band(const frame *f, layer_stack *stack, const int band[4])
 {
-    bool whole = memcmp(band, stack->box, sizeof stack->box) == 0;
+    bool      whole = memcmp(band, stack->box, sizeof stack->box) == 0;
     const int limits[2] = {f->width, f->height};
     memcpy(stack->band, band, sizeof stack->band);
     for (int k = 0; k < 2; k++) {
@@ -318,8 +318,8 @@ static void set_band(const frame *f, layer_stack *stack, const int band[4])
 
 /* What all figures of the stack ask for. */
 typedef struct stack_options {
-    bool lists;  /* from one pass, where that can be done */
-    bool whole;  /* pieces will not do: something depends on all of the picture */
+    bool   lists; /* from one pass, where that can be done */
+    bool   whole; /* pieces will not do: something depends on all of the picture */
     size_t bytes; /* that lists may take */
 } stack_options;
 
@@ -327,7 +327,7 @@ static stack_options options_of(const frame *f, const layer_stack *stack)
 {
     stack_options out = {.lists = gpu_has_lists(f->g), .whole = f->maps != NULL, .bytes = SIZE_MAX};
     for (int i = 0; i < stack->count; i++) {
-        const rule *r = stack->states[i].figure->rule;
+        const rule     *r = stack->states[i].figure->rule;
         const layering *how = &stack->states[i].figure->layering;
         if (!how->several)
             continue;
@@ -402,7 +402,7 @@ static void draw_bands(frame *f, layer_stack *stack)
 static void draw_mask(frame *f, layer_stack *stack)
 {
     size_t count = f->up->part_count;
-    bool any = false, *parts = mem_calloc(count, sizeof *parts);
+    bool   any = false, *parts = mem_calloc(count, sizeof *parts);
     if (!parts) {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
         return;

@@ -14,7 +14,8 @@ static const scene_values *scene_of(const frame *f)
 
 static light_list list_lights(const frame *f)
 {
-    return lights_list(&(light_conditions){f->plan->look, f->up->pose, &f->camera.view, f->mirror ? f->clip_plane : NULL});
+    return lights_list(
+        &(light_conditions){f->plan->look, f->up->pose, &f->camera.view, f->mirror ? f->clip_plane : NULL});
 }
 
 bool shadow_is_soft(const frame *f)
@@ -26,13 +27,14 @@ static void visibility_declare(text *prelude, const frame *f)
 {
     if (!f->visibility || f->mirror) /* a mirror sees what the page does not */
         return;
-    text_append(prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", scene_of(f)->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
+    text_append(prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "",
+                scene_of(f)->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
 }
 
 void lights_declare(text *prelude, const frame *f)
 {
     light_list l = list_lights(f);
-    bool shadows = f->shadow && scene_of(f)->shadows;
+    bool       shadows = f->shadow && scene_of(f)->shadows;
     text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, shadows ? "#define LIT_WITH_SHADOW\n" : "");
     if (shadows)
         target_declare(prelude, &target_rows[TARGET_SHADOW]);
@@ -43,7 +45,7 @@ void lights_declare(text *prelude, const frame *f)
 void shadow_set(frame *f)
 {
     /* World from eye: the view is a rotation and a shift. */
-    mat4 world = mat4_identity();
+    mat4          world = mat4_identity();
     const double *view = f->camera.view.m;
     for (int row = 0; row < 3; row++) {
         world.m[12 + row] = 0;

@@ -1,5 +1,6 @@
-/* Layers from one geometry pass: every fragment goes into a list of its pixel (GL 4.3 storage blocks), and the nearest are sorted
- * out in rounds of up to eight. 32 bytes a fragment, 48 with shade or albedo, 4 a pixel; at most one storage block of nodes. */
+/* Layers from one geometry pass: every fragment goes into a list of its pixel (GL 4.3 storage blocks), and the
+ * nearest are sorted out in rounds of up to eight. 32 bytes a fragment, 48 with shade or albedo, 4 a pixel; at most
+ * one storage block of nodes. */
 #include "frame/frame_private.h"
 
 #include <string.h>
@@ -28,10 +29,11 @@ void lists_release(frame *f, layer_stack *stack)
 int lists_build(frame *f, layer_stack *stack, size_t room)
 {
     stopwatch w = watch_start(&f->profile);
-    size_t pixels = (size_t)stack->around[2] * (size_t)stack->around[3];
-    size_t block = (size_t)gpu_capabilities_of(f->g)->max_storage_mib << 20;
+    size_t    pixels = (size_t)stack->around[2] * (size_t)stack->around[3];
+    size_t    block = (size_t)gpu_capabilities_of(f->g)->max_storage_mib << 20;
     room = room < block ? room : block;
-    stack->node_vectors = stack->channels & (CHANNEL_SHADE | CHANNEL_ALBEDO) ? NODE_VECTORS_COLOURED : NODE_VECTORS_BARE;
+    stack->node_vectors =
+        stack->channels & (CHANNEL_SHADE | CHANNEL_ALBEDO) ? NODE_VECTORS_COLOURED : NODE_VECTORS_BARE;
     unsigned limit = (unsigned)(room / (4 * sizeof(uint32_t) * (size_t)stack->node_vectors));
     stack->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
     stack->list = gpu_buffer_acquire(f->g, room);
@@ -57,13 +59,13 @@ static int kept_of(const layer_stack *stack)
 static void sort_round(frame *f, layer_stack *stack, bool follows)
 {
     stopwatch w = watch_start(&f->profile);
-    int kept = kept_of(stack), pictures = kept > 4 ? 2 : 1;
-    text prelude = {0};
-    text_append(&prelude, "#define NODE_VECTORS %d\n#define KEPT %d\n#define LAST %c\n%s", stack->node_vectors, kept, "xyzw"[(kept - 1) % 4],
-                follows ? "#define FOLLOWS\n" : "");
+    int       kept = kept_of(stack), pictures = kept > 4 ? 2 : 1;
+    text      prelude = {0};
+    text_append(&prelude, "#define NODE_VECTORS %d\n#define KEPT %d\n#define LAST %c\n%s", stack->node_vectors, kept,
+                "xyzw"[(kept - 1) % 4], follows ? "#define FOLLOWS\n" : "");
     gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "layer/list_sort.frag", &prelude);
     gpu_texture *fresh[2] = {0};
-    gpu_pass pass = {.colour_count = pictures};
+    gpu_pass     pass = {.colour_count = pictures};
     for (int i = 0; i < pictures; i++)
         pass.colours[i] = fresh[i] = gpu_target_acquire(f->g, f->width, f->height, GPU_RGBA32UI);
     memcpy(pass.scissor, stack->around, sizeof pass.scissor);
@@ -90,7 +92,7 @@ void lists_layer(frame *f, layer_stack *stack, int index)
     if (slot == 0)
         sort_round(f, stack, index > 0);
     stopwatch w = watch_start(&f->profile);
-    text prelude = {0};
+    text      prelude = {0};
     text_append(&prelude, "#define NODE_VECTORS %d\n", stack->node_vectors);
     gpu_pass pass = {0};
     layer_outputs_open(f, stack, &pass, &prelude);

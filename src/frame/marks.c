@@ -7,11 +7,12 @@
 #include "stage/mark_sets.h"
 #include "surface/marks.h"
 
-/* How many of the set, in its order, can be drawn at all: what a place of the figure that is as near and as much towards the eye as can be asks for. */
+/* How many of the set, in its order, can be drawn at all: what a place of the figure that is as near and as much
+ * towards the eye as can be asks for. */
 static size_t count_to_draw(const frame *f, const figure *fig, const mark_set *set, const mark_style *style)
 {
     const double *p = f->camera.projection.m, SPARE = 1.01;
-    double nearest = INFINITY, farthest = -INFINITY, focal = p[5] * f->height / 2;
+    double        nearest = INFINITY, farthest = -INFINITY, focal = p[5] * f->height / 2;
     camera_depth_range(&f->camera, fig->box, &nearest, &farthest);
     /* Pixels to a unit there; beside the middle of the picture things are seen larger. */
     double scale = focal;
@@ -21,7 +22,8 @@ static size_t count_to_draw(const frame *f, const figure *fig, const mark_set *s
     if (set->lines)
         share = scale / (set->density * (double)style->scale);
     else
-        share = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) * scale * scale / set->density;
+        share = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) *
+                scale * scale / set->density;
     double most = share * (1 + (double)style->fade) * SPARE;
     if (!(most < 1))
         return set->count;
@@ -49,12 +51,13 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     if (!figure_has_marks(s->figure) || gpu_failed(f->g))
         return;
-    stopwatch w = watch_start(&f->profile);
+    stopwatch          w = watch_start(&f->profile);
     const mark_source *source = surface->technique->surface->marks;
-    bool points = source->point && source->point(surface->values) <= gpu_capabilities_of(f->g)->max_point;
-    mark_set_options options = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface, points};
-    const mark_set *set = mark_sets_find(&f->up->marks, f->g, &options);
-    text prelude = {0};
+    bool               points = source->point && source->point(surface->values) <= gpu_capabilities_of(f->g)->max_point;
+    mark_set_options   options = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface,
+                                  points};
+    const mark_set    *set = mark_sets_find(&f->up->marks, f->g, &options);
+    text               prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     if (points)

@@ -9,19 +9,22 @@ static bool mirror_plane(const frame *f, const figure *fig, double plane[4])
     double normal[3] = {0, 0, 0}, centre[3] = {0, 0, 0}, area = 0;
     for (size_t i = 0; i < f->up->item_count; i++) {
         const draw_item *item = &f->up->items[i];
-        if (item->is_cut || item->is_solid || !fig->designated[item->part_index]) /* the one is its part's inside, the other has no plane */
+        if (item->is_cut || item->is_solid ||
+            !fig->designated[item->part_index]) /* the one is its part's inside, the other has no plane */
             continue;
-        const node *n = &f->plan->scene->nodes[f->plan->scene->parts[item->part_index].node];
+        const node      *n = &f->plan->scene->nodes[f->plan->scene->parts[item->part_index].node];
         const primitive *p = &f->plan->scene->meshes[n->mesh].primitives[item->surface_id - 1];
-        mat4 eye = mat4_multiply(&f->camera.view, &item->world);
+        mat4             eye = mat4_multiply(&f->camera.view, &item->world);
         for (uint32_t t = 0; t + 2 < p->index_count; t += 3) {
             vec3 v[3];
             for (int k = 0; k < 3; k++)
                 v[k] = mat4_transform_point(&eye, p->positions[p->indices[t + (uint32_t)k]]);
-            double a[3] = {v[1].x - v[0].x, v[1].y - v[0].y, v[1].z - v[0].z}, b[3] = {v[2].x - v[0].x, v[2].y - v[0].y, v[2].z - v[0].z};
+            double a[3] = {v[1].x - v[0].x, v[1].y - v[0].y, v[1].z - v[0].z},
+                   b[3] = {v[2].x - v[0].x, v[2].y - v[0].y, v[2].z - v[0].z};
             double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
             double size = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-            double sum[3] = {(double)v[0].x + v[1].x + v[2].x, (double)v[0].y + v[1].y + v[2].y, (double)v[0].z + v[1].z + v[2].z};
+            double sum[3] = {(double)v[0].x + v[1].x + v[2].x, (double)v[0].y + v[1].y + v[2].y,
+                             (double)v[0].z + v[1].z + v[2].z};
             for (int k = 0; k < 3; k++) {
                 normal[k] += c[k];
                 centre[k] += size * sum[k] / 3;

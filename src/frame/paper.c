@@ -5,7 +5,8 @@
 
 #include "finish/finish.h"
 
-/* A ball's points move by their depth when it turns; half of those that are seen are deeper than this share of its radius. */
+/* A ball's points move by their depth when it turns; half of those that are seen are deeper than this share of its
+ * radius. */
 static const double BALL_SHARE = 0.7071;
 
 /* The middle of the model never counts as nearer than this share of its size: there is no page at the eye. */
@@ -33,7 +34,8 @@ static void find_angles(sheet_view *out, const frame *f, double to_viewer[3])
     double        right[3] = {m[0], m[4], m[8]}, up[3] = {m[1], m[5], m[9]}, length = sqrt(dot3(to_viewer, to_viewer));
     bool          z_up = f->plan->scene->up == 'z';
     double        upright[3] = {0, !z_up, z_up}, front[3] = {0, -(double)z_up, !z_up}, side[3] = {1, 0, 0};
-    double        height = dot3(to_viewer, upright) / length, aside = dot3(to_viewer, side) / length, ahead = dot3(to_viewer, front) / length;
+    double        height = dot3(to_viewer, upright) / length, aside = dot3(to_viewer, side) / length,
+           ahead = dot3(to_viewer, front) / length;
     out->elevation = asin(fmin(fmax(height, -1), 1));
     out->azimuth = 0;
     if (hypot(aside, ahead) > 1e-6) {
@@ -51,9 +53,9 @@ static sheet_view view_of(const frame *f)
     const double      *m = c->view.m;
     box3               box = f->plan->box;
     double             width = (double)f->width / f->samples, height = (double)f->height / f->samples;
-    double             middle[3] = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
-    double             half[3] = {(box.max.x - box.min.x) / 2, (box.max.y - box.min.y) / 2, (box.max.z - box.min.z) / 2};
-    double             size = sqrt(dot3(half, half)), eye[3], to_viewer[3];
+    double middle[3] = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
+    double half[3] = {(box.max.x - box.min.x) / 2, (box.max.y - box.min.y) / 2, (box.max.z - box.min.z) / 2};
+    double size = sqrt(dot3(half, half)), eye[3], to_viewer[3];
     if (!(size > 0))
         size = 1;
     for (int k = 0; k < 3; k++) {
@@ -62,8 +64,12 @@ static sheet_view view_of(const frame *f)
     }
     for (int k = 0; !(dot3(to_viewer, to_viewer) > 1e-12 * size * size) && k < 3; k++)
         to_viewer[k] = m[4 * k + 2];
-    double shown = c->orthographic ? c->half_height : tan(c->fov_y / 2) * fmax(-eye[2], NEAREST_SHARE * size); /* half the page's height, units */
-    sheet_view out = {.scale = height / 2 / shown, .fitted = fmin(width, height) / 2 / size, .radius = BALL_SHARE * cbrt(half[0] * half[1] * half[2])};
+    double     shown = c->orthographic
+                           ? c->half_height
+                           : tan(c->fov_y / 2) * fmax(-eye[2], NEAREST_SHARE * size); /* half the page's height, units */
+    sheet_view out = {.scale = height / 2 / shown,
+                      .fitted = fmin(width, height) / 2 / size,
+                      .radius = BALL_SHARE * cbrt(half[0] * half[1] * half[2])};
     out.anchor[0] = width / 2 + eye[0] * out.scale;
     out.anchor[1] = height / 2 + eye[1] * out.scale;
     find_angles(&out, f, to_viewer);
@@ -83,7 +89,8 @@ static void set_place(gpu *g, const char *name, sheet_place place)
     gpu_set_vec4(g, name, (float[]){place.a, place.b, place.u, place.v});
 }
 
-/* The texture's level at which a texel is as large as a pixel: the same all over the page, so that nobody has to find it there. */
+/* The texture's level at which a texel is as large as a pixel: the same all over the page, so that nobody has to
+ * find it there. */
 static float level_of(sheet_place place, float side)
 {
     return (float)fmax(log2(fmax(hypot((double)place.a, (double)place.b) * (double)side, 1e-30)), 0);
@@ -109,9 +116,9 @@ void paper_set(frame *f)
     set_place(f->g, "u_paper_place", lie.octaves[0]);
     set_place(f->g, "u_paper_finer", lie.octaves[1]);
     set_place(f->g, "u_paper_pieces", lie.pieces);
-    const float side = f->sheet->facts[0][0];
+    const float       side = f->sheet->facts[0][0];
     const sheet_place places[3] = {lie.octaves[0], lie.octaves[1], lie.pieces};
-    float levels[3];
+    float             levels[3];
     for (int k = 0; k < 3; k++)
         levels[k] = level_of(places[k], side);
     gpu_set_vec3(f->g, "u_paper_levels", levels);

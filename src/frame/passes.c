@@ -9,10 +9,10 @@
 #include "lines/lines.h"
 
 typedef struct pass_params {
-    param_set   sets[5];
-    const pass *merged; /* line detection that this pass does too, or NULL */
+    param_set           sets[5];
+    const pass         *merged;    /* line detection that this pass does too, or NULL */
     const perturbation *perturbed; /* moves what this pass looks up, or NULL */
-    size_t      count;
+    size_t              count;
 } pass_params;
 
 static bool goes_onto_page(const pass *p)
@@ -92,22 +92,29 @@ static void set_scissor(const frame *f, const figure_state *s, const pass *p, gp
     }
 }
 
-static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group, int iteration)
+static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group,
+                     int iteration)
 {
-    stopwatch w = watch_start(&f->profile);
+    stopwatch    w = watch_start(&f->profile);
     gpu_program *program = pass_program(f, s, p, params);
-    bool layers = p->writes == TARGET_LAYERS, page = goes_onto_page(p); /* pictures that are added to */
+    bool         layers = p->writes == TARGET_LAYERS, page = goes_onto_page(p); /* pictures that are added to */
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
     if (program && written && !gpu_failed(f->g)) {
-        gpu_pass target = {.colours = {written}, .colour_count = 1, .depth = p->depth ? f->page_depth : NULL,
-                           .clear = !page, .keep_depth = true};
+        gpu_pass target = {.colours = {written},
+                           .colour_count = 1,
+                           .depth = p->depth ? f->page_depth : NULL,
+                           .clear = !page,
+                           .keep_depth = true};
         target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
         set_scissor(f, s, p, &target);
         gpu_pass_begin(f->g, &target);
-        gpu_use(f->g, program, (gpu_state){.depth_test = p->depth, .depth_write = p->depth && !layers,
-                                           .blend = p->blend == BLEND_OVER ? GPU_BLEND_OVER
-                                                    : p->blend == BLEND_UNDER ? GPU_BLEND_UNDER
-                                                    : p->blend == BLEND_MIN ? GPU_BLEND_MIN : GPU_BLEND_NONE});
+        gpu_use(f->g, program,
+                (gpu_state){.depth_test = p->depth,
+                            .depth_write = p->depth && !layers,
+                            .blend = p->blend == BLEND_OVER    ? GPU_BLEND_OVER
+                                     : p->blend == BLEND_UNDER ? GPU_BLEND_UNDER
+                                     : p->blend == BLEND_MIN   ? GPU_BLEND_MIN
+                                                               : GPU_BLEND_NONE});
         frame_set_common(f, s);
         gpu_set_int(f->g, "u_iteration", iteration);
         for (size_t i = 0; i < params->count; i++)
@@ -175,9 +182,9 @@ static const uint8_t *read_own(frame *f, const figure_state *s, const int box[4]
 {
     if (!s->targets[TARGET_ID] || (!s->figure->complement && !s->shared))
         return NULL;
-    size_t count = (size_t)box[2] * (size_t)box[3];
+    size_t    count = (size_t)box[2] * (size_t)box[3];
     uint32_t *ids = mem_alloc(count * 2 * sizeof *ids);
-    uint8_t *own = mem_alloc(count);
+    uint8_t  *own = mem_alloc(count);
     if (ids && own)
         gpu_read_box(f->g, s->targets[TARGET_ID], box, ids);
     else
@@ -197,15 +204,20 @@ static const uint8_t *read_own(frame *f, const figure_state *s, const int box[4]
 static void run_process(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     stopwatch w = watch_start(&f->profile);
-    int box[4];
+    int       box[4];
     box_of_interest(s, box);
-    pass_pixels in = {.own = read_own(f, s, box), .x = box[0], .y = box[1], .width = box[2], .height = box[3],
-                      .pixel = (float)(2 / (f->camera.projection.m[5] * f->height)), .scale = (float)f->samples,
+    pass_pixels in = {.own = read_own(f, s, box),
+                      .x = box[0],
+                      .y = box[1],
+                      .width = box[2],
+                      .height = box[3],
+                      .pixel = (float)(2 / (f->camera.projection.m[5] * f->height)),
+                      .scale = (float)f->samples,
                       .perspective = !f->camera.orthographic};
     for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
         in.values[i] = read_floats(f, s, p->reads[i], box);
     gpu_texture *written = frame_acquire_for(f, s, p->writes);
-    void *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
+    void        *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
     if (out && s->targets[p->writes])
         gpu_read_box(f->g, s->targets[p->writes], box, out);
     if (!out || (!gpu_failed(f->g) && !p->process(&in, out, use->values)))
@@ -303,7 +315,8 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
     }
     if (f->maps && id == KIND_PERTURB && rule_use(r, id) && rule_use(r, id)->technique->perturbs->map) {
         const technique_use *use = rule_use(r, id);
-        run_pass(f, s, use->technique->perturbs->map, &(pass_params){.sets = {use_own_set(id, use)}, .count = 1}, kinds[id]->name, 0);
+        run_pass(f, s, use->technique->perturbs->map, &(pass_params){.sets = {use_own_set(id, use)}, .count = 1},
+                 kinds[id]->name, 0);
         collect_uncertainty(f, s);
     }
 }
@@ -311,11 +324,11 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first)
 {
     const figure *whole = s->figure;
-    const rule *r = whole->rule;
-    size_t lines = r->use_counts[KIND_LINES], count = lines > 1 ? lines : 1;
+    const rule   *r = whole->rule;
+    size_t        lines = r->use_counts[KIND_LINES], count = lines > 1 ? lines : 1;
     for (size_t k = 0; k < count; k++) {
         size_t i = nearest_first ? count - 1 - k : k;
-        rule single = *r;
+        rule   single = *r;
         figure alone = *whole;
         alone.rule = &single;
         if (lines)

@@ -18,9 +18,12 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
 static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *room)
 {
     /* Formats without materials: a light neutral grey. */
-    static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1}, .base_texture = TEXTURE_USE_NONE,
-                                      .normal_texture = TEXTURE_USE_NONE, .normal_scale = 1, .alpha_cutoff = 0.5f};
-    const material *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
+    static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1},
+                                      .base_texture = TEXTURE_USE_NONE,
+                                      .normal_texture = TEXTURE_USE_NONE,
+                                      .normal_scale = 1,
+                                      .alpha_cutoff = 0.5f};
+    const material       *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
     if (!(fig->highlight.a > 0))
         return own;
     float linear[4];
@@ -45,7 +48,8 @@ static item_textures textures_of(frame *f, const draw_item *item, const material
     return t;
 }
 
-static void declare_material(text *prelude, const figure_state *s, const draw_item *item, const material *m, item_textures t)
+static void declare_material(text *prelude, const figure_state *s, const draw_item *item, const material *m,
+                             item_textures t)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     if (t.base || t.normal || (item->has_uvs && surface && shades_with_geometry(surface)))
@@ -103,11 +107,11 @@ typedef struct raster_job {
     const solid_view   *view;   /* that they are found for */
     const layer_stack  *stack;
     outputs             at;
-    const pass         *inking; /* lines on top and no complement */
-    const bool         *only;   /* per part: all others are left out */
-    float               enlarge; /* not 0: surfaces are moved outwards by this many pixels */
-    bool                shell;  /* enlarged: no complement, no solids, and only faces that look away */
-    bool                peeled; /* nothing that the layer before had */
+    const pass         *inking;       /* lines on top and no complement */
+    const bool         *only;         /* per part: all others are left out */
+    float               enlarge;      /* not 0: surfaces are moved outwards by this many pixels */
+    bool                shell;        /* enlarged: no complement, no solids, and only faces that look away */
+    bool                peeled;       /* nothing that the layer before had */
     int                 node_vectors; /* not 0: into lists, nodes of this size */
     unsigned            node_limit;
 } raster_job;
@@ -117,7 +121,10 @@ static void declare_outputs(text *prelude, const raster_job *job)
     const struct {
         const char *name;
         int         at;
-    } rows[] = {{"NORMAL_DEPTH", job->at.normal_depth}, {"ID", job->at.id}, {"ALBEDO", job->at.albedo}, {"SHADE", job->at.shade}};
+    } rows[] = {{"NORMAL_DEPTH", job->at.normal_depth},
+                {"ID", job->at.id},
+                {"ALBEDO", job->at.albedo},
+                {"SHADE", job->at.shade}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].at >= 0)
             text_append(prelude, "#define AT_%s %d\n", rows[i].name, rows[i].at);
@@ -134,28 +141,32 @@ static void declare_outputs(text *prelude, const raster_job *job)
 }
 
 /* Adds what a geometry pass with ink needs: the lines' parameters, the maps that the pass reads, and their files. */
-static void declare_ink(text *prelude, char *path, size_t size, const frame *f, const figure_state *s, const pass *inking)
+static void declare_ink(text *prelude, char *path, size_t size, const frame *f, const figure_state *s,
+                        const pass *inking)
 {
     const technique_use *lines = rule_inked_lines(s->figure->rule);
-    const pass *merged = rule_merged_detection(s->figure->rule);
+    const pass          *merged = rule_merged_detection(s->figure->rule);
     uniforms_declare(prelude, use_common_set(KIND_LINES, lines));
     text_append(prelude, "#define INKED\n%s", merged ? "#define MERGED\n" : "");
     if (merged || lines->technique->lines->own_ink)
         uniforms_declare(prelude, use_own_set(KIND_LINES, lines));
     reads_declare(prelude, f, s, inking, merged);
     char joined[320];
-    snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->lines->detect : "", merged ? "+" : "", inking->shader, path);
+    snprintf(joined, sizeof joined, "%s%s%s+%s", merged ? lines->technique->lines->detect : "", merged ? "+" : "",
+             inking->shader, path);
     snprintf(path, size, "%s", joined);
 }
 
 /* What the surface technique made, for a material (NONE: without one). */
 static const used_textures *made_for(const figure *fig, int32_t material)
 {
-    return fig->textures->by_material && material >= 0 ? &fig->textures->by_material[material] : &fig->textures->surface;
+    return fig->textures->by_material && material >= 0 ? &fig->textures->by_material[material]
+                                                       : &fig->textures->surface;
 }
 
 /* `prelude` says what the material needs; it is used up. */
-static gpu_program *raster_program(frame *f, const figure_state *s, const char *vertex, text prelude, const raster_job *job)
+static gpu_program *raster_program(frame *f, const figure_state *s, const char *vertex, text prelude,
+                                   const raster_job *job)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     declare_outputs(&prelude, job);
@@ -222,48 +233,57 @@ static void set_pass(frame *f, const raster_job *job, const figure_state *s, int
     if (f->mirror)
         gpu_set_vec4(f->g, "u_clip_plane", f->clip_plane);
     if (s->targets[TARGET_REFLECTION])
-        gpu_set_texture(f->g, target_rows[TARGET_REFLECTION].name, s->targets[TARGET_REFLECTION], target_rows[TARGET_REFLECTION].filtered);
+        gpu_set_texture(f->g, target_rows[TARGET_REFLECTION].name, s->targets[TARGET_REFLECTION],
+                        target_rows[TARGET_REFLECTION].filtered);
 }
 
 static gpu_state state_of(const raster_job *job)
 {
-    return (gpu_state){.depth_test = !job->node_vectors, .depth_write = !job->node_vectors, .depth_compare = job->stack ? GPU_LESS : GPU_LESS_EQUAL};
+    return (gpu_state){.depth_test = !job->node_vectors,
+                       .depth_write = !job->node_vectors,
+                       .depth_compare = job->stack ? GPU_LESS : GPU_LESS_EQUAL};
 }
 
 /* Does the surface lay strokes along the way that the item bends? */
 static bool uses_field(const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return surface && surface->technique->surface->needs && surface->technique->surface->needs(surface->values).field && gpu_mesh_has_tensors(item->mesh);
+    return surface && surface->technique->surface->needs && surface->technique->surface->needs(surface->values).field &&
+           gpu_mesh_has_tensors(item->mesh);
 }
 
 /* Or on patches? Layers and enlarged figures draw each triangle once. */
 static bool uses_patches(const raster_job *job, const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->surface->needs && surface->technique->surface->needs(surface->values).patch > 0;
+    return item->lapped && !job->stack && job->enlarge <= 0 && surface && surface->technique->surface->needs &&
+           surface->technique->surface->needs(surface->values).patch > 0;
 }
 
 /* Does the surface look light up in a map of the item's? */
 static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface && surface->technique->surface->light_map_when &&
-           params_condition(surface->technique->surface->light_map_when, surface->technique->params, surface->technique->param_count, surface->values);
+    return job->at.shade >= 0 && !job->stack && item->has_uvs && !item->is_cut && surface &&
+           surface->technique->surface->light_map_when &&
+           params_condition(surface->technique->surface->light_map_when, surface->technique->params,
+                            surface->technique->param_count, surface->values);
 }
 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
-        item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut && field == last->has_field && patches == last->has_patches)
+        item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
+        field == last->has_field && patches == last->has_patches)
         return;
-    material tinted;
+    material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
-    item_textures t = textures_of(f, item, m);
-    text prelude = {0};
+    item_textures   t = textures_of(f, item, m);
+    text            prelude = {0};
     declare_material(&prelude, s, item, m, t);
-    text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "", field && !patches ? "#define HAS_FIELD\n" : "");
+    text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "",
+                field && !patches ? "#define HAS_FIELD\n" : "");
     if (wants_light_map(job, s, item))
         text_append(&prelude, "#define HAS_LIGHT_MAP\n");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
@@ -272,8 +292,16 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     set_pass(f, job, s, item->material);
     view_set_projection(f->g, &f->camera);
     set_material(f->g, m, t, job->stack != NULL);
-    *last = (raster_setup){.owner = s, .material = item->material, .has_uvs = item->has_uvs, .has_uv1 = item->has_uv1, .has_colours = item->has_colours,
-                           .is_cut = item->is_cut, .has_field = field, .has_patches = patches, .ready = true, .triangles = last->triangles};
+    *last = (raster_setup){.owner = s,
+                           .material = item->material,
+                           .has_uvs = item->has_uvs,
+                           .has_uv1 = item->has_uv1,
+                           .has_colours = item->has_colours,
+                           .is_cut = item->is_cut,
+                           .has_field = field,
+                           .has_patches = patches,
+                           .ready = true,
+                           .triangles = last->triangles};
 }
 
 /* The figure among those of the stack that draws a part; NULL: none. */
@@ -294,7 +322,8 @@ static const figure_state *owner_of(const frame *f, const raster_job *job, const
         return f->mirror && f->mirror->designated[item->part_index] ? NULL : layer_owner(job->stack, item->part_index);
     if (job->only)
         return job->state;
-    if (!is_drawn(f, job->state->figure, item) || ((job->inking || job->shell) && !job->state->figure->designated[item->part_index]))
+    if (!is_drawn(f, job->state->figure, item) ||
+        ((job->inking || job->shell) && !job->state->figure->designated[item->part_index]))
         return NULL;
     return job->state;
 }
@@ -303,7 +332,8 @@ static void set_ids(frame *f, const raster_job *job, const figure_state *s, cons
 {
     gpu_set_uint(f->g, "u_part_id", item->part_id);
     bool other = job->state && !job->only && !s->figure->designated[item->part_index];
-    gpu_set_uint(f->g, "u_surface_id", item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
+    gpu_set_uint(f->g, "u_surface_id",
+                 item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
     gpu_set_uint(f->g, "u_order", order);
 }
 
@@ -324,13 +354,14 @@ static int light_map_side(const frame *f, const draw_item *item)
 static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_item *item)
 {
     enum { BORDER = 4 };
-    const int side = light_map_side(f, item);
+    const int            side = light_map_side(f, item);
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    gpu_texture *map = gpu_target_acquire(f->g, side, side, GPU_RGBA16F), *other = gpu_target_acquire(f->g, side, side, GPU_RGBA16F);
-    material tinted;
+    gpu_texture         *map = gpu_target_acquire(f->g, side, side, GPU_RGBA16F),
+                *other = gpu_target_acquire(f->g, side, side, GPU_RGBA16F);
+    material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
-    item_textures t = textures_of(f, item, m);
-    text prelude = {0};
+    item_textures   t = textures_of(f, item, m);
+    text            prelude = {0};
     declare_material(&prelude, s, item, m, t);
     text_append(&prelude, "#define UNWRAPPED\n");
     lights_declare(&prelude, f);
@@ -348,7 +379,8 @@ static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_i
     gpu_draw_mesh(f->g, item->mesh);
     for (int i = 0; i < BORDER && !gpu_failed(f->g); i++) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {other}, .colour_count = 1});
-        gpu_use(f->g, gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "layer/light_map_pad.frag", ""), (gpu_state){0});
+        gpu_use(f->g, gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "layer/light_map_pad.frag", ""),
+                (gpu_state){0});
         gpu_set_texture(f->g, "t_light_map", map, false);
         gpu_draw_screen(f->g);
         gpu_texture *before = map;
@@ -393,7 +425,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
 static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
 {
     const figure_state *s = owner_of(f, job, item);
-    text prelude = {0};
+    text                prelude = {0};
     text_append(&prelude, "#define SOLID\n%s", f->plan->has_cut ? "#define HAS_CUT\n" : "");
     gpu_use(f->g, raster_program(f, s, "gpu/boxes.vert", prelude, job), state_of(job));
     if (gpu_failed(f->g))
@@ -421,7 +453,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
 static bool *solids_wanted(frame *f, const raster_job *job)
 {
     const upload *up = f->up;
-    bool *wanted = NULL;
+    bool         *wanted = NULL;
     for (size_t i = 0; i < up->item_count && !job->shell && !gpu_failed(f->g); i++) {
         if (!up->items[i].is_solid || !owner_of(f, job, &up->items[i]))
             continue;
@@ -436,7 +468,7 @@ static bool *solids_wanted(frame *f, const raster_job *job)
 /* How the figure wants its solids evaluated; of several figures the first that says so decides. */
 static int32_t evaluation_of(const raster_job *job)
 {
-    int count = job->state ? 1 : job->stack->count;
+    int     count = job->state ? 1 : job->stack->count;
     int32_t evaluation = EVALUATION_AUTO;
     for (int i = 0; i < count && evaluation == EVALUATION_AUTO; i++) {
         const figure_state *s = job->state ? job->state : &job->stack->states[i];
@@ -449,7 +481,7 @@ static int32_t evaluation_of(const raster_job *job)
 static void draw_solids(frame *f, const gpu_pass *pass, const raster_job *job, const bool *wanted)
 {
     const upload *up = f->up;
-    gpu_pass again = *pass;
+    gpu_pass      again = *pass;
     again.clear = false;
     int count = job->solids->count;
     int needed = job->node_vectors ? job->stack->limit : job->peeled ? count : 1;
@@ -465,20 +497,21 @@ static void draw_solids(frame *f, const gpu_pass *pass, const raster_job *job, c
     }
 }
 
-/* Draws parts into a pass. Layers order what coincides by part and then by facing; when peeling, whatever is drawn first
- * stays, so parts come in that order, front faces before back faces. Lists are sorted later. */
+/* Draws parts into a pass. Layers order what coincides by part and then by facing; when peeling, whatever is drawn
+ * first stays, so parts come in that order, front faces before back faces. Lists are sorted later. */
 static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
 {
-    raster_setup last = {0};
+    raster_setup  last = {0};
     const upload *up = f->up;
-    raster_job here = *job;
-    solid_view view = frame_solid_view(f);
+    raster_job    here = *job;
+    solid_view    view = frame_solid_view(f);
     here.pass = pass;
     here.view = &view;
     job = &here;
     bool *wanted = solids_wanted(f, job);
     if (wanted)
-        solids_open(&view, job->solids, wanted, &(solid_options){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});
+        solids_open(&view, job->solids, wanted,
+                    &(solid_options){evaluation_of(job), job->stack ? job->stack->limit : 1, !job->stack});
     if (gpu_failed(f->g)) {
         mem_free(wanted);
         return;
@@ -530,11 +563,12 @@ static outputs open_outputs(frame *f, unsigned channels, gpu_texture **targets, 
 void raster_figure(frame *f, figure_state *s)
 {
     const figure *fig = s->figure;
-    stopwatch w = watch_start(&f->profile);
-    gpu_pass pass = {0};
+    stopwatch     w = watch_start(&f->profile);
+    gpu_pass      pass = {0};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
-    outputs o = open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
+    outputs o =
+        open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
     if (!gpu_failed(f->g)) {
         draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = o});
     }
@@ -543,19 +577,20 @@ void raster_figure(frame *f, figure_state *s)
 
 void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
 {
-    gpu_pass pass = {.clear = true, .colour_count = 1};
+    gpu_pass     pass = {.clear = true, .colour_count = 1};
     gpu_texture *depth = frame_acquire(f, TARGET_DEPTH);
     gpu_target_release(f->g, s->targets[into]);
     pass.colours[0] = s->targets[into] = frame_acquire_for(f, s, into);
     pass.depth = depth;
     if (!gpu_failed(f->g)) {
         /* The clip planes hug the model; the enlarged one comes nearer and goes farther. */
-        frame wide = *f;
+        frame  wide = *f;
         double more = 2.02 * (double)pixels / (f->height * f->camera.projection.m[5]);
         double near = f->camera.near, far = f->camera.far;
         camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
                          f->camera.orthographic ? far + more : far * (1 + more));
-        draw_parts(&wide, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1}, .enlarge = pixels});
+        draw_parts(&wide, &pass,
+                   &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }
@@ -567,18 +602,20 @@ void raster_shell(frame *f, figure_state *s, target into, float pixels)
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
     if (!gpu_failed(f->g)) {
-        draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = no_outputs, .enlarge = pixels, .shell = true});
+        draw_parts(f, &pass,
+                   &(raster_job){.state = s, .solids = &s->solids, .at = no_outputs, .enlarge = pixels, .shell = true});
     }
 }
 
 /* What shading from the G-buffer reads. */
-static const pass shading = {.reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION}, .writes = TARGET_SHADE};
+static const pass shading = {.reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION},
+                             .writes = TARGET_SHADE};
 
 void raster_shade_deferred(frame *f, figure_state *s)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    stopwatch w = watch_start(&f->profile);
-    text prelude = {0};
+    stopwatch            w = watch_start(&f->profile);
+    text                 prelude = {0};
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     used_textures_declare(&prelude, surface, &s->figure->textures->surface);
@@ -607,18 +644,23 @@ void raster_shade_deferred(frame *f, figure_state *s)
 void raster_direct(frame *f, figure_state *s)
 {
     stopwatch w = watch_start(&f->profile);
-    gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
+    gpu_pass  pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}});
     watch_stop(&f->profile, w, "", "geometry");
 }
 
-/* The third pass of edge enhancement (Nienhaus 2005, section 4.4): the parts once more, with the edge map projected on them. */
+/* The third pass of edge enhancement (Nienhaus 2005, section 4.4): the parts once more, with the edge map projected
+ * on them. */
 void raster_inked(frame *f, figure_state *s, const pass *inking)
 {
     gpu_pass onto = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(onto.scissor, s->pixels, sizeof onto.scissor);
-    draw_parts(f, &onto, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}, .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
+    draw_parts(f, &onto,
+               &(raster_job){.state = s,
+                             .solids = &s->solids,
+                             .at = {-1, -1, -1, 0},
+                             .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
 }
 
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude)
@@ -632,7 +674,7 @@ void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prel
 void raster_layer(frame *f, layer_stack *stack, bool first)
 {
     stopwatch w = watch_start(&f->profile);
-    gpu_pass pass = {0};
+    gpu_pass  pass = {0};
     memcpy(pass.scissor, stack->around, sizeof pass.scissor);
     memcpy(pass.clear_box, stack->around, sizeof pass.clear_box);
     /* Part and facing order what coincides. */
@@ -653,13 +695,17 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
         o.shade = 0;
     if (stack->channels & CHANNEL_ALBEDO)
         o.albedo = 0;
-    draw_parts(f, &pass, &(raster_job){.stack = stack, .solids = &stack->solids, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
+    draw_parts(
+        f, &pass,
+        &(raster_job){
+            .stack = stack, .solids = &stack->solids, .at = o, .node_vectors = node_vectors, .node_limit = node_limit});
 }
 
 void raster_depth(frame *f, gpu_texture *depth)
 {
     gpu_pass pass = {.depth = depth, .clear = true};
-    figure all = {.rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = f->plan->selected};
+    figure   all = {
+          .rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = f->plan->selected};
     figure_state s = {.figure = &all, .near = f->camera.near, .far = f->camera.far};
     solid_layers solids = {.ready = false};
     draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = f->plan->selected});
@@ -673,7 +719,8 @@ void raster_mask(frame *f, layer_stack *stack, const bool *parts)
     gpu_pass pass = {.depth = stack->mask, .clear = true};
     if (!gpu_failed(f->g)) {
         solid_layers solids = {.ready = false};
-        draw_parts(f, &pass, &(raster_job){.state = &stack->states[0], .solids = &solids, .at = no_outputs, .only = parts});
+        draw_parts(f, &pass,
+                   &(raster_job){.state = &stack->states[0], .solids = &solids, .at = no_outputs, .only = parts});
         solids_release(f->g, &solids);
     }
     watch_stop(&f->profile, w, "layers", "mask");

@@ -16,8 +16,11 @@ lmn_status room_check_sides(gpu *g, int width, int height, int side, lmn_error *
     if (longer * side <= limit)
         return LMN_OK;
     double share = (double)(limit / side) / longer;
-    error_set(error, LMN_LIMIT, "a picture of %dx%d pixels with %d samples a pixel needs %d pixels a side, the limit is %d", width, height, side * side, longer * side, limit);
-    error_hint(error, "with %d samples at most --size %.0fx%.0f, or fewer --samples", side * side, fmax(floor(width * share), 1), fmax(floor(height * share), 1));
+    error_set(error, LMN_LIMIT,
+              "a picture of %dx%d pixels with %d samples a pixel needs %d pixels a side, the limit is %d", width,
+              height, side * side, longer * side, limit);
+    error_hint(error, "with %d samples at most --size %.0fx%.0f, or fewer --samples", side * side,
+               fmax(floor(width * share), 1), fmax(floor(height * share), 1));
     return LMN_LIMIT;
 }
 
@@ -27,7 +30,8 @@ typedef struct room_pass {
     int        count, width, height;
 } room_pass;
 
-/* The page; what the figures take that are not drawn straight onto it; what solids are gathered in; and what maps take. */
+/* The page; what the figures take that are not drawn straight onto it; what solids are gathered in; and what maps
+ * take. */
 enum { PASSES = 4 };
 
 static bool has_solids(const plan *p)
@@ -112,13 +116,14 @@ static room_options smaller(const room_options *w, double share)
     return s;
 }
 
-/* The largest share of the size that there is room for, nearly: as the driver says, or where it says too readily, the first half that is true. */
+/* The largest share of the size that there is room for, nearly: as the driver says, or where it says too readily,
+ * the first half that is true. */
 static double find_share(gpu *g, const plan *p, const room_options *options)
 {
     enum { STEPS = 64, HALVES = 6 };
     int low = 0, high = STEPS;
     while (!is_possible(g, p, options) && high - low > 1) {
-        int         middle = (low + high) / 2;
+        int          middle = (low + high) / 2;
         room_options less = smaller(options, (double)middle / STEPS);
         if (is_possible(g, p, &less))
             low = middle;
@@ -130,7 +135,7 @@ static double find_share(gpu *g, const plan *p, const room_options *options)
     double share = 0.5;
     for (int i = 0; i < HALVES; i++, share /= 2) {
         room_options less = smaller(options, share);
-        bool        room = has_room(g, p, &less, NULL);
+        bool         room = has_room(g, p, &less, NULL);
         gpu_targets_trim(g);
         if (room)
             return share;
@@ -150,16 +155,19 @@ lmn_status room_check(gpu *g, const plan *p, const room_options *options, lmn_er
     int samples = options->side * options->side;
     if ((int64_t)options->width * options->height * samples <= SMALL) {
         if (problem.status == LMN_OK)
-            error_set(&problem, LMN_MEMORY, "the driver has no memory for a picture of %dx%d pixels", options->width, options->height);
+            error_set(&problem, LMN_MEMORY, "the driver has no memory for a picture of %dx%d pixels", options->width,
+                      options->height);
         if (error)
             *error = problem;
         return problem.status;
     }
     double share = find_share(g, p, options);
-    error_set(error, LMN_LIMIT, "a picture of %dx%d pixels with %d sample%s a pixel is larger than the driver can draw with this look", options->width, options->height, samples,
-              samples == 1 ? "" : "s");
+    error_set(error, LMN_LIMIT,
+              "a picture of %dx%d pixels with %d sample%s a pixel is larger than the driver can draw with this look",
+              options->width, options->height, samples, samples == 1 ? "" : "s");
     if (share > 0)
-        error_hint(error, "with %d sample%s --size %dx%d can be drawn%s", samples, samples == 1 ? "" : "s", smaller(options, share).width, smaller(options, share).height,
+        error_hint(error, "with %d sample%s --size %dx%d can be drawn%s", samples, samples == 1 ? "" : "s",
+                   smaller(options, share).width, smaller(options, share).height,
                    samples > 1 ? ", or more with fewer --samples" : "");
     else
         error_hint(error, "ask for a smaller --size%s", samples > 1 ? " or fewer --samples" : "");

@@ -14,8 +14,8 @@ typedef struct room_options {
 /* The sides alone, which need no plan. Errors: LMN_LIMIT. */
 lmn_status room_check_sides(gpu *g, int width, int height, int side, lmn_error *error);
 
-/* The pictures that the plan needs at least, in the formats that it needs; those that were made stay in the pool. Errors: LMN_LIMIT, with the largest size
- * that there is room for at these samples. */
+/* The pictures that the plan needs at least, in the formats that it needs; those that were made stay in the pool.
+ * Errors: LMN_LIMIT, with the largest size that there is room for at these samples. */
 lmn_status room_check(gpu *g, const plan *p, const room_options *options, lmn_error *error);
 
 #endif

@@ -44,12 +44,14 @@ static view_camera camera_of_light(box3 box, const double back[3])
     cross(back, right, up);
     double middle[3];
     box3_middle(box, middle);
-    double half[3] = {((double)box.max.x - (double)box.min.x) / 2, ((double)box.max.y - (double)box.min.y) / 2, ((double)box.max.z - (double)box.min.z) / 2};
-    double reach = sqrt(dot(half, half)), side = 0;
+    double        half[3] = {((double)box.max.x - (double)box.min.x) / 2, ((double)box.max.y - (double)box.min.y) / 2,
+                             ((double)box.max.z - (double)box.min.z) / 2};
+    double        reach = sqrt(dot(half, half)), side = 0;
     const double *axes[2] = {right, up};
     for (int i = 0; i < 2; i++)
         side = fmax(side, half[0] * fabs(axes[i][0]) + half[1] * fabs(axes[i][1]) + half[2] * fabs(axes[i][2]));
-    view_camera c = {.orthographic = true, .aspect = 1, .half_height = side > 0 ? side * 1.01 : 1, .view = mat4_identity()};
+    view_camera c = {
+        .orthographic = true, .aspect = 1, .half_height = side > 0 ? side * 1.01 : 1, .view = mat4_identity()};
     for (int k = 0; k < 3; k++) {
         c.eye[k] = middle[k] + back[k] * 2 * reach;
         c.target[k] = middle[k];
@@ -72,7 +74,8 @@ static bool rule_reads_shadow(const rule *r)
             const technique_use *use = &r->uses[k][i];
             for (size_t p = 0; p < use->technique->pass_count; p++)
                 for (int n = 0; n < PASS_READS_MAX && use->technique->passes[p].reads[n]; n++)
-                    if (use->technique->passes[p].reads[n] == TARGET_SHADOW && pass_applies((kind_id)k, &use->technique->passes[p], use))
+                    if (use->technique->passes[p].reads[n] == TARGET_SHADOW &&
+                        pass_applies((kind_id)k, &use->technique->passes[p], use))
                         return true;
         }
     return false;
@@ -90,15 +93,15 @@ static bool is_read(const frame *f)
 void shadow_draw(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
-    double towards[3], back[3];
-    bool read = is_read(f);
+    double              towards[3], back[3];
+    bool                read = is_read(f);
     if ((!v->shadows && !read) || box3_is_empty(f->plan->box) || !lights_first_direction(f, towards))
         return;
     for (int k = 0; k < 3; k++) /* the view's rotation, backwards */
         back[k] = dot(&f->camera.view.m[4 * k], towards);
     scale_to(back, 1);
     stopwatch w = watch_start(&f->profile);
-    frame light = *f;
+    frame     light = *f;
     light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
     light.width = light.height = side_of(f, !read && v->shadow_softness > 0);
     light.maps = NULL;

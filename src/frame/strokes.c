@@ -15,16 +15,17 @@ static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
 {
     bool *hides = mem_calloc(f->up->part_count, sizeof *hides);
     for (size_t i = 0; hides && i < f->up->part_count; i++)
-        hides[i] = !(f->mirror && f->mirror->designated[i]) && (fig->layered ? f->plan->selected[i] : f->plan->opaque[i]);
+        hides[i] =
+            !(f->mirror && f->mirror->designated[i]) && (fig->layered ? f->plan->selected[i] : f->plan->opaque[i]);
     if (!hides)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     stroke_store_options options = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine};
-    stroke_store *s = hides ? stroke_store_find(&f->up->strokes[fig->layered], f->g, &options) : NULL;
+    stroke_store        *s = hides ? stroke_store_find(&f->up->strokes[fig->layered], f->g, &options) : NULL;
     mem_free(hides);
     return s;
 }
 
-/* --- programs ------------------------------------------------------------------------------------------------------ */
+/* --- programs ------------------------------------------------------------------------------------------- */
 
 /* Gives the figure an empty edge map, and a depth for lines beyond its surfaces, and draws into them from now on. */
 static void open_maps(frame *f, figure_state *s)
@@ -34,7 +35,8 @@ static void open_maps(frame *f, figure_state *s)
         gpu_target_release(f->g, s->targets[written[i]]);
         s->targets[written[i]] = frame_acquire(f, written[i]);
     }
-    gpu_pass target = {.colours = {s->targets[TARGET_EDGE]}, .colour_count = 1, .depth = s->targets[TARGET_STROKES], .clear = true};
+    gpu_pass target = {
+        .colours = {s->targets[TARGET_EDGE]}, .colour_count = 1, .depth = s->targets[TARGET_STROKES], .clear = true};
     target_empty(&target_rows[TARGET_EDGE], s->far, target.clear_values[0]);
     memcpy(target.clear_box, s->around, sizeof target.clear_box);
     memcpy(target.scissor, s->pixels, sizeof target.scissor);
@@ -45,12 +47,12 @@ static void open_maps(frame *f, figure_state *s)
 /* The darkest ink stays, and the depth of what was drawn last: any line there will do. */
 static const gpu_state drawn = {.depth_write = true, .blend = GPU_BLEND_MIN};
 
-/* --- sampled ------------------------------------------------------------------------------------------------------- */
+/* --- sampled -------------------------------------------------------------------------------------------- */
 
 /* The eye in an item's axes: its place, 1; or without perspective the way towards it, 0. */
 static void find_viewer(const frame *f, const mat4 *world, float out[4])
 {
-    mat4 both = mat4_multiply(&f->camera.view, world);
+    mat4   both = mat4_multiply(&f->camera.view, world);
     double cofactors[9], determinant = mat4_cofactors(&both, cofactors), eye[3], largest = 0;
     /* Columns of cofactors are the inverse's rows: of the point 0, or of the axis z. */
     for (int row = 0; row < 3; row++) {
@@ -58,7 +60,9 @@ static void find_viewer(const frame *f, const mat4 *world, float out[4])
         eye[row] = f->camera.orthographic ? c[2] : -(c[0] * both.m[12] + c[1] * both.m[13] + c[2] * both.m[14]);
         largest = fmax(largest, fabs(eye[row]));
     }
-    double scale = f->camera.orthographic ? (determinant < 0 ? -1 : 1) / fmax(largest, 1e-300) : determinant != 0 ? 1 / determinant : 0;
+    double scale = f->camera.orthographic ? (determinant < 0 ? -1 : 1) / fmax(largest, 1e-300)
+                   : determinant != 0     ? 1 / determinant
+                                          : 0;
     for (int row = 0; row < 3; row++)
         out[row] = (float)(eye[row] * scale);
     out[3] = f->camera.orthographic ? 0 : 1;
@@ -81,7 +85,8 @@ static void bring_item(frame *f, stroke_store *store, uint32_t index, bool cross
 {
     uint32_t mesh = store->scene.items[index].mesh;
     if (!store->edges[mesh] && !gpu_failed(f->g))
-        store->edges[mesh] = upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]), store->scene.meshes[mesh].edge_count);
+        store->edges[mesh] =
+            upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]), store->scene.meshes[mesh].edge_count);
     if (!crossings || store->crossings[index] || gpu_failed(f->g))
         return;
     size_t count;
@@ -93,7 +98,7 @@ static void draw_records(frame *f, gpu_marks *marks, const mat4 *world)
 {
     if (gpu_marks_count(marks) == 0)
         return;
-    mat4 both = mat4_multiply(&f->camera.view, world), whole = mat4_multiply(&f->camera.projection, &both);
+    mat4  both = mat4_multiply(&f->camera.view, world), whole = mat4_multiply(&f->camera.projection, &both);
     float clip[16], viewer[4];
     for (int i = 0; i < 16; i++)
         clip[i] = (float)whole.m[i];
@@ -106,7 +111,7 @@ static void draw_records(frame *f, gpu_marks *marks, const mat4 *world)
 static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool crossings)
 {
     const stroke_item *item = &store->scene.items[index];
-    const mat4 still = mat4_identity();
+    const mat4         still = mat4_identity();
     draw_records(f, store->edges[item->mesh], &item->world);
     if (crossings)
         draw_records(f, store->crossings[index], &still);
@@ -116,7 +121,8 @@ static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool cr
 static bool eye_is_outside(const frame *f)
 {
     double nearest = INFINITY, farthest = -INFINITY;
-    for (size_t i = 0; i < f->up->part_count; i++) /* one by one, as the planes are laid: the box around all has corners where nothing is */
+    for (size_t i = 0; i < f->up->part_count;
+         i++) /* one by one, as the planes are laid: the box around all has corners where nothing is */
         if (f->plan->selected[i] && !box3_is_empty(f->up->pose->part_boxes[i]))
             camera_depth_range(&f->camera, f->up->pose->part_boxes[i], &nearest, &farthest);
     return nearest > f->camera.near && !f->mirror;
@@ -125,8 +131,9 @@ static bool eye_is_outside(const frame *f)
 static int wanted_bits(const stroke_options *w)
 {
     enum { WANT_CONTOUR = 32 };
-    return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) | (w->creases ? RECORD_CREASE : 0) |
-           (w->materials ? RECORD_MATERIAL : 0) | (w->intersections ? RECORD_CROSSING : 0);
+    return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) |
+           (w->creases ? RECORD_CREASE : 0) | (w->materials ? RECORD_MATERIAL : 0) |
+           (w->intersections ? RECORD_CROSSING : 0);
 }
 
 static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const pass *p, const strokes_values *v)
@@ -154,7 +161,7 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
             draw_lines_of(f, store, i, v->options.intersections);
 }
 
-/* --- exact --------------------------------------------------------------------------------------------------------- */
+/* --- exact ---------------------------------------------------------------------------------------------- */
 
 static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
 {
@@ -164,13 +171,15 @@ static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
     camera.projection = f->camera.projection;
     camera.near = f->camera.near;
     camera.orthographic = f->camera.orthographic;
-    camera.width = f->width / f->samples; /* of the page as it is seen: which lines there are does not depend on how finely it is sampled */
+    camera.width =
+        f->width /
+        f->samples; /* of the page as it is seen: which lines there are does not depend on how finely it is sampled */
     camera.height = f->height / f->samples;
     return stroke_store_look(store, &camera, error);
 }
 
-/* Of several layers each has the lines with as many surfaces in front of them. Bodies count once there, and twice among layers: lines of bodies behind others come a layer early,
- * which shows in how much they fade. */
+/* Of several layers each has the lines with as many surfaces in front of them. Bodies count once there, and twice
+ * among layers: lines of bodies behind others come a layer early, which shows in how much they fade. */
 static void keep_layer(stroke_set *set, uint32_t layer)
 {
     size_t kept = 0;
@@ -208,12 +217,13 @@ static void scale_ribbons(ribbon_set *r, float samples)
     }
 }
 
-static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s, const strokes_values *v, lmn_error *error)
+static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s,
+                               const strokes_values *v, lmn_error *error)
 {
     const strokes_values seen = values_in_pixels(v, f->samples);
-    stroke_options options = strokes_options_of(&seen);
-    stroke_style style = strokes_style_of(&seen);
-    stroke_set set = {0};
+    stroke_options       options = strokes_options_of(&seen);
+    stroke_style         style = strokes_style_of(&seen);
+    stroke_set           set = {0};
     if (s->figure->layered)
         options.hidden = true;
     memset(out, 0, sizeof *out);
@@ -246,7 +256,7 @@ static void project_depths(ribbon_set *r, const view_camera *c)
 static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_state *s, const strokes_values *v)
 {
     ribbon_set ribbons = {0};
-    lmn_error error = {0};
+    lmn_error  error = {0};
     lmn_status status = make_ribbons(&ribbons, store, f, s, v, &error);
     gpu_marks *marks = NULL;
     if (status == LMN_OK) {
@@ -267,9 +277,9 @@ static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_sta
 
 static void draw_exact(frame *f, figure_state *s, stroke_store *store, const strokes_values *v)
 {
-    text prelude = {0};
+    text         prelude = {0};
     gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/stroke.frag", &prelude);
-    gpu_marks *marks = upload_ribbons(f, store, s, v);
+    gpu_marks   *marks = upload_ribbons(f, store, s, v);
     open_maps(f, s);
     if (program && !gpu_failed(f->g)) {
         gpu_use(f->g, program, drawn);
@@ -284,8 +294,9 @@ static void draw_exact(frame *f, figure_state *s, stroke_store *store, const str
 void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
     const strokes_values *v = use->values;
-    bool exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE || (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
-    stopwatch w = watch_start(&f->profile);
+    bool                  exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE ||
+                 (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
+    stopwatch     w = watch_start(&f->profile);
     stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->options.refine);
     if (store)
         stroke_store_fix(store, f->g, v->options.intersections, stroke_options_bend(&v->options));

@@ -1,5 +1,5 @@
-/* Which tiles of a band have pixels of a layer. Layers get emptier with depth, and a layer lies inside the one before, so that passes
- * over the tiles of the layer before miss nothing. */
+/* Which tiles of a band have pixels of a layer. Layers get emptier with depth, and a layer lies inside the one
+ * before, so that passes over the tiles of the layer before miss nothing. */
 #include "frame/frame_private.h"
 
 #include <string.h>
@@ -35,7 +35,8 @@ static void spread(bool to[TILES_SIDE][TILES_SIDE], bool (*from)[TILES_SIDE], in
 /* A tile's box; those at the rim reach as far outwards as the margin, inside the limits. */
 static void place(const tile_grid *t, int x, int y, int end, int margin, const int limits[4], int out[4])
 {
-    int low[2] = {t->band[0] + x * t->size, t->band[1] + y * t->size}, high[2] = {t->band[0] + end * t->size, low[1] + t->size};
+    int low[2] = {t->band[0] + x * t->size, t->band[1] + y * t->size},
+        high[2] = {t->band[0] + end * t->size, low[1] + t->size};
     const int first[2] = {x, y}, last[2] = {end, y + 1}, counts[2] = {t->columns, t->rows};
     for (int k = 0; k < 2; k++) {
         if (first[k] == 0)
@@ -52,7 +53,7 @@ static void place(const tile_grid *t, int x, int y, int end, int margin, const i
 size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4])
 {
     bool wide[TILES_SIDE][TILES_SIDE], both[TILES_SIDE][TILES_SIDE];
-    int reach = (margin + t->size - 1) / t->size;
+    int  reach = (margin + t->size - 1) / t->size;
     memcpy(both, t->full, sizeof both);
     spread(wide, both, reach, true);
     spread(both, wide, reach, false);

@@ -1,5 +1,5 @@
-/* Soft shadows and ambient occlusion: a small picture of how much of the first light and of the sky arrives at what is seen, made once a frame. Whoever
- * asks for light looks it up (src/light/light.glsl). */
+/* Soft shadows and ambient occlusion: a small picture of how much of the first light and of the sky arrives at what
+ * is seen, made once a frame. Whoever asks for light looks it up (src/light/light.glsl). */
 #include "frame/frame_private.h"
 
 #include <math.h>
@@ -45,9 +45,10 @@ static void set_depth(const frame *f, int width, int height)
 static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_texture *normals)
 {
     const scene_values *v = values_of(f);
-    int width = gpu_texture_width(depth), height = gpu_texture_height(depth);
-    text prelude = {0};
-    text_append(&prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "", v->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
+    int                 width = gpu_texture_width(depth), height = gpu_texture_height(depth);
+    text                prelude = {0};
+    text_append(&prelude, "%s%s", shadow_is_soft(f) ? "#define HAS_SOFT_SHADOW\n" : "",
+                v->occlusion > 0 ? "#define HAS_OCCLUSION\n" : "");
     if (shadow_is_soft(f))
         target_declare(&prelude, &target_rows[TARGET_SHADOW]);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility.frag", &prelude);
@@ -66,7 +67,7 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
 
 static void blur(frame *f, gpu_texture *from, gpu_texture *to, gpu_texture *normals, bool upwards)
 {
-    text prelude = {0};
+    text         prelude = {0};
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility_blur.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
@@ -87,7 +88,8 @@ static gpu_texture *small_depth(frame *f, int width, int height)
     small.height = height;
     small.maps = NULL;
     small.shadow = NULL;
-    small.page_depth = gpu_target_acquire(f->g, width, height, GPU_DEPTH32F); /* what solids are gathered in must be as large */
+    small.page_depth =
+        gpu_target_acquire(f->g, width, height, GPU_DEPTH32F); /* what solids are gathered in must be as large */
     if (!gpu_failed(f->g))
         raster_depth(&small, small.page_depth);
     return small.page_depth;
@@ -99,11 +101,12 @@ void visibility_draw(frame *f)
         return;
     int size[2];
     size_of(f, size);
-    stopwatch w = watch_start(&f->profile);
+    stopwatch    w = watch_start(&f->profile);
     gpu_texture *depth = small_depth(f, size[0], size[1]);
     watch_stop(&f->profile, w, "scene", "visible depth");
     w = watch_start(&f->profile);
-    gpu_texture *share = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F), *other = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F);
+    gpu_texture *share = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F),
+                *other = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F);
     gpu_texture *normals = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F);
     if (!gpu_failed(f->g))
         measure(f, depth, share, normals);

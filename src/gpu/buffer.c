@@ -65,7 +65,8 @@ void gpu_buffer_fill(gpu *g, gpu_buffer *b, uint32_t word, size_t bytes)
     if (g->failed || !b)
         return;
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, b->name);
-    glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, 0, (GLsizeiptr)bytes, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+    glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, 0, (GLsizeiptr)bytes, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                         &word);
 }
 
 void gpu_buffer_write(gpu *g, gpu_buffer *b, const void *data, size_t bytes)

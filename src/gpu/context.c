@@ -10,7 +10,8 @@
 static lmn_status no_gl(gpu **g, lmn_error *error, const char *what)
 {
     lmn_status status = error_set(error, LMN_GL, "no usable OpenGL: %s", what);
-    error_hint(error, "install Mesa's software driver: apt-get install libegl1 libopengl0 libgl1-mesa-dri; `limner doctor` tells more");
+    error_hint(error, "install Mesa's software driver: apt-get install libegl1 libopengl0 libgl1-mesa-dri; `limner "
+                      "doctor` tells more");
     gpu_destroy(g);
     return status;
 }
@@ -29,13 +30,13 @@ static bool library_is_there(const char *const *names)
 static EGLDisplay open_display(void)
 {
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    EGLDisplay display = EGL_NO_DISPLAY;
+    EGLDisplay  display = EGL_NO_DISPLAY;
     if (extensions && strstr(extensions, "EGL_MESA_platform_surfaceless"))
         display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     if (display == EGL_NO_DISPLAY && extensions && strstr(extensions, "EGL_EXT_platform_device") &&
         strstr(extensions, "EGL_EXT_device_enumeration")) {
         EGLDeviceEXT device;
-        EGLint count = 0;
+        EGLint       count = 0;
         if (eglQueryDevicesEXT(1, &device, &count) && count > 0)
             display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, NULL);
     }
@@ -46,19 +47,25 @@ static EGLContext open_version(EGLDisplay display, bool es, int major, int minor
 {
     EGLint profile = es ? EGL_NONE : EGL_CONTEXT_OPENGL_PROFILE_MASK;
     EGLint attributes[] = {
-        EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor,
-        debug ? EGL_CONTEXT_OPENGL_DEBUG : profile, debug ? EGL_TRUE : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        debug ? profile : EGL_NONE, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        EGL_CONTEXT_MAJOR_VERSION,
+        major,
+        EGL_CONTEXT_MINOR_VERSION,
+        minor,
+        debug ? EGL_CONTEXT_OPENGL_DEBUG : profile,
+        debug ? EGL_TRUE : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        debug ? profile : EGL_NONE,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
         EGL_NONE,
     };
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
 }
 
-/* Some drivers give the newest version that contains the one asked for, others just that one: the newest of use comes first. */
+/* Some drivers give the newest version that contains the one asked for, others just that one: the newest of use
+ * comes first. */
 static EGLContext open_context(EGLDisplay display, bool es, bool debug)
 {
     static const int versions[2][4][2] = {{{4, 6}, {4, 5}, {4, 3}, {3, 3}}, {{3, 2}, {3, 1}, {3, 0}, {3, 0}}};
-    EGLContext context = EGL_NO_CONTEXT;
+    EGLContext       context = EGL_NO_CONTEXT;
     for (int i = 0; i < 4 && context == EGL_NO_CONTEXT; i++)
         context = open_version(display, es, versions[es][i][0], versions[es][i][1], debug);
     return context;
@@ -73,7 +80,8 @@ static void read_capabilities(gpu *g, bool debug)
     f->shading = (const char *)glGetString(GL_SHADING_LANGUAGE_VERSION);
     f->es = !epoxy_is_desktop_gl();
     f->debug = debug;
-    f->software = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe") || strstr(f->renderer, "SwiftShader");
+    f->software =
+        strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe") || strstr(f->renderer, "SwiftShader");
     f->lanes_stay = strstr(f->renderer, "llvmpipe") || strstr(f->renderer, "softpipe");
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &f->max_texture);
     float points[2] = {1, 1};
@@ -81,9 +89,9 @@ static void read_capabilities(gpu *g, bool debug)
     f->max_point = points[1];
     glGetIntegerv(GL_MAX_SAMPLES, &f->max_samples);
     glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &f->max_attachments);
-    int version = epoxy_gl_version();
+    int         version = epoxy_gl_version();
     const char *path = getenv("LIMNER_PATH");
-    bool able = f->es ? version >= 31 : version >= 43;
+    bool        able = f->es ? version >= 31 : version >= 43;
     f->fast = able && !(path && strcmp(path, "floor") == 0);
     f->lists = f->fast && !f->es;
     if (able) {
@@ -93,8 +101,8 @@ static void read_capabilities(gpu *g, bool debug)
     }
 }
 
-static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar *message,
-                                const void *user)
+static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                const GLchar *message, const void *user)
 {
     (void)source, (void)id, (void)severity, (void)length;
     gpu *g = (gpu *)(uintptr_t)user;
@@ -124,7 +132,8 @@ lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error)
         return no_gl(&g, error, "EGL offers no OpenGL");
     g->context = open_context(g->display, es, debug);
     if (g->context == EGL_NO_CONTEXT)
-        return no_gl(&g, error, es ? "the driver gives no OpenGL ES 3.0 context" : "the driver gives no OpenGL 3.3 core context");
+        return no_gl(&g, error,
+                     es ? "the driver gives no OpenGL ES 3.0 context" : "the driver gives no OpenGL 3.3 core context");
     if (!eglMakeCurrent(g->display, EGL_NO_SURFACE, EGL_NO_SURFACE, g->context))
         return no_gl(&g, error, "the context cannot be used without a surface");
     read_capabilities(g, debug);

@@ -9,7 +9,7 @@ void gpu_forget_framebuffers(gpu *g, const gpu_texture *t)
 {
     for (int i = 0; i < g->framebuffer_count;) {
         framebuffer *f = &g->framebuffers[i];
-        bool uses = f->depth == t;
+        bool         uses = f->depth == t;
         for (int c = 0; c < GPU_COLOURS_MAX; c++)
             uses = uses || f->colours[c] == t;
         if (!uses) {
@@ -58,7 +58,9 @@ static void bind_framebuffer(gpu *g, const gpu_pass *pass)
         buffers[0] = GL_NONE;
     glDrawBuffers(pass->colour_count ? pass->colour_count : 1, buffers);
     if (pass->depth)
-        glFramebufferTexture2D(GL_FRAMEBUFFER, pass->depth->format == GPU_DEPTH32F_STENCIL8 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+        glFramebufferTexture2D(GL_FRAMEBUFFER,
+                               pass->depth->format == GPU_DEPTH32F_STENCIL8 ? GL_DEPTH_STENCIL_ATTACHMENT
+                                                                            : GL_DEPTH_ATTACHMENT,
                                GL_TEXTURE_2D, pass->depth->name, 0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         gpu_fail(g, LMN_GL, "the driver cannot draw into this set of pictures");
@@ -169,7 +171,7 @@ void gpu_cull_faces(gpu *g, gpu_cull cull)
 /* Row after row of the pass's box. */
 void gpu_draw_screen(gpu *g)
 {
-    int rows = pace_rows(g, g->box[2], g->box[3]);
+    int  rows = pace_rows(g, g->box[2], g->box[3]);
     bool pieces = g->box[3] > rows;
     glBindVertexArray(g->empty_array);
     for (int y = 0; y < g->box[3] && pace_goes_on(g); y += rows) {
@@ -188,14 +190,15 @@ void gpu_draw_screen(gpu *g)
 /* Boxes are small: tiles. */
 static void draw_some_boxes(gpu *g, int (*boxes)[4], size_t count)
 {
-    float *corners = mem_alloc(count * 12 * sizeof *corners);
+    float  *corners = mem_alloc(count * 12 * sizeof *corners);
     int64_t pixels = 0;
     if (!corners) {
         gpu_fail(g, LMN_MEMORY, "out of memory");
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        float x = (float)boxes[i][0], y = (float)boxes[i][1], right = x + (float)boxes[i][2], top = y + (float)boxes[i][3];
+        float x = (float)boxes[i][0], y = (float)boxes[i][1], right = x + (float)boxes[i][2],
+              top = y + (float)boxes[i][3];
         memcpy(&corners[12 * i], (float[]){x, y, right, y, right, top, x, y, right, top, x, top}, 12 * sizeof *corners);
         pixels += (int64_t)boxes[i][2] * boxes[i][3];
     }
@@ -275,7 +278,8 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     if (data->keys) {
         glGenBuffers(1, &m->buffers[5]);
         glBindBuffer(GL_ARRAY_BUFFER, m->buffers[5]);
-        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->vertex_count), data->keys, GL_STATIC_DRAW);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->vertex_count), data->keys,
+                     GL_STATIC_DRAW);
         glVertexAttribIPointer(5, 1, GL_UNSIGNED_INT, 0, NULL);
         glEnableVertexAttribArray(5);
     }

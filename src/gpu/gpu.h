@@ -1,5 +1,5 @@
-/* GPU: context, programs, textures, meshes and passes over OpenGL 3.3 core or ES 3.0. Thin and explicit; GL is called nowhere
- * else. The first error sticks: later calls do nothing, gpu_check returns it. */
+/* GPU: context, programs, textures, meshes and passes over OpenGL 3.3 core or ES 3.0. Thin and explicit; GL is
+ * called nowhere else. The first error sticks: later calls do nothing, gpu_check returns it. */
 #ifndef LIMNER_GPU_GPU_H
 #define LIMNER_GPU_GPU_H
 
@@ -18,19 +18,31 @@ typedef struct gpu_buffer  gpu_buffer;
 typedef struct gpu_marks   gpu_marks;
 
 typedef enum gpu_format {
-    GPU_R8, GPU_RG8, GPU_RG16F, GPU_RGBA8, GPU_SRGB8, GPU_RGBA16F, GPU_RGBA32F, GPU_RG32UI, GPU_RGBA32UI, GPU_DEPTH32F, GPU_DEPTH32F_STENCIL8, GPU_FORMAT_COUNT
+    GPU_R8,
+    GPU_RG8,
+    GPU_RG16F,
+    GPU_RGBA8,
+    GPU_SRGB8,
+    GPU_RGBA16F,
+    GPU_RGBA32F,
+    GPU_RG32UI,
+    GPU_RGBA32UI,
+    GPU_DEPTH32F,
+    GPU_DEPTH32F_STENCIL8,
+    GPU_FORMAT_COUNT
 } gpu_format;
-/* The source is premultiplied. UNDER: the picture's alpha is what still shows through, 1 at first, which 16-bit floats hold better
- * than what does not. */
+/* The source is premultiplied. UNDER: the picture's alpha is what still shows through, 1 at first, which 16-bit
+ * floats hold better than what does not. */
 typedef enum gpu_blend { GPU_BLEND_NONE, GPU_BLEND_MIN, GPU_BLEND_OVER, GPU_BLEND_UNDER } gpu_blend;
 typedef enum gpu_cull { GPU_CULL_NONE, GPU_CULL_BACK, GPU_CULL_FRONT } gpu_cull;
-/* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where gpu_capabilities.lists). */
+/* The shading language of a program: the floor's, or GLSL 4.30 with storage blocks (only where
+ * gpu_capabilities.lists). */
 typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;
 typedef enum gpu_wrap { GPU_CLAMP, GPU_REPEAT, GPU_MIRROR } gpu_wrap;
 enum { GPU_COLOURS_MAX = 4 };
 
-/* Makes a context without display or window and makes it current on this thread. Errors: LMN_GL (with what is missing and how
- * to get it), LMN_MEMORY. */
+/* Makes a context without display or window and makes it current on this thread. Errors: LMN_GL (with what is
+ * missing and how to get it), LMN_MEMORY. */
 lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error);
 void       gpu_destroy(gpu **g);
 void       gpu_make_current(gpu *g);
@@ -43,29 +55,31 @@ void gpu_finish(gpu *g);
 
 typedef struct gpu_capabilities {
     const char *vendor, *renderer, *version, *shading; /* owned by the context */
-    bool        es, debug, software; /* software: the driver runs on the CPU */
-    bool        lanes_stay; /* fragments that were discarded go on computing, so that their neighbours' derivatives stay right: LANES_STAY in shaders */
-    int         max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
-    float       max_point; /* diameter of points, pixels */
-    bool        fast;                                          /* GL 4.3 or ES 3.1 paths may be used */
-    bool        depth_clamp;
-    bool        lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
+    bool        es, debug, software;                   /* software: the driver runs on the CPU */
+    bool lanes_stay; /* fragments that were discarded go on computing, so that their neighbours' derivatives stay right:
+                        LANES_STAY in shaders */
+    int   max_texture, max_samples, max_attachments, max_storage_mib; /* storage: 0 = no storage blocks */
+    float max_point;                                                  /* diameter of points, pixels */
+    bool  fast;                                                       /* GL 4.3 or ES 3.1 paths may be used */
+    bool  depth_clamp;
+    bool  lists; /* GPU_FAST programs and buffers may be used: GL 4.3 */
 } gpu_capabilities;
 const gpu_capabilities *gpu_capabilities_of(const gpu *g);
 /* Is there storage enough to gather fragments in lists? */
 bool gpu_has_lists(const gpu *g);
 
-/* --- textures and targets ------------------------------------------------------------------------------------------ */
+/* --- textures and targets ------------------------------------------------------------------------------- */
 
 /* A texture from pixels (RGBA8 or SRGB8), with mip levels. NULL after an error. */
-gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest, gpu_wrap wrap_u,
-                                gpu_wrap wrap_v);
-/* Several pictures of one size, for samplers of arrays, with levels made by hand: level k holds all of them one after the other in half the size of level k − 1. R8 and
- * RG8 take bytes, RG16F floats. `nearest`: texels are not mixed. Trilinear otherwise. NULL after an error. */
+gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest,
+                                gpu_wrap wrap_u, gpu_wrap wrap_v);
+/* Several pictures of one size, for samplers of arrays, with levels made by hand: level k holds all of them one
+ * after the other in half the size of level k − 1. R8 and RG8 take bytes, RG16F floats. `nearest`: texels are not
+ * mixed. Trilinear otherwise. NULL after an error. */
 typedef struct gpu_levels {
-    int               width, height, layers, levels;
-    gpu_format        format;
-    bool              nearest, stepped, clamped; /* stepped: levels are not mixed */
+    int                width, height, layers, levels;
+    gpu_format         format;
+    bool               nearest, stepped, clamped; /* stepped: levels are not mixed */
     const void *const *data;
 } gpu_levels;
 gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *levels);
@@ -74,28 +88,30 @@ void         gpu_texture_destroy(gpu *g, gpu_texture **t);
 gpu_texture *gpu_target_acquire(gpu *g, int width, int height, gpu_format format);
 void         gpu_target_release(gpu *g, gpu_texture *t);
 /* Does the driver say that it can make such a picture? Nothing is made. Some say so too readily. */
-bool         gpu_target_possible(gpu *g, int width, int height, gpu_format format);
+bool gpu_target_possible(gpu *g, int width, int height, gpu_format format);
 /* Frees the pool's unused pictures. */
 void gpu_targets_trim(gpu *g);
 int  gpu_texture_width(const gpu_texture *t);
 int  gpu_texture_height(const gpu_texture *t);
 /* Bytes of a texel as gpu_target_write takes it. */
 size_t gpu_texel_size(const gpu_texture *t);
-/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, RGBA32UI → 4, DEPTH32F → 1 float. */
+/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, RGBA32UI →
+ * 4, DEPTH32F → 1 float. */
 void gpu_read(gpu *g, gpu_texture *t, void *out);
 /* The same for a part (x, y, width, height); not of depth or R8. */
 void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out);
 /* Writes a part of a picture of bytes or integers; rows follow each other without gaps. */
 void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixels);
 
-/* --- programs ------------------------------------------------------------------------------------------------------ */
+/* --- programs ------------------------------------------------------------------------------------------- */
 
-/* Compiles (or finds) a program. Paths are below src/, several joined by '+' make one stage; `prelude` is GLSL put before both stages. `#include "path"` in shader
- * files is resolved below src/. NULL after an error; compile errors name file and line. */
+/* Compiles (or finds) a program. Paths are below src/, several joined by '+' make one stage; `prelude` is GLSL put
+ * before both stages. `#include "path"` in shader files is resolved below src/. NULL after an error; compile errors
+ * name file and line. */
 gpu_program *gpu_program_of(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude);
 size_t       gpu_program_count(const gpu *g);
 
-/* --- meshes -------------------------------------------------------------------------------------------------------- */
+/* --- meshes --------------------------------------------------------------------------------------------- */
 
 /* Vertex data; arrays other than positions may be NULL. Colours are linear, straight alpha. */
 typedef struct gpu_mesh_data {
@@ -103,7 +119,7 @@ typedef struct gpu_mesh_data {
     const float    *positions, *normals, *uvs[2], *colours;
     const float    *tensors; /* six numbers a vertex: locations 6 and 7 */
     const float    *patches; /* four numbers a vertex: location 8 */
-    const uint32_t *keys; /* a number a vertex; that of a triangle's last corner is the triangle's */
+    const uint32_t *keys;    /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
@@ -111,50 +127,55 @@ void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
 bool      gpu_mesh_has_tensors(const gpu_mesh *m);
 
-/* --- marks --------------------------------------------------------------------------------------------------------- */
+/* --- marks ---------------------------------------------------------------------------------------------- */
 
-/* Records drawn as quads: strokes, dots, pieces of lines. A record is `vectors` times four floats, attributes 0 and up, the same in all four
- * corners of its quad; which one a vertex is, is gl_VertexID & 3. Corners 0 1 2 and 2 1 3 are its triangles. NULL after an error. */
+/* Records drawn as quads: strokes, dots, pieces of lines. A record is `vectors` times four floats, attributes 0 and
+ * up, the same in all four corners of its quad; which one a vertex is, is gl_VertexID & 3. Corners 0 1 2 and 2 1 3
+ * are its triangles. NULL after an error. */
 enum { MARK_VECTORS_MAX = 8 };
 gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t count);
-/* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_capabilities.max_point, and the middle must lie inside of what is drawn. */
+/* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_capabilities.max_point, and the middle
+ * must lie inside of what is drawn. */
 gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 
-/* --- storage buffers (only where gpu_capabilities.lists) ------------------------------------------------------------------ */
+/* --- storage buffers (only where gpu_capabilities.lists) ------------------------------------------------ */
 
 /* A buffer of at least this size from a pool; its content is undefined. NULL after an error. */
 gpu_buffer *gpu_buffer_acquire(gpu *g, size_t bytes);
 void        gpu_buffer_release(gpu *g, gpu_buffer *b);
 /* Sets the first `bytes` to copies of a word. */
-void        gpu_buffer_fill(gpu *g, gpu_buffer *b, uint32_t word, size_t bytes);
+void gpu_buffer_fill(gpu *g, gpu_buffer *b, uint32_t word, size_t bytes);
 /* Writes the first bytes. */
-void        gpu_buffer_write(gpu *g, gpu_buffer *b, const void *data, size_t bytes);
-void        gpu_buffer_bind(gpu *g, gpu_buffer *b, int binding);
-void        gpu_buffer_read(gpu *g, gpu_buffer *b, size_t bytes, void *out);
+void gpu_buffer_write(gpu *g, gpu_buffer *b, const void *data, size_t bytes);
+void gpu_buffer_bind(gpu *g, gpu_buffer *b, int binding);
+void gpu_buffer_read(gpu *g, gpu_buffer *b, size_t bytes, void *out);
 /* What shaders wrote is seen by everything after. */
-void        gpu_buffer_barrier(gpu *g);
+void gpu_buffer_barrier(gpu *g);
 
-/* --- drawing ------------------------------------------------------------------------------------------------------- */
+/* --- drawing -------------------------------------------------------------------------------------------- */
 
 typedef struct gpu_pass {
     gpu_texture *colours[GPU_COLOURS_MAX];
     int          colour_count;
     gpu_texture *depth;
-    bool         clear;                                /* all colours to clear_values, depth to 1 */
-    bool         keep_depth;                           /* with clear: leave the depth as it is */
-    float        clear_values[GPU_COLOURS_MAX][4];     /* integer formats take them as integers */
-    int          scissor[4];                           /* drawing: x, y, width, height; width 0 = all */
-    int          clear_box[4];                         /* clearing: the same */
+    bool         clear;                            /* all colours to clear_values, depth to 1 */
+    bool         keep_depth;                       /* with clear: leave the depth as it is */
+    float        clear_values[GPU_COLOURS_MAX][4]; /* integer formats take them as integers */
+    int          scissor[4];                       /* drawing: x, y, width, height; width 0 = all */
+    int          clear_box[4];                     /* clearing: the same */
 } gpu_pass;
 void gpu_pass_begin(gpu *g, const gpu_pass *pass);
 
 /* What a fragment must be, compared with what is there. */
-typedef enum gpu_compare {
-    GPU_LESS_EQUAL, GPU_LESS, GPU_EQUAL, GPU_NOT_EQUAL, GPU_GREATER, GPU_ALWAYS
-} gpu_compare;
-typedef enum gpu_stencil_action { GPU_STENCIL_KEEP, GPU_STENCIL_ZERO, GPU_STENCIL_REPLACE, GPU_STENCIL_COUNT } gpu_stencil_action;
+typedef enum gpu_compare { GPU_LESS_EQUAL, GPU_LESS, GPU_EQUAL, GPU_NOT_EQUAL, GPU_GREATER, GPU_ALWAYS } gpu_compare;
+typedef enum gpu_stencil_action {
+    GPU_STENCIL_KEEP,
+    GPU_STENCIL_ZERO,
+    GPU_STENCIL_REPLACE,
+    GPU_STENCIL_COUNT
+} gpu_stencil_action;
 
 /* Of the reference with what is there: equal, not equal or always. */
 typedef struct gpu_stencil {
@@ -165,8 +186,9 @@ typedef struct gpu_stencil {
 } gpu_stencil;
 
 typedef struct gpu_state {
-    bool        depth_test, depth_write;
-    bool        depth_clamp; /* where gpu_capabilities.depth_clamp: nothing is cut off at the near and far planes, it gets their depth */
+    bool depth_test, depth_write;
+    bool depth_clamp; /* where gpu_capabilities.depth_clamp: nothing is cut off at the near and far planes, it gets
+                         their depth */
     gpu_compare depth_compare;
     gpu_blend   blend;
     gpu_stencil stencil;
@@ -194,12 +216,14 @@ void gpu_draw_screen(gpu *g);
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
 /* Some of its triangles: runs of indices, first and count. */
 void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count);
-/* Was any fragment between the two calls left by the tests? The answer of one of GPU_QUERIES occlusion queries is waited for when it is asked. */
+/* Was any fragment between the two calls left by the tests? The answer of one of GPU_QUERIES occlusion queries is
+ * waited for when it is asked. */
 enum { GPU_QUERIES = 64 };
 void gpu_query_begin(gpu *g, int query);
 void gpu_query_end(gpu *g);
 bool gpu_query_any(gpu *g, int query);
-/* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader gpu/boxes.vert. */
+/* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader
+ * gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
 /* All of the marks, in their order; or the first ones alone. */
 void gpu_draw_marks(gpu *g, gpu_marks *m);

@@ -58,39 +58,40 @@ typedef struct framebuffer {
 } framebuffer;
 
 struct gpu {
-    EGLDisplay    display;
-    EGLContext    context;
+    EGLDisplay       display;
+    EGLContext       context;
     gpu_capabilities capabilities;
-    lmn_error     error;
-    bool          failed;
-    gpu_texture **targets;
-    size_t        target_count, target_capacity;
-    gpu_program **programs;
-    size_t        program_count, program_capacity;
-    gpu_buffer  **buffers;
-    size_t        buffer_count, buffer_capacity;
-    framebuffer   framebuffers[FRAMEBUFFERS_MAX];
-    int           framebuffer_count;
-    uint64_t      clock, draws;
-    uint32_t      indices_in_flight; /* drawn since the last finish */
-    int64_t       pixels_in_flight;
-    int           piece_indices, piece_pixels; /* drawn at once, at most */
-    double        finished_ms;       /* when the last finish was */
-    int           box[4];            /* scissor of the pass, whole when there is none */
-    GLuint        empty_array, boxes_array, boxes_buffer, queries[GPU_QUERIES];
-    gpu_program  *program; /* in use */
-    int           next_unit;
+    lmn_error        error;
+    bool             failed;
+    gpu_texture    **targets;
+    size_t           target_count, target_capacity;
+    gpu_program    **programs;
+    size_t           program_count, program_capacity;
+    gpu_buffer     **buffers;
+    size_t           buffer_count, buffer_capacity;
+    framebuffer      framebuffers[FRAMEBUFFERS_MAX];
+    int              framebuffer_count;
+    uint64_t         clock, draws;
+    uint32_t         indices_in_flight; /* drawn since the last finish */
+    int64_t          pixels_in_flight;
+    int              piece_indices, piece_pixels; /* drawn at once, at most */
+    double           finished_ms;                 /* when the last finish was */
+    int              box[4];                      /* scissor of the pass, whole when there is none */
+    GLuint           empty_array, boxes_array, boxes_buffer, queries[GPU_QUERIES];
+    gpu_program     *program; /* in use */
+    int              next_unit;
 };
 
 /* --- pace.c: pieces of long draws --- */
 void     pace_start(gpu *g);
-bool     pace_goes_on(gpu *g);  /* may something be drawn? Asks whether the call is to stop */
+bool     pace_goes_on(gpu *g); /* may something be drawn? Asks whether the call is to stop */
 void     pace_drawn(gpu *g, uint32_t indices, int64_t pixels);
 uint32_t pace_indices(const gpu *g, uint32_t count); /* how many at once */
 int      pace_rows(const gpu *g, int width, int height);
 
 void gpu_buffers_trim(gpu *g);
-/* Triangles of the vertex array that is bound, from the first index on; at most as many at once as the driver holds well. */
+/* Triangles of the vertex array that is bound, from the first index on; at most as many at once as the driver holds
+ * well. */
 void gpu_draw_indices(gpu *g, uint32_t count);
 void gpu_forget_framebuffers(gpu *g, const gpu_texture *t);
 

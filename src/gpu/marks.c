@@ -1,5 +1,6 @@
-/* Marks: records drawn as quads. Each record is there once a corner, and an index buffer makes triangles of them (Freudenberg 2003, section 5.4.1; row EX-29): on the
- * software driver instances of four corners take a quarter to a half longer. */
+/* Marks: records drawn as quads. Each record is there once a corner, and an index buffer makes triangles of them
+ * (Freudenberg 2003, section 5.4.1; row EX-29): on the software driver instances of four corners take a quarter to
+ * a half longer. */
 #include "gpu/gpu_private.h"
 
 #include <string.h>
@@ -14,7 +15,8 @@ static void set_vectors(GLuint buffer, int vectors, const void *data, size_t byt
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, data, GL_STATIC_DRAW);
     for (int i = 0; i < vectors; i++) {
-        glVertexAttribPointer((GLuint)i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size, (const void *)(4 * sizeof(float) * (size_t)i));
+        glVertexAttribPointer((GLuint)i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size,
+                              (const void *)(4 * sizeof(float) * (size_t)i));
         glEnableVertexAttribArray((GLuint)i);
     }
 }
@@ -31,7 +33,8 @@ static void add_indices(GLuint buffer, size_t count, uint32_t *indices)
 {
     for (size_t i = 0; i < count; i++) {
         uint32_t first = (uint32_t)(CORNERS * i);
-        memcpy(&indices[INDICES * i], (uint32_t[]){first, first + 1, first + 2, first + 2, first + 1, first + 3}, INDICES * sizeof *indices);
+        memcpy(&indices[INDICES * i], (uint32_t[]){first, first + 1, first + 2, first + 2, first + 1, first + 3},
+               INDICES * sizeof *indices);
     }
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * INDICES * sizeof *indices), indices, GL_STATIC_DRAW);
@@ -41,10 +44,10 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
 {
     if (g->failed)
         return NULL;
-    size_t size = 4 * sizeof(float) * (size_t)vectors;
+    size_t     size = 4 * sizeof(float) * (size_t)vectors;
     gpu_marks *m = count <= MARKS_MAX ? mem_calloc(1, sizeof *m) : NULL;
-    char *corners = m ? mem_alloc(count * CORNERS * size) : NULL;
-    uint32_t *indices = m ? mem_alloc(count * INDICES * sizeof *indices) : NULL;
+    char      *corners = m ? mem_alloc(count * CORNERS * size) : NULL;
+    uint32_t  *indices = m ? mem_alloc(count * INDICES * sizeof *indices) : NULL;
     if (corners && indices) {
         m->count = count;
         glGenVertexArrays(1, &m->array);

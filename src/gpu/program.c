@@ -10,8 +10,9 @@
 
 enum { FILES_MAX = 24, INCLUDE_DEPTH_MAX = 8, FILE_LINES_MAX = 2000 };
 
-/* The files a shader was put together from. Drivers refuse their names in #line, and Mesa forgets their numbers in errors about meaning: so a line's
- * number says which file it is in. The file at i begins at line (i + 1) · FILE_LINES_MAX + 1; below are the lines of the prelude. */
+/* The files a shader was put together from. Drivers refuse their names in #line, and Mesa forgets their numbers in
+ * errors about meaning: so a line's number says which file it is in. The file at i begins at line (i + 1) ·
+ * FILE_LINES_MAX + 1; below are the lines of the prelude. */
 typedef struct source {
     text        body;
     const char *files[FILES_MAX];
@@ -19,8 +20,9 @@ typedef struct source {
 } source;
 
 static const char desktop_head[] = "#version 330 core\n", fast_head[] = "#version 430 core\n";
-static const char es_head[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-                              "precision highp usampler2D;\nprecision highp sampler2DArray;\n";
+static const char es_head[] =
+    "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+    "precision highp usampler2D;\nprecision highp sampler2DArray;\n";
 
 static bool append_file(gpu *g, source *s, const char *path, int depth);
 
@@ -41,7 +43,7 @@ static char *load_text(gpu *g, const char *path)
     if (folder) {
         text joined = {0};
         text_append(&joined, "%s/%s", folder, path);
-        char *name = text_take(&joined);
+        char     *name = text_take(&joined);
         file_data data;
         if (name && file_load(&data, name, NULL) == LMN_OK) {
             char *copy = mem_copy_text((const char *)data.data);
@@ -51,7 +53,7 @@ static char *load_text(gpu *g, const char *path)
         }
         mem_free(name);
     }
-    size_t size;
+    size_t      size;
     const char *found = embedded_text(path, &size);
     if (!found)
         gpu_fail(g, LMN_INTERNAL, "shader file src/%s is not in the library", path);
@@ -66,7 +68,7 @@ static bool append_include(gpu *g, source *s, const char *line, size_t length, i
         gpu_fail(g, LMN_INTERNAL, "a shader's #include has no quoted path");
         return false;
     }
-    char path[128];
+    char   path[128];
     size_t size = (size_t)(close - open) - 1;
     if (size >= sizeof path)
         return false;
@@ -90,12 +92,12 @@ static bool append_file(gpu *g, source *s, const char *path, int depth)
     int id = s->file_count++;
     s->files[id] = mem_copy_text(path);
     bool good = s->files[id] != NULL;
-    int before = (id + 1) * FILE_LINES_MAX;
+    int  before = (id + 1) * FILE_LINES_MAX;
     text_append(&s->body, "#line %d\n", before + 1);
     int number = 1;
     for (const char *line = content; good && *line; number++) {
         const char *end = strchr(line, '\n');
-        size_t length = end ? (size_t)(end - line) + 1 : strlen(line);
+        size_t      length = end ? (size_t)(end - line) + 1 : strlen(line);
         if (strncmp(line, "#include", 8) == 0) {
             good = append_include(g, s, line, length, depth);
             text_append(&s->body, "#line %d\n", before + number + 1);
@@ -139,12 +141,13 @@ static const char *main_file(const char *list)
     return last ? last + 1 : list;
 }
 
-/* Appends a line of the log with the file's name: "0:4012(3): error: …", "ERROR: 0:4012: …" and "0(4012) : error …" become "src/FILE:12: …". */
+/* Appends a line of the log with the file's name: "0:4012(3): error: …", "ERROR: 0:4012: …" and "0(4012) : error …"
+ * become "src/FILE:12: …". */
 static void explain_line(text *out, const source *s, const char *line, size_t length)
 {
     const char *at = strncmp(line, "ERROR: ", 7) == 0 ? line + 7 : strncmp(line, "WARNING: ", 9) == 0 ? line + 9 : line;
-    size_t digits = strspn(at, "0123456789");
-    char *behind = NULL;
+    size_t      digits = strspn(at, "0123456789");
+    char       *behind = NULL;
     long number = digits > 0 && (at[digits] == ':' || at[digits] == '(') ? strtol(at + digits + 1, &behind, 10) : 0;
     long file = number / FILE_LINES_MAX - 1;
     if (file >= 0 && file < s->file_count) {
@@ -170,7 +173,8 @@ static void explain(gpu *g, const source *s, const char *path, const char *log)
     if (!out.failed && out.size > 4 && strncmp(out.data, "src/", 4) == 0)
         gpu_fail(g, LMN_GL, "%s", out.data);
     else
-        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", main_file(path), out.failed || !out.data ? log : out.data);
+        gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", main_file(path),
+                 out.failed || !out.data ? log : out.data);
     text_release(&out);
 }
 
@@ -178,8 +182,11 @@ static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *pat
 {
     source s = {0};
     GLuint shader = 0;
-    text_append(&s.body, "%s%s%s", dialect == GPU_FAST ? fast_head : g->capabilities.es ? es_head : desktop_head, g->capabilities.lanes_stay ? "#define LANES_STAY\n" : "",
-                prelude);
+    text_append(&s.body, "%s%s%s",
+                dialect == GPU_FAST  ? fast_head
+                : g->capabilities.es ? es_head
+                                     : desktop_head,
+                g->capabilities.lanes_stay ? "#define LANES_STAY\n" : "", prelude);
     if (append_files(g, &s, path) && !s.body.failed) {
         shader = glCreateShader(stage);
         const char *body = s.body.data;

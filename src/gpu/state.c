@@ -10,7 +10,7 @@ void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
 {
     if (g->failed)
         return;
-    char message[sizeof g->error.message];
+    char    message[sizeof g->error.message];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);

@@ -5,7 +5,8 @@
 
 #include "base/memory.h"
 
-/* Where textures are bound to be made and written: a unit that programs do not come to, so that none loses a texture that was set before. */
+/* Where textures are bound to be made and written: a unit that programs do not come to, so that none loses a
+ * texture that was set before. */
 #define SCRATCH_UNIT GL_TEXTURE15
 
 typedef struct format_row {
@@ -53,8 +54,8 @@ static gpu_texture *make_empty(gpu *g, GLenum target, int width, int height, gpu
     if (g->failed)
         return NULL;
     if (width > g->capabilities.max_texture || height > g->capabilities.max_texture) {
-        gpu_fail(g, LMN_LIMIT, "a picture of %dx%d pixels is larger than the driver's limit of %d a side", width, height,
-                 g->capabilities.max_texture);
+        gpu_fail(g, LMN_LIMIT, "a picture of %dx%d pixels is larger than the driver's limit of %d a side", width,
+                 height, g->capabilities.max_texture);
         return NULL;
     }
     gpu_texture *t = mem_calloc(1, sizeof *t);
@@ -76,7 +77,8 @@ static void check_memory(gpu *g, const gpu_texture *t)
         gpu_fail(g, LMN_MEMORY, "the driver has no memory for a texture of %dx%d pixels", t->width, t->height);
 }
 
-static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const void *pixels, gpu_wrap wrap_u, gpu_wrap wrap_v)
+static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const void *pixels, gpu_wrap wrap_u,
+                         gpu_wrap wrap_v)
 {
     gpu_texture *t = make_empty(g, GL_TEXTURE_2D, width, height, format);
     if (!t)
@@ -89,8 +91,8 @@ static gpu_texture *make(gpu *g, int width, int height, gpu_format format, const
     return t;
 }
 
-gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest, gpu_wrap wrap_u,
-                                gpu_wrap wrap_v)
+gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format, const void *pixels, bool nearest,
+                                gpu_wrap wrap_u, gpu_wrap wrap_v)
 {
     gpu_texture *t = make(g, width, height, format, pixels, wrap_u, wrap_v);
     if (!t)
@@ -98,7 +100,8 @@ gpu_texture *gpu_texture_create(gpu *g, int width, int height, gpu_format format
     t->mipmapped = true;
     t->nearest = nearest;
     glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                    nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
     if (!nearest && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
         glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8.0f);
@@ -125,7 +128,10 @@ gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *l)
     GLint wrap = l->clamped ? GL_CLAMP_TO_EDGE : GL_REPEAT;
     glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
     glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
-    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, l->nearest ? GL_NEAREST_MIPMAP_NEAREST : l->stepped ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER,
+                    l->nearest   ? GL_NEAREST_MIPMAP_NEAREST
+                    : l->stepped ? GL_LINEAR_MIPMAP_NEAREST
+                                 : GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, l->nearest ? GL_NEAREST : GL_LINEAR);
     return t;
 }
@@ -223,7 +229,7 @@ void gpu_set_texture(gpu *g, const char *name, gpu_texture *t, bool linear)
 static void read_depth_by_copy(gpu *g, gpu_texture *t, float *out)
 {
     gpu_texture *copy = gpu_target_acquire(g, t->width, t->height, GPU_RGBA32F);
-    float *wide = mem_alloc(sizeof(float) * 4 * (size_t)t->width * (size_t)t->height);
+    float       *wide = mem_alloc(sizeof(float) * 4 * (size_t)t->width * (size_t)t->height);
     if (copy && wide) {
         gpu_pass_begin(g, &(gpu_pass){.colours = {copy}, .colour_count = 1});
         gpu_use(g, gpu_program_of(g, GPU_FLOOR, "gpu/screen.vert", "gpu/copy_depth.frag", ""), (gpu_state){0});
@@ -264,7 +270,7 @@ void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out)
     GLenum type = t->format == GPU_RGBA16F ? GL_FLOAT : formats[t->format].type;
     if (t->format == GPU_RG32UI && g->capabilities.es) {
         /* ES guarantees four-component integer reads only. */
-        size_t count = (size_t)box[2] * (size_t)box[3];
+        size_t    count = (size_t)box[2] * (size_t)box[3];
         uint32_t *wide = mem_alloc(count * 16);
         if (!wide) {
             gpu_fail(g, LMN_MEMORY, "out of memory");
@@ -286,6 +292,7 @@ void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixe
     glActiveTexture(SCRATCH_UNIT);
     glBindTexture(GL_TEXTURE_2D, t->name);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, box[0], box[1], box[2], box[3], formats[t->format].format, formats[t->format].type, pixels);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, box[0], box[1], box[2], box[3], formats[t->format].format,
+                    formats[t->format].type, pixels);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }

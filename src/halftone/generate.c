@@ -3,7 +3,8 @@
 
 #include "base/memory.h"
 
-const char *const stroke_pattern_names[PATTERN_COUNT + 1] = {"parallel", "cross", "contour", "brick", "stipple", "scribble", "random", NULL};
+const char *const stroke_pattern_names[PATTERN_COUNT + 1] = {"parallel", "cross",    "contour", "brick",
+                                                             "stipple",  "scribble", "random",  NULL};
 
 /* Enough places to choose from for any picture; more would only take time. */
 enum { THROWN_MAX = 400000 };
@@ -39,13 +40,14 @@ void generate_curve(generator *g, const place *points, size_t count, int32_t lay
         generate_stroke(g, points[i], points[i + 1], layer);
 }
 
-/* Of many places thrown at random the one that is farthest from all before is taken, again and again; the fewer there are to choose from, the less even. */
+/* Of many places thrown at random the one that is farthest from all before is taken, again and again; the fewer
+ * there are to choose from, the less even. */
 void generate_places(generator *g, place *out, size_t count, double uneven)
 {
     size_t thrown = count * (size_t)(1 + 15 * (1 - uneven) * (1 - uneven));
     thrown = thrown <= THROWN_MAX ? thrown : count < THROWN_MAX ? THROWN_MAX : count;
     spread_point *points = mem_calloc(thrown, sizeof *points);
-    size_t *order = mem_calloc(count, sizeof *order);
+    size_t       *order = mem_calloc(count, sizeof *order);
     for (size_t i = 0; points && i < thrown; i++) {
         points[i].u = (float)random_unit(&g->chance);
         points[i].v = (float)random_unit(&g->chance);
@@ -86,7 +88,8 @@ lmn_status strokes_generate(strokes *out, const pattern_options *options, lmn_er
 {
     *out = (strokes){.width = 1};
     const pattern_room *room = &rooms[options->pattern];
-    generator g = {.out = out, .seed = options->seed, .chance = random_start(options->seed, (uint32_t)options->pattern)};
+    generator           g = {
+                  .out = out, .seed = options->seed, .chance = random_start(options->seed, (uint32_t)options->pattern)};
     g.count = options->count ? options->count : room->count;
     g.length = options->length > 0 ? fmin((double)options->length, 4) : room->length;
     g.uneven = fmin(fmax((double)options->uneven, 0), 1);

@@ -10,7 +10,8 @@ typedef struct place {
 
 enum { SWAY_WAVES = 6 };
 
-/* A smooth displacement that repeats with the square: how a hand drifts while it fills an area. Neighbours drift together. */
+/* A smooth displacement that repeats with the square: how a hand drifts while it fills an area. Neighbours drift
+ * together. */
 typedef struct sway {
     double amplitude[SWAY_WAVES], phase[SWAY_WAVES];
     int    u[SWAY_WAVES], v[SWAY_WAVES];
@@ -36,7 +37,8 @@ void generate_places(generator *g, place *out, size_t count, double uneven);
 sway   sway_of(random_source *chance, double amplitude, int rough);
 double sway_at(const sway *s, place at);
 
-/* One series of hatching along closed lines of the torus with the direction (along_u, along_v): 1,0 · 0,1 · 1,1 · 1,−1. */
+/* One series of hatching along closed lines of the torus with the direction (along_u, along_v): 1,0 · 0,1 · 1,1 ·
+ * 1,−1. */
 void generate_hatching(generator *g, int along_u, int along_v, size_t count, int32_t layer);
 
 void pattern_parallel(generator *g);

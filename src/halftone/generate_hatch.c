@@ -80,12 +80,12 @@ enum { CONTOUR_CHORDS = 8 };
 void pattern_contour(generator *g)
 {
     size_t curves = g->count / CONTOUR_CHORDS;
-    rows r = rows_of(g, 1, 0, curves ? curves : 1);
-    sway drift = sway_of(&g->chance, 0.008 * g->uneven, 3);
+    rows   r = rows_of(g, 1, 0, curves ? curves : 1);
+    sway   drift = sway_of(&g->chance, 0.008 * g->uneven, 3);
     double phase = random_unit(&g->chance), lean = random_unit(&g->chance);
     for (size_t row = 0; row < r.count; row++)
         for (size_t k = 0; k < r.strokes; k++) {
-            place points[CONTOUR_CHORDS + 1];
+            place  points[CONTOUR_CHORDS + 1];
             double from, to, across = ((double)row + 0.5) * r.spacing;
             ends_on_row(g, &r, row, k, &from, &to);
             across += g->uneven * 0.5 * r.spacing * random_hand(&g->chance);

@@ -1,5 +1,6 @@
-/* Sample elimination: which points of many are to go first, so that whatever is left is spread evenly. After Yuksel 2015, "Sample Elimination for Generating Poisson Disk
- * Sample Sets", with the order of all prefixes; distances are straight ones, between points whose surfaces do not turn away from each other. */
+/* Sample elimination: which points of many are to go first, so that whatever is left is spread evenly. After Yuksel
+ * 2015, "Sample Elimination for Generating Poisson Disk Sample Sets", with the order of all prefixes; distances are
+ * straight ones, between points whose surfaces do not turn away from each other. */
 #include "halftone/marks.h"
 
 #include <math.h>
@@ -11,19 +12,19 @@
 /* Points with neighbours, of one round: until half of them are left. */
 typedef struct round_of {
     const spread_place *points;
-    const uint32_t     *alive;  /* numbers of the points that are left when it begins */
+    const uint32_t     *alive; /* numbers of the points that are left when it begins */
     uint32_t            count;
-    double              reach;  /* beyond it points do not crowd each other */
-    double              longer; /* strokes: distances along them count this many times less than sideways, squared; 1: dots */
-    double              cell;   /* side of the table's cells */
-    double              closest; /* nearer than this is as bad as this */
-    uint32_t           *table;  /* first of each bucket in `members`, one more behind */
-    uint32_t           *members;
-    int32_t           (*cells)[3];
-    uint32_t            mask;
-    uint32_t           *starts; /* of each one's neighbours, count + 1 */
-    uint32_t           *others;
-    float              *weights; /* of a pair */
+    double              reach; /* beyond it points do not crowd each other */
+    double    longer;  /* strokes: distances along them count this many times less than sideways, squared; 1: dots */
+    double    cell;    /* side of the table's cells */
+    double    closest; /* nearer than this is as bad as this */
+    uint32_t *table;   /* first of each bucket in `members`, one more behind */
+    uint32_t *members;
+    int32_t (*cells)[3];
+    uint32_t  mask;
+    uint32_t *starts; /* of each one's neighbours, count + 1 */
+    uint32_t *others;
+    float    *weights; /* of a pair */
 } round_of;
 
 static uint32_t bucket_of(const int32_t cell[3], uint32_t mask)
@@ -63,16 +64,19 @@ static float weight_of(const round_of *r, const spread_place *a, const spread_pl
 {
     enum { POWER = 8 };
     const double AWAY = -0.25; /* cosine from which on surfaces are each other's backs */
-    double x = (double)a->place.x - (double)b->place.x, y = (double)a->place.y - (double)b->place.y, z = (double)a->place.z - (double)b->place.z;
+    double       x = (double)a->place.x - (double)b->place.x, y = (double)a->place.y - (double)b->place.y,
+           z = (double)a->place.z - (double)b->place.z;
     double square = x * x + y * y + z * z;
     if (r->longer > 1) {
-        double own = x * (double)a->way.x + y * (double)a->way.y + z * (double)a->way.z, other = x * (double)b->way.x + y * (double)b->way.y + z * (double)b->way.z;
+        double own = x * (double)a->way.x + y * (double)a->way.y + z * (double)a->way.z,
+               other = x * (double)b->way.x + y * (double)b->way.y + z * (double)b->way.z;
         double along = fmin(0.5 * (own * own + other * other), square);
         square = r->longer * (square - along) + along / r->longer;
     }
     if (square >= r->reach * r->reach)
         return 0;
-    double facing = (double)a->normal.x * (double)b->normal.x + (double)a->normal.y * (double)b->normal.y + (double)a->normal.z * (double)b->normal.z;
+    double facing = (double)a->normal.x * (double)b->normal.x + (double)a->normal.y * (double)b->normal.y +
+                    (double)a->normal.z * (double)b->normal.z;
     if (facing < AWAY)
         return 0;
     double left = 1 - fmax(sqrt(square), r->closest) / r->reach;
@@ -89,8 +93,8 @@ static void find_neighbours(size_t begin, size_t end, void *user)
         uint32_t found = 0;
         for (int k = 0; k < 27; k++) {
             const int32_t *own = r->cells[i];
-            const int32_t cell[3] = {own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1};
-            uint32_t bucket = bucket_of(cell, r->mask);
+            const int32_t  cell[3] = {own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1};
+            uint32_t       bucket = bucket_of(cell, r->mask);
             for (uint32_t m = r->table[bucket]; m < r->table[bucket + 1]; m++) {
                 uint32_t other = r->members[m];
                 if (other == i || memcmp(r->cells[other], cell, sizeof cell) != 0)
@@ -145,10 +149,10 @@ static bool round_open(round_of *r)
     return true;
 }
 
-/* --- the most crowded one: a heap ---------------------------------------------------------------------------------- */
+/* --- the most crowded one: a heap ----------------------------------------------------------------------- */
 
 typedef struct crowd {
-    float    *weights;  /* per point of the round */
+    float    *weights;      /* per point of the round */
     uint32_t *heap, *where; /* points, the most crowded first; where each one is */
     uint32_t  count;
 } crowd;
@@ -227,20 +231,28 @@ static uint32_t take_away(crowd *c, const round_of *r)
     return gone;
 }
 
-/* --- rounds ---------------------------------------------------------------------------------------------------------- */
+/* --- rounds --------------------------------------------------------------------------------------------- */
 
 /* Takes points away until `target` are left; those that go when fewer than `wanted` are left get their ranks. */
-static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size_t wanted, uint32_t *ranks, const spread_place *points, double area, double length)
+static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size_t wanted, uint32_t *ranks,
+                         const spread_place *points, double area, double length)
 {
     const double LONGEST = 8, OVERLAP = 0.8; /* ends of strokes may lie beside each other */
-    /* What discs of the densest packing have room for; from the paper, with its β and γ for how close the closest may be. */
+    /* What discs of the densest packing have room for; from the paper, with its β and γ for how close the closest
+     * may be. */
     double radius = sqrt(area / (2 * sqrt(3.0) * target));
     double closest = 2 * radius * (1 - pow((double)target / *count, 1.5)) * 0.65;
     /* Strokes that follow each other at their length leave this much room sideways. */
-    double longer = fmin(fmax(OVERLAP * OVERLAP * length * length * target / area, 1), LONGEST);
-    round_of r = {.points = points, .alive = alive, .count = *count, .reach = 2 * radius, .closest = closest, .longer = longer, .cell = 2 * radius * sqrt(longer)};
-    crowd c = {NULL, NULL, NULL, 0};
-    bool done = round_open(&r) && crowd_open(&c, &r);
+    double   longer = fmin(fmax(OVERLAP * OVERLAP * length * length * target / area, 1), LONGEST);
+    round_of r = {.points = points,
+                  .alive = alive,
+                  .count = *count,
+                  .reach = 2 * radius,
+                  .closest = closest,
+                  .longer = longer,
+                  .cell = 2 * radius * sqrt(longer)};
+    crowd    c = {NULL, NULL, NULL, 0};
+    bool     done = round_open(&r) && crowd_open(&c, &r);
     while (done && c.count > target) {
         uint32_t gone = take_away(&c, &r);
         if (c.count < wanted)
@@ -258,7 +270,8 @@ static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size
     return done;
 }
 
-bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area, double length)
+bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area,
+                     double length)
 {
     uint32_t *alive = mem_alloc(count * sizeof *alive), left = (uint32_t)count;
     if (!alive)
@@ -267,7 +280,7 @@ bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, 
         alive[i] = i;
         ranks[i] = UINT32_MAX;
     }
-    bool done = true;
+    bool     done = true;
     uint32_t target = wanted < left ? (uint32_t)wanted : left / 2;
     while (done && left > 1) {
         done = eliminate_to(alive, &left, target > 1 ? target : 1, wanted, ranks, points, area, length);

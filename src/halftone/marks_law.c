@@ -1,5 +1,7 @@
-/* Which marks are drawn: thresholds from place and light. Freudenberg 2003, sections 5.1.1, 5.1.3 and 5.4.3 to 5.4.5, with what is printed wrong there mended: visible is what reaches both
- * thresholds (not what misses one), fades take the greater lack (not the smaller) over a ramp (not over all), and laws know what kind of mark they are for. */
+/* Which marks are drawn: thresholds from place and light. Freudenberg 2003, sections 5.1.1, 5.1.3 and 5.4.3 to
+ * 5.4.5, with what is printed wrong there mended: visible is what reaches both thresholds (not what misses one),
+ * fades take the greater lack (not the smaller) over a ramp (not over all), and laws know what kind of mark they
+ * are for. */
 #include "halftone/marks.h"
 
 #include <math.h>
@@ -22,7 +24,8 @@ double mark_share_by_slope(const double place[3], const double normal[3])
 double mark_page_area(const double place[3], const double normal[3], double focal, bool orthographic)
 {
     double depth = fmax(-place[2], 1e-30);
-    return orthographic ? focal * focal * fabs(normal[2]) : focal * focal * fabs(dot3(place, normal)) / (depth * depth * depth);
+    return orthographic ? focal * focal * fabs(normal[2])
+                        : focal * focal * fabs(dot3(place, normal)) / (depth * depth * depth);
 }
 
 double mark_page_length(const double place[3], const double way[3], double focal, bool orthographic)
@@ -33,7 +36,8 @@ double mark_page_length(const double place[3], const double way[3], double focal
     return focal / depth * hypot(way[0] + place[0] * way[2] / depth, way[1] + place[1] * way[2] / depth);
 }
 
-double mark_share(mark_law law, const double place[3], const double normal[3], const double way[3], double d, bool orthographic)
+double mark_share(mark_law law, const double place[3], const double normal[3], const double way[3], double d,
+                  bool orthographic)
 {
     const double END_ON = 0.02; /* lines that are shorter on the page, share of their length, are dots */
     if (law == MARK_LAW_THESIS)
@@ -85,7 +89,8 @@ float mark_line_ink(const mark_line *line, float light_share, float share, float
 
 float mark_ink_of_cover(float cover, float rim)
 {
-    /* Fitted to discs at the places of marks_stipple, within a hundredth: they touch each other from a third on. Rims that lie over each other cover as what is strewn at random does. */
+    /* Fitted to discs at the places of marks_stipple, within a hundredth: they touch each other from a third on.
+     * Rims that lie over each other cover as what is strewn at random does. */
     float c = fminf(clamped(cover), 0.98f), over = fmaxf(c - 0.311f, 0), ink = c + 0.156f * over * over / (1.08f - c);
     return ink + fminf(0.56f * c * rim, 1) * (-logf(1 - c) - ink);
 }
@@ -99,7 +104,8 @@ static float cover_of_ink(float ink)
 
 float mark_ink_of_strokes(float cover, float darkest, float span)
 {
-    const float CROWDED = 0.24f; /* how far strokes of one set are from being side by side, to being strewn at random: measured */
+    const float CROWDED =
+        0.24f; /* how far strokes of one set are from being side by side, to being strewn at random: measured */
     float bare = 1, wanted = fmaxf(1 - clamped(cover), 1e-4f), ink = 0;
     if (!(span > 0))
         return fminf(-logf(wanted), darkest);

@@ -1,5 +1,7 @@
-/* Polygons as marks: shapes between a source and a target (EX-15), and triangles that are cut once and shrink as if they had not been (EX-16). Freudenberg 2003, sections 5.1.8 and 5.3.3; what is
- * printed there as length M1 Mp is M2 Mp, the angle is that of atan2, and a corner that goes is replaced by two points where both its neighbours stay. */
+/* Polygons as marks: shapes between a source and a target (EX-15), and triangles that are cut once and shrink as if
+ * they had not been (EX-16). Freudenberg 2003, sections 5.1.8 and 5.3.3; what is printed there as length M1 Mp is
+ * M2 Mp, the angle is that of atan2, and a corner that goes is replaced by two points where both its neighbours
+ * stay. */
 #include "halftone/marks.h"
 
 #include <math.h>
@@ -33,10 +35,10 @@ static double angle_at(const double corner[2], const double a[2], const double b
 static int keep_left(double (*corners)[2], int count, const double a[2], const double b[2])
 {
     double kept[2 * MARK_POLYGON_MAX][2];
-    int n = 0;
+    int    n = 0;
     for (int i = 0; i < count; i++) {
         const double *p = corners[i], *q = corners[(i + 1) % count];
-        double from = cross_of(a, b, p), to = cross_of(a, b, q);
+        double        from = cross_of(a, b, p), to = cross_of(a, b, q);
         if (from >= 0) {
             memcpy(kept[n++], p, sizeof kept[0]);
         }
@@ -72,13 +74,14 @@ void mark_cut_make(mark_cut *out, const double mark[3][2], const double onto[3][
     }
 }
 
-/* Where the edge from a corner that stays to one that goes meets the ray from M1 at an angle `turn`: by the sine rule, in the triangle of M1, the corner that goes and the meeting place. */
+/* Where the edge from a corner that stays to one that goes meets the ray from M1 at an angle `turn`: by the sine
+ * rule, in the triangle of M1, the corner that goes and the meeting place. */
 static void meet(const mark_cut *c, int goes, int stays, double turn, double out[2])
 {
     const double *from = c->corners[goes], *to = c->corners[stays];
-    double l = distance(c->first, from), more = c->turns[goes] - turn;
-    double at_corner = l > 0 ? angle_at(from, c->first, to) : 0;
-    double along = sin(at_corner + more), edge = distance(from, to);
+    double        l = distance(c->first, from), more = c->turns[goes] - turn;
+    double        at_corner = l > 0 ? angle_at(from, c->first, to) : 0;
+    double        along = sin(at_corner + more), edge = distance(from, to);
     /* Length along the edge, from the corner that goes. */
     double share = along > 1e-300 && edge > 0 ? fmin(l * sin(more) / along / edge, 1) : 0;
     for (int k = 0; k < 2; k++)
@@ -88,7 +91,7 @@ static void meet(const mark_cut *c, int goes, int stays, double turn, double out
 int mark_cut_at(const mark_cut *c, double p, double (*out)[2])
 {
     double moved = p * c->base, turn = atan2(moved * sin(c->angle), c->side - moved * cos(c->angle));
-    int n = 0;
+    int    n = 0;
     for (int i = 0; i < c->count; i++) {
         int before = (i + c->count - 1) % c->count, after = (i + 1) % c->count;
         if (c->turns[i] <= turn) {

@@ -1,5 +1,6 @@
-/* Stroke textures on surfaces: copies of the strokes over all texture coordinates, cut at every triangle, lifted by barycentric coordinates. Freudenberg 2003, sections 5.3.1, 5.3.4 and 5.3.5; rows
- * EX-26 to EX-28 and EX-33. A grid on texture coordinates finds what a triangle can have. */
+/* Stroke textures on surfaces: copies of the strokes over all texture coordinates, cut at every triangle, lifted by
+ * barycentric coordinates. Freudenberg 2003, sections 5.3.1, 5.3.4 and 5.3.5; rows EX-26 to EX-28 and EX-33. A grid
+ * on texture coordinates finds what a triangle can have. */
 #include "halftone/marks.h"
 
 #include <math.h>
@@ -11,8 +12,8 @@
 #include "halftone/random.h"
 #include "halftone/strokes.h"
 
-enum { GRID = 32 }; /* cells along the side of the square */
-static const double SQUARES_MOST = 1e6;    /* away from 0 */
+enum { GRID = 32 };                       /* cells along the side of the square */
+static const double SQUARES_MOST = 1e6;   /* away from 0 */
 static const double CELLS_MOST = 1 << 24; /* that one triangle may lie in */
 
 /* A stroke in a cell; the copy that lies there belongs to the square that is this far away. */
@@ -25,26 +26,26 @@ typedef struct grid_entry {
 typedef struct piece {
     mark_line line;
     int32_t   square[2];
-    uint32_t  source; /* stroke of the texture */
+    uint32_t  source;   /* stroke of the texture */
     double    from, to; /* share of that stroke */
 } piece;
 
 typedef struct tiling {
     const mark_surface *surface;
     const strokes      *texture;
-    const tile_options  *options;
-    double              turn[2];  /* cosine and sine */
-    int32_t           (*boxes)[4]; /* per stroke: cells, low and high */
-    uint32_t           *starts;   /* per cell; one more */
-    grid_entry         *entries;
-    double              total;    /* length of all strokes */
-    piece              *pieces;
-    size_t              count, capacity;
-    bool                full;     /* memory is gone */
-    bool                wide;     /* a triangle lies in too many squares */
+    const tile_options *options;
+    double              turn[2]; /* cosine and sine */
+    int32_t (*boxes)[4];         /* per stroke: cells, low and high */
+    uint32_t   *starts;          /* per cell; one more */
+    grid_entry *entries;
+    double      total; /* length of all strokes */
+    piece      *pieces;
+    size_t      count, capacity;
+    bool        full; /* memory is gone */
+    bool        wide; /* a triangle lies in too many squares */
 } tiling;
 
-/* --- plane geometry ------------------------------------------------------------------------------------------------ */
+/* --- plane geometry ------------------------------------------------------------------------------------- */
 
 static double side_of(const double a[2], const double b[2], const double p[2])
 {
@@ -63,9 +64,9 @@ bool mark_clip_line(const double a[2], const double b[2], const double corners[3
     if (area == 0)
         return false;
     for (int i = 0; i < 3; i++) {
-        int next = area > 0 ? (i + 1) % 3 : (i + 2) % 3; /* leftwards around */
+        int           next = area > 0 ? (i + 1) % 3 : (i + 2) % 3; /* leftwards around */
         const double *p = corners[i], *q = corners[next];
-        double from = side_of(p, q, a), to = side_of(p, q, b);
+        double        from = side_of(p, q, a), to = side_of(p, q, b);
         if (from == 0 && to == 0 && !owns_edge(p, q))
             return false;
         if (from < 0 && to < 0)
@@ -91,7 +92,7 @@ bool mark_barycentrics(const double p[2], const double corners[3][2], double out
     return true;
 }
 
-/* --- strokes in a grid ------------------------------------------------------------------------------------------------ */
+/* --- strokes in a grid ---------------------------------------------------------------------------------- */
 
 static int32_t cell_of(double x)
 {
@@ -110,7 +111,7 @@ static void put_stroke(tiling *t, uint32_t k, uint32_t *fill)
     for (int32_t y = box[1]; y <= box[3]; y++)
         for (int32_t x = box[0]; x <= box[2]; x++) {
             int32_t square[2] = {square_of(x), square_of(y)};
-            size_t cell = (size_t)((y - square[1] * GRID) * GRID + x - square[0] * GRID);
+            size_t  cell = (size_t)((y - square[1] * GRID) * GRID + x - square[0] * GRID);
             if (t->entries)
                 t->entries[fill[cell]] = (grid_entry){k, {square[0], square[1]}};
             fill[cell]++;
@@ -119,16 +120,17 @@ static void put_stroke(tiling *t, uint32_t k, uint32_t *fill)
 
 static bool grid_open(tiling *t)
 {
-    size_t count = t->texture->count;
-    double reach = (double)t->options->jitter;
+    size_t    count = t->texture->count;
+    double    reach = (double)t->options->jitter;
     uint32_t *fill = mem_calloc(GRID * GRID, sizeof *fill);
     t->boxes = mem_alloc(count * sizeof *t->boxes);
     t->starts = mem_calloc(GRID * GRID + 1, sizeof *t->starts);
     bool done = fill && t->boxes && t->starts;
     for (size_t k = 0; done && k < count; k++) {
         const texture_stroke *s = &t->texture->items[k];
-        double u0 = (double)s->u0, u1 = (double)s->u1, v0 = (double)s->v0, v1 = (double)s->v1;
-        const int32_t box[4] = {cell_of(fmin(u0, u1) - reach), cell_of(fmin(v0, v1) - reach), cell_of(fmax(u0, u1) + reach), cell_of(fmax(v0, v1) + reach)};
+        double                u0 = (double)s->u0, u1 = (double)s->u1, v0 = (double)s->v0, v1 = (double)s->v1;
+        const int32_t         box[4] = {cell_of(fmin(u0, u1) - reach), cell_of(fmin(v0, v1) - reach),
+                                        cell_of(fmax(u0, u1) + reach), cell_of(fmax(v0, v1) + reach)};
         memcpy(t->boxes[k], box, sizeof box);
         put_stroke(t, (uint32_t)k, fill);
         t->total += stroke_length(s);
@@ -150,9 +152,10 @@ static bool grid_open(tiling *t)
 static void copy_ends(const tiling *t, uint32_t k, const int32_t square[2], double a[2], double b[2])
 {
     const texture_stroke *s = &t->texture->items[k];
-    double shift[2] = {square[0], square[1]};
+    double                shift[2] = {square[0], square[1]};
     if (t->options->jitter > 0) {
-        random_source r = random_start(t->options->seed ^ (uint32_t)square[0] * 2654435761u ^ (uint32_t)square[1] * 2246822519u, k);
+        random_source r =
+            random_start(t->options->seed ^ (uint32_t)square[0] * 2654435761u ^ (uint32_t)square[1] * 2246822519u, k);
         shift[0] += (double)t->options->jitter * random_signed(&r);
         shift[1] += (double)t->options->jitter * random_signed(&r);
     }
@@ -162,7 +165,7 @@ static void copy_ends(const tiling *t, uint32_t k, const int32_t square[2], doub
     b[1] = (double)s->v1 + shift[1];
 }
 
-/* --- pieces ------------------------------------------------------------------------------------------------------------ */
+/* --- pieces --------------------------------------------------------------------------------------------- */
 
 /* From texture coordinates to squares. */
 static void to_squares(const tiling *t, vec2 uv, double out[2])
@@ -198,13 +201,15 @@ static float indicated(const tiling *t, const double a[2], const double b[2])
         return 0.5f;
     double x = (a[0] + b[0]) / 2, y = (a[1] + b[1]) / 2, repeat = (double)w->repeat; /* turned back */
     double u = (t->turn[0] * x - t->turn[1] * y) / repeat, v = (t->turn[1] * x + t->turn[0] * y) / repeat;
-    int column = (int)floor((u - floor(u)) * w->indication_width), row = (int)floor((v - floor(v)) * w->indication_height);
+    int    column = (int)floor((u - floor(u)) * w->indication_width),
+        row = (int)floor((v - floor(v)) * w->indication_height);
     column = column < w->indication_width ? column : w->indication_width - 1;
     row = row < w->indication_height ? row : w->indication_height - 1;
     return w->indication[(size_t)row * (size_t)w->indication_width + (size_t)column];
 }
 
-static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], double density, const grid_entry *e, const int32_t square[2])
+static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], double density, const grid_entry *e,
+                      const int32_t square[2])
 {
     double a[2], b[2], part[2], share[2][3], middle[3];
     copy_ends(t, e->stroke, square, a, b);
@@ -220,14 +225,18 @@ static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], 
         t->full = true;
         return;
     }
-    const mark_surface *s = t->surface;
-    const uint32_t *corner = &s->indices[3 * (size_t)triangle];
+    const mark_surface   *s = t->surface;
+    const uint32_t       *corner = &s->indices[3 * (size_t)triangle];
     const texture_stroke *source = &t->texture->items[e->stroke];
-    piece *p = &t->pieces[t->count++];
+    piece                *p = &t->pieces[t->count++];
     *p = (piece){.square = {square[0], square[1]}, .source = e->stroke, .from = part[0], .to = part[1]};
-    p->line = (mark_line){.a = lifted(s->places, corner, share[0]), .b = lifted(s->places, corner, share[1]),
-                          .normal = unit(lifted(s->normals, corner, middle)), .perspective = source->perspective, .density = (float)density,
-                          .bright = 1, .triangle = triangle};
+    p->line = (mark_line){.a = lifted(s->places, corner, share[0]),
+                          .b = lifted(s->places, corner, share[1]),
+                          .normal = unit(lifted(s->normals, corner, middle)),
+                          .perspective = source->perspective,
+                          .density = (float)density,
+                          .bright = 1,
+                          .triangle = triangle};
     p->line.light = source->light + t->options->indication_strength * (0.5f - indicated(t, a, b));
 }
 
@@ -235,7 +244,7 @@ static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], 
 static double density_of(const tiling *t, uint32_t triangle, const double corners[3][2])
 {
     const uint32_t *i = &t->surface->indices[3 * (size_t)triangle];
-    mark_surface one = *t->surface;
+    mark_surface    one = *t->surface;
     one.indices = i;
     one.triangle_count = 1;
     double area = mark_surface_area(&one), squares = 0.5 * fabs(side_of(corners[0], corners[1], corners[2]));
@@ -247,11 +256,12 @@ static void tile_triangle(tiling *t, uint32_t triangle)
     double corners[3][2];
     for (int i = 0; i < 3; i++)
         to_squares(t, t->surface->uvs[t->surface->indices[3 * (size_t)triangle + (size_t)i]], corners[i]);
-    double density = density_of(t, triangle, (const double (*)[2])corners);
+    double  density = density_of(t, triangle, (const double(*)[2])corners);
     int32_t low[2], high[2];
-    double cells = 1;
+    double  cells = 1;
     for (int k = 0; k < 2; k++) {
-        double least = fmin(corners[0][k], fmin(corners[1][k], corners[2][k])), most = fmax(corners[0][k], fmax(corners[1][k], corners[2][k]));
+        double least = fmin(corners[0][k], fmin(corners[1][k], corners[2][k])),
+               most = fmax(corners[0][k], fmax(corners[1][k], corners[2][k]));
         cells *= (most - least) * GRID + 1;
         t->wide = t->wide || !(fmax(fabs(least), fabs(most)) < SQUARES_MOST) || !(cells < CELLS_MOST);
     }
@@ -264,19 +274,20 @@ static void tile_triangle(tiling *t, uint32_t triangle)
     for (int32_t y = low[1]; y <= high[1] && !t->full; y++)
         for (int32_t x = low[0]; x <= high[0]; x++) {
             const int32_t own[2] = {square_of(x), square_of(y)};
-            size_t cell = (size_t)((y - own[1] * GRID) * GRID + x - own[0] * GRID);
+            size_t        cell = (size_t)((y - own[1] * GRID) * GRID + x - own[0] * GRID);
             for (uint32_t i = t->starts[cell]; i < t->starts[cell + 1]; i++) {
                 const grid_entry *e = &t->entries[i];
-                const int32_t square[2] = {own[0] - e->square[0], own[1] - e->square[1]};
+                const int32_t     square[2] = {own[0] - e->square[0], own[1] - e->square[1]};
                 /* Each copy once: in the first of its cells that is looked at. */
-                int32_t first_x = t->boxes[e->stroke][0] + square[0] * GRID, first_y = t->boxes[e->stroke][1] + square[1] * GRID;
+                int32_t first_x = t->boxes[e->stroke][0] + square[0] * GRID,
+                        first_y = t->boxes[e->stroke][1] + square[1] * GRID;
                 if (x == (first_x > low[0] ? first_x : low[0]) && y == (first_y > low[1] ? first_y : low[1]))
-                    add_piece(t, triangle, (const double (*)[2])corners, density, e, square);
+                    add_piece(t, triangle, (const double(*)[2])corners, density, e, square);
             }
         }
 }
 
-/* --- strokes of pieces ---------------------------------------------------------------------------------------------------- */
+/* --- strokes of pieces ---------------------------------------------------------------------------------- */
 
 static int by_stroke(const void *left, const void *right)
 {
@@ -303,7 +314,8 @@ static double between(vec3 a, vec3 b)
     return sqrt(x * x + y * y + z * z);
 }
 
-/* Does a piece go on where another ends? Where the same texture coordinates are used twice, copies lie in several places. */
+/* Does a piece go on where another ends? Where the same texture coordinates are used twice, copies lie in several
+ * places. */
 static bool goes_on(const piece *a, const piece *b)
 {
     double gap = between(a->line.b, b->line.a), size = between(a->line.a, a->line.b) + between(b->line.a, b->line.b);
@@ -331,7 +343,7 @@ static void close_stroke(mark_line *lines, size_t count, uint32_t number)
         before += own;
     }
     const mark_line *m = &lines[middle];
-    float s = (float)share;
+    float            s = (float)share;
     vec3 at = {m->a.x + s * (m->b.x - m->a.x), m->a.y + s * (m->b.y - m->a.y), m->a.z + s * (m->b.z - m->a.z)};
     for (size_t i = 0; i < count; i++) {
         lines[i].middle = at;
@@ -367,7 +379,9 @@ static lmn_status join(marks *out, tiling *t, lmn_error *error)
     if (t->wide)
         return error_set(error, LMN_LIMIT, "texture coordinates are too large to lay strokes over them");
     if (t->count > LIMIT_MARKS)
-        return error_set(error, LMN_LIMIT, "the strokes of this texture, laid over the model, have %zu pieces, which is more than %d", t->count, LIMIT_MARKS);
+        return error_set(error, LMN_LIMIT,
+                         "the strokes of this texture, laid over the model, have %zu pieces, which is more than %d",
+                         t->count, LIMIT_MARKS);
     out->lines = mem_alloc(t->count * sizeof *out->lines);
     if (!out->lines)
         return error_memory(error);
@@ -384,15 +398,20 @@ static lmn_status join(marks *out, tiling *t, lmn_error *error)
     return LMN_OK;
 }
 
-lmn_status marks_tile(marks *out, const mark_surface *s, const strokes *texture, const tile_options *options, lmn_error *error)
+lmn_status marks_tile(marks *out, const mark_surface *s, const strokes *texture, const tile_options *options,
+                      lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->area = mark_surface_area(s);
     if (!s->uvs)
         return error_set(error, LMN_USAGE, "strokes of a texture need texture coordinates, and this surface has none");
-    tiling t = {.surface = s, .texture = texture, .options = options, .turn = {cos((double)options->turn), sin((double)options->turn)}};
-    bool opened = grid_open(&t);
-    for (uint32_t i = 0; opened && i < s->triangle_count && texture->count > 0 && !t.full && !t.wide && t.count <= LIMIT_MARKS; i++)
+    tiling t = {.surface = s,
+                .texture = texture,
+                .options = options,
+                .turn = {cos((double)options->turn), sin((double)options->turn)}};
+    bool   opened = grid_open(&t);
+    for (uint32_t i = 0;
+         opened && i < s->triangle_count && texture->count > 0 && !t.full && !t.wide && t.count <= LIMIT_MARKS; i++)
         tile_triangle(&t, i);
     lmn_status status = opened ? join(out, &t, error) : error_memory(error);
     mem_free(t.boxes);

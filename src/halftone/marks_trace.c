@@ -1,5 +1,6 @@
-/* Strokes that follow a surface: from evenly spread places, each walks over the triangles in a plane of its own, so that it is straight where it is drawn and bends only as the surface does. For
- * meshes without texture coordinates, which Freudenberg's explicit strokes need (2003, section 5.3.2). */
+/* Strokes that follow a surface: from evenly spread places, each walks over the triangles in a plane of its own, so
+ * that it is straight where it is drawn and bends only as the surface does. For meshes without texture coordinates,
+ * which Freudenberg's explicit strokes need (2003, section 5.3.2). */
 #include "halftone/marks.h"
 
 #include <math.h>
@@ -13,21 +14,21 @@
 
 enum { POINTS_MAX = 512 /* of one half of a stroke */ };
 
-static const double SHARP = 0.5;      /* cosine between faces at which strokes end */
-static const double FEATURE = 0.7;   /* radians: edges over which ways do not go on */
+static const double SHARP = 0.5;   /* cosine between faces at which strokes end */
+static const double FEATURE = 0.7; /* radians: edges over which ways do not go on */
 
 typedef struct d3 {
     double x, y, z;
 } d3;
 
 typedef struct tracer {
-    const mark_surface *surface;
+    const mark_surface  *surface;
     const trace_options *options;
-    primitive           mesh;   /* the surface, for who knows only these */
-    uint32_t           *across; /* mesh_adjacency */
-    direction_field     field;
-    marks              *out;
-    double              density;
+    primitive            mesh;   /* the surface, for who knows only these */
+    uint32_t            *across; /* mesh_adjacency */
+    direction_field      field;
+    marks               *out;
+    double               density;
 } tracer;
 
 /* A stroke while it is walked: places from its seed, and the triangle that each chord towards it lies in. */
@@ -86,10 +87,10 @@ static d3 face_normal(const tracer *t, uint32_t triangle)
     return unit(cross(minus(c[1], c[0]), minus(c[2], c[0])));
 }
 
-/* --- walking ------------------------------------------------------------------------------------------------------ */
+/* --- walking -------------------------------------------------------------------------------------------- */
 
-/* One step of a walk in the plane through `seed` with this normal: from a place in a triangle to where it leaves it, not by the edge that it came in by. Returns the edge, or −1 where there is
- * no way on. */
+/* One step of a walk in the plane through `seed` with this normal: from a place in a triangle to where it leaves
+ * it, not by the edge that it came in by. Returns the edge, or −1 where there is no way on. */
 static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 plane, d3 way, d3 *out)
 {
     d3 c[3];
@@ -97,13 +98,13 @@ static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 pl
     double off[3];
     for (int i = 0; i < 3; i++)
         off[i] = dot(plane, minus(c[i], seed));
-    int best = -1;
+    int    best = -1;
     double farthest = 0;
     for (int i = 0; i < 3; i++) {
         double from = off[i], to = off[(i + 1) % 3];
         if (i == entered || (from >= 0) == (to >= 0))
             continue;
-        d3 at = along(c[i], c[(i + 1) % 3], from / (from - to));
+        d3     at = along(c[i], c[(i + 1) % 3], from / (from - to));
         double gone = entered >= 0 ? 1 : dot(way, minus(at, seed)); /* from the seed: forwards */
         if (gone > farthest) {
             farthest = gone;
@@ -118,15 +119,15 @@ static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 pl
 static void walk(const tracer *t, path *p, uint32_t triangle, d3 seed, d3 plane, d3 way, double length)
 {
     int entered = -1;
-    d3 at = seed;
+    d3  at = seed;
     for (int steps = 0; steps < POINTS_MAX - 1 && length > 0; steps++) {
-        d3 next;
+        d3  next;
         int edge = leave(t, triangle, entered, seed, plane, way, &next);
         if (edge < 0)
             return;
-        d3 step = minus(next, at);
+        d3     step = minus(next, at);
         double size = sqrt(dot(step, step));
-        bool ends = size >= length;
+        bool   ends = size >= length;
         p->points[p->count] = ends ? along(at, next, length / size) : next;
         p->triangles[p->count++] = triangle;
         uint32_t other = t->across[3 * (size_t)triangle + (size_t)edge];
@@ -147,7 +148,7 @@ static void walk_both(const tracer *t, path *p, const mark_dot *seed, d3 plane, 
     walk(t, p, seed->triangle, at, plane, (d3){-way.x, -way.y, -way.z}, 0.5 * length);
     /* Turned around: the chord towards a point becomes the one away from it. */
     for (size_t i = 0, k = p->count; i + 1 < k; i++, k--) {
-        d3 point = p->points[i];
+        d3       point = p->points[i];
         uint32_t triangle = p->triangles[i];
         p->points[i] = p->points[k - 1];
         p->triangles[i] = p->triangles[k - 1];
@@ -161,18 +162,18 @@ static void walk_both(const tracer *t, path *p, const mark_dot *seed, d3 plane, 
     walk(t, p, seed->triangle, at, plane, way, 0.5 * length);
 }
 
-/* --- chords ------------------------------------------------------------------------------------------------------- */
+/* --- chords --------------------------------------------------------------------------------------------- */
 
 /* The farthest point from the chord between two, and how far. */
 static double farthest_of(const path *p, size_t first, size_t last, size_t *at)
 {
-    d3 a = p->points[first], chord = minus(p->points[last], a);
+    d3     a = p->points[first], chord = minus(p->points[last], a);
     double square = dot(chord, chord), most = 0;
     *at = first;
     for (size_t i = first + 1; i < last; i++) {
-        d3 to = minus(p->points[i], a);
+        d3     to = minus(p->points[i], a);
         double share = square > 0 ? dot(to, chord) / square : 0;
-        d3 away = minus(to, (d3){share * chord.x, share * chord.y, share * chord.z});
+        d3     away = minus(to, (d3){share * chord.x, share * chord.y, share * chord.z});
         double off = sqrt(dot(away, away));
         if (off > most) {
             most = off;
@@ -217,7 +218,7 @@ static bool add_line(tracer *t, const path *p, size_t first, size_t last, mark_l
     marks *m = t->out;
     if (!mem_grow((void **)&m->lines, &m->line_capacity, m->line_count + 1, sizeof *m->lines))
         return false;
-    d3 step = minus(p->points[last], p->points[first]);
+    d3     step = minus(p->points[last], p->points[first]);
     double size = sqrt(dot(step, step));
     line->a = rounded(p->points[first]);
     line->b = rounded(p->points[last]);
@@ -237,10 +238,16 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
         return true;
     bool kept[2 * POINTS_MAX + 1];
     simplify(p, MARK_SAG * length, kept);
-    mark_line line = {.middle = seed->place, .middle_normal = seed->normal, .light = light, .perspective = perspective,
-                      .span = 1.0f / (float)t->options->series, .length = (float)length, .bright = 1, .stroke = (uint32_t)t->out->stroke_count++};
-    size_t first = t->out->line_count;
-    bool done = true;
+    mark_line line = {.middle = seed->place,
+                      .middle_normal = seed->normal,
+                      .light = light,
+                      .perspective = perspective,
+                      .span = 1.0f / (float)t->options->series,
+                      .length = (float)length,
+                      .bright = 1,
+                      .stroke = (uint32_t)t->out->stroke_count++};
+    size_t    first = t->out->line_count;
+    bool      done = true;
     for (size_t last = 0, i = 1; i < p->count && done; i++)
         if (kept[i]) {
             done = add_line(t, p, last, i, &line);
@@ -251,12 +258,13 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
     return done;
 }
 
-/* --- ways -------------------------------------------------------------------------------------------------------- */
+/* --- ways ----------------------------------------------------------------------------------------------- */
 
-/* Axes of the planes that strokes lie in: askew, so that hardly a face lies in one, and a second one where a surface nearly does. */
+/* Axes of the planes that strokes lie in: askew, so that hardly a face lies in one, and a second one where a
+ * surface nearly does. */
 static d3 plane_of_model(d3 normal)
 {
-    const d3 first = {0.5794, -0.4803, 0.6582}, second = {0.8138, 0.2962, -0.5};
+    const d3     first = {0.5794, -0.4803, 0.6582}, second = {0.8138, 0.2962, -0.5};
     const double FLAT = 0.93;
     return fabs(dot(normal, first)) < FLAT ? first : second;
 }
@@ -264,13 +272,17 @@ static d3 plane_of_model(d3 normal)
 /* The unit tangent along the way a surface bends. */
 static d3 way_of_field(const tracer *t, const mark_dot *seed, d3 normal)
 {
-    double m[6] = {0}, share[3] = {1 - (double)seed->share[0] - (double)seed->share[1], (double)seed->share[0], (double)seed->share[1]};
+    double m[6] = {0}, share[3] = {1 - (double)seed->share[0] - (double)seed->share[1], (double)seed->share[0],
+                                   (double)seed->share[1]};
     for (uint32_t i = 0; i < 3; i++)
         for (int k = 0; k < 6; k++)
             m[k] += share[i] * (double)direction_field_at(&t->field, &t->mesh, 3 * seed->triangle + i)[k];
-    d3 u = unit(fabs(normal.x) < 0.7 ? cross(normal, (d3){1, 0, 0}) : cross(normal, (d3){0, 1, 0})), v = cross(normal, u);
-    d3 tu = {m[0] * u.x + m[3] * u.y + m[5] * u.z, m[3] * u.x + m[1] * u.y + m[4] * u.z, m[5] * u.x + m[4] * u.y + m[2] * u.z};
-    d3 tv = {m[0] * v.x + m[3] * v.y + m[5] * v.z, m[3] * v.x + m[1] * v.y + m[4] * v.z, m[5] * v.x + m[4] * v.y + m[2] * v.z};
+    d3 u = unit(fabs(normal.x) < 0.7 ? cross(normal, (d3){1, 0, 0}) : cross(normal, (d3){0, 1, 0})),
+       v = cross(normal, u);
+    d3     tu = {m[0] * u.x + m[3] * u.y + m[5] * u.z, m[3] * u.x + m[1] * u.y + m[4] * u.z,
+                 m[5] * u.x + m[4] * u.y + m[2] * u.z};
+    d3     tv = {m[0] * v.x + m[3] * v.y + m[5] * v.z, m[3] * v.x + m[1] * v.y + m[4] * v.z,
+                 m[5] * v.x + m[4] * v.y + m[2] * v.z};
     double angle = 0.5 * atan2(2 * dot(u, tv), dot(u, tu) - dot(v, tv)), c = cos(angle), s = sin(angle);
     return (d3){c * u.x + s * v.x, c * u.y + s * v.y, c * u.z + s * v.z};
 }
@@ -279,16 +291,17 @@ static d3 way_of_field(const tracer *t, const mark_dot *seed, d3 normal)
 static d3 plane_at(const tracer *t, const mark_dot *seed, int set, double uneven, random_source *r)
 {
     const double MOST = 0.35; /* radians */
-    d3 normal = face_normal(t, seed->triangle), plane;
-    double turn = set * (double)t->options->turn + uneven * MOST * random_hand(r);
+    d3           normal = face_normal(t, seed->triangle), plane;
+    double       turn = set * (double)t->options->turn + uneven * MOST * random_hand(r);
     if (t->options->bends)
         plane = cross(normal, way_of_field(t, seed, normal));
     else
         plane = plane_of_model(normal);
     /* Rodrigues' rotation. */
-    d3 aside = cross(normal, plane);
+    d3     aside = cross(normal, plane);
     double c = cos(turn), s = sin(turn), rest = (1 - c) * dot(normal, plane);
-    return unit((d3){c * plane.x + s * aside.x + rest * normal.x, c * plane.y + s * aside.y + rest * normal.y, c * plane.z + s * aside.z + rest * normal.z});
+    return unit((d3){c * plane.x + s * aside.x + rest * normal.x, c * plane.y + s * aside.y + rest * normal.y,
+                     c * plane.z + s * aside.z + rest * normal.z});
 }
 
 typedef struct set_ways {
@@ -300,8 +313,8 @@ typedef struct set_ways {
 static vec3 way_of_set(void *user, const mark_dot *at)
 {
     const set_ways *w = user;
-    random_source none = {0};
-    d3 normal = face_normal(w->tracer, at->triangle);
+    random_source   none = {0};
+    d3              normal = face_normal(w->tracer, at->triangle);
     return rounded(unit(cross(normal, plane_at(w->tracer, at, w->set, 0, &none))));
 }
 
@@ -309,13 +322,14 @@ static vec3 way_of_set(void *user, const mark_dot *at)
 static lmn_status trace_set(tracer *t, int set, size_t count, path *p, lmn_error *error)
 {
     const trace_options *w = t->options;
-    marks seeds;
-    lmn_status status = marks_spread(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, way_of_set, &(set_ways){t, set}, w->length, error);
+    marks                seeds;
+    lmn_status           status = marks_spread(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, way_of_set,
+                                               &(set_ways){t, set}, w->length, error);
     for (size_t i = 0; i < seeds.dot_count && status == LMN_OK; i++) {
         const mark_dot *seed = &seeds.dots[i];
-        random_source r = random_start(w->seed, (uint32_t)(set * 0x10001) ^ (uint32_t)i * 2654435761u);
-        d3 plane = plane_at(t, seed, set, (double)w->uneven, &r);
-        double length = w->length * (1 + 0.6 * (double)w->uneven * random_signed(&r));
+        random_source   r = random_start(w->seed, (uint32_t)(set * 0x10001) ^ (uint32_t)i * 2654435761u);
+        d3              plane = plane_at(t, seed, set, (double)w->uneven, &r);
+        double          length = w->length * (1 + 0.6 * (double)w->uneven * random_signed(&r));
         walk_both(t, p, seed, plane, length);
         if (!add_stroke(t, p, seed, 1 - (float)set / (float)w->series, seed->priority))
             status = error_memory(error);
@@ -333,10 +347,13 @@ lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *o
     if (!(out->area > 0))
         return LMN_OK;
     tracer t = {.surface = s, .options = options, .out = out};
-    t.mesh = (primitive){.vertex_count = s->vertex_count, .index_count = 3 * s->triangle_count, .positions = (vec3 *)(uintptr_t)s->places,
-                         .indices = (uint32_t *)(uintptr_t)s->indices, .material = NONE};
+    t.mesh = (primitive){.vertex_count = s->vertex_count,
+                         .index_count = 3 * s->triangle_count,
+                         .positions = (vec3 *)(uintptr_t)s->places,
+                         .indices = (uint32_t *)(uintptr_t)s->indices,
+                         .material = NONE};
     t.across = mesh_adjacency(&t.mesh);
-    path *room = mem_alloc(sizeof *room);
+    path      *room = mem_alloc(sizeof *room);
     lmn_status status = t.across && room ? LMN_OK : error_memory(error);
     if (status == LMN_OK && options->bends)
         status = direction_field_make(&t.field, &t.mesh, FEATURE, 0, error);

@@ -12,19 +12,21 @@ enum { SIDE = PAPER_SIDE, MASK = SIDE - 1, TEXELS = SIDE * SIDE, BINS = 1 << 14,
 
 static const double PI = 3.14159265358979323846;
 
-/* By paper: how much of its valleys stays out of reach, its steepest slopes' share of 45 degrees, and the deviation in texels of its widest marks. */
+/* By paper: how much of its valleys stays out of reach, its steepest slopes' share of 45 degrees, and the deviation
+ * in texels of its widest marks. */
 static const struct {
-    float depth, steep;
+    float  depth, steep;
     double widest;
 } natures[PAPER_COUNT] = {
-    [PAPER_SMOOTH] = {0.35f, 0.5f, 8}, [PAPER_DRAWING] = {0.65f, 0.9f, 10}, [PAPER_ROUGH] = {0.9f, 1.2f, 12}, [PAPER_LAID] = {0.6f, 0.9f, 20}, [PAPER_CANVAS] = {0.65f, 1.1f, 20},
+    [PAPER_SMOOTH] = {0.35f, 0.5f, 8}, [PAPER_DRAWING] = {0.65f, 0.9f, 10}, [PAPER_ROUGH] = {0.9f, 1.2f, 12},
+    [PAPER_LAID] = {0.6f, 0.9f, 20},   [PAPER_CANVAS] = {0.65f, 1.1f, 20},
 };
 
 /* The stroke comes from the upper left, as a right hand draws; the window stands there too. */
 static const float TOWARDS[2] = {-0.7071f, 0.7071f};
 static const float FLANK = 0.45f; /* weight of the side that faces the stroke against the height */
 
-/* --- fields -------------------------------------------------------------------------------------------------------- */
+/* --- fields --------------------------------------------------------------------------------------------- */
 
 /* A field and room for one step of work on it. */
 typedef struct bench {
@@ -170,14 +172,15 @@ static void level(bench *b, double deviation)
         b->field[i] -= b->other[i];
 }
 
-/* --- papers -------------------------------------------------------------------------------------------------------- */
+/* --- papers --------------------------------------------------------------------------------------------- */
 
 /* Fibres that lie on each other in all directions: thin ridges that bend a little. */
 static void add_fibres(bench *b, float *scratch, int count, float weight)
 {
     memset(scratch, 0, TEXELS * sizeof *scratch);
     for (int i = 0; i < count; i++) {
-        double x = (1 + random_unit(&b->random)) * SIDE, y = (1 + random_unit(&b->random)) * SIDE, turn = random_unit(&b->random) * 2 * PI;
+        double x = (1 + random_unit(&b->random)) * SIDE, y = (1 + random_unit(&b->random)) * SIDE,
+               turn = random_unit(&b->random) * 2 * PI;
         double bend = 0.03 * random_hand(&b->random), height = 0.4 + 0.6 * random_unit(&b->random);
         int    steps = 30 + (int)random_below(&b->random, 60);
         for (int k = 0; k < steps; k++, turn += bend) {
@@ -230,7 +233,8 @@ static void make_laid(bench *b, float *scratch)
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
             int    i = y * SIDE + x;
-            double aside = (double)x / SIDE * CHAINS, chain = fabs(aside - floor(aside) - 0.5) * SIDE / CHAINS; /* texels to the nearest chain line */
+            double aside = (double)x / SIDE * CHAINS,
+                   chain = fabs(aside - floor(aside) - 0.5) * SIDE / CHAINS; /* texels to the nearest chain line */
             double rib = sin(2 * PI * RIBS * y / SIDE + 0.45 * (double)scratch[i]);
             strength[i] = (float)(rib * (0.9 + 0.12 * (double)strength[i]) - 1.1 * exp(-chain * chain / 30));
         }
@@ -247,8 +251,10 @@ static double back_of(double aside)
 /* Which thread lies on top changes from crossing to crossing. */
 static double weave_at(double x, double y, double width_x, double width_y)
 {
-    double column = floor(x), row = floor(y), over = sin(PI * y) * (fmod(column, 2) != 0 ? -1 : 1), under = sin(PI * x) * (fmod(row, 2) != 0 ? 1 : -1);
-    double upright = back_of((x - column - 0.5) / width_x) + 0.5 * over, lying = back_of((y - row - 0.5) / width_y) + 0.5 * under;
+    double column = floor(x), row = floor(y), over = sin(PI * y) * (fmod(column, 2) != 0 ? -1 : 1),
+           under = sin(PI * x) * (fmod(row, 2) != 0 ? 1 : -1);
+    double upright = back_of((x - column - 0.5) / width_x) + 0.5 * over,
+           lying = back_of((y - row - 0.5) / width_y) + 0.5 * under;
     return fmax(upright, lying);
 }
 
@@ -266,7 +272,8 @@ static void make_canvas(bench *b, float *scratch)
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
             int    i = y * SIDE + x;
-            double across = (double)x * THREADS / SIDE + 0.06 * (double)sway[i], up = (double)y * THREADS / SIDE + 0.06 * (double)scratch[i];
+            double across = (double)x * THREADS / SIDE + 0.06 * (double)sway[i],
+                   up = (double)y * THREADS / SIDE + 0.06 * (double)scratch[i];
             across -= floor(across / THREADS) * THREADS;
             up -= floor(up / THREADS) * THREADS;
             sway[i] = (float)weave_at(across, up, widths[0][(int)across % THREADS], widths[1][(int)up % THREADS]);
@@ -279,11 +286,14 @@ static void make_canvas(bench *b, float *scratch)
 lmn_status paper_create(paper *out, paper_kind kind, uint32_t seed, lmn_error *error)
 {
     static void (*const makers[PAPER_COUNT])(bench *, float *) = {
-        [PAPER_SMOOTH] = make_smooth, [PAPER_DRAWING] = make_drawing, [PAPER_ROUGH] = make_rough, [PAPER_LAID] = make_laid, [PAPER_CANVAS] = make_canvas,
+        [PAPER_SMOOTH] = make_smooth, [PAPER_DRAWING] = make_drawing, [PAPER_ROUGH] = make_rough,
+        [PAPER_LAID] = make_laid,     [PAPER_CANVAS] = make_canvas,
     };
     *out = (paper){.kind = kind, .seed = seed};
-    bench b = {.random = random_start(seed, STREAM + (uint32_t)kind), .field = mem_calloc(TEXELS, sizeof(float)), .other = mem_alloc(TEXELS * sizeof(float)),
-               .room = mem_alloc(TEXELS * sizeof(float))};
+    bench  b = {.random = random_start(seed, STREAM + (uint32_t)kind),
+                .field = mem_calloc(TEXELS, sizeof(float)),
+                .other = mem_alloc(TEXELS * sizeof(float)),
+                .room = mem_alloc(TEXELS * sizeof(float))};
     float *scratch = mem_alloc(TEXELS * sizeof *scratch);
     bool   good = b.field && b.other && b.room && scratch;
     if (good) {
@@ -309,11 +319,12 @@ void paper_release(paper *p)
     p->heights = NULL;
 }
 
-/* --- what a pencil finds ------------------------------------------------------------------------------------------- */
+/* --- what a pencil finds -------------------------------------------------------------------------------- */
 
 void paper_normal(const paper *p, int x, int y, float out[3])
 {
-    const float *row = p->heights + (y & MASK) * SIDE, *above = p->heights + ((y + 1) & MASK) * SIDE, *below = p->heights + ((y - 1) & MASK) * SIDE;
+    const float *row = p->heights + (y & MASK) * SIDE, *above = p->heights + ((y + 1) & MASK) * SIDE,
+                *below = p->heights + ((y - 1) & MASK) * SIDE;
     /* Of flat heights a grain rises from 0 to 1 in its half; that is `steep`. */
     float k = natures[p->kind].steep * PAPER_TEXELS_A_GRAIN;
     out[0] = -k * 0.5f * (row[(x + 1) & MASK] - row[(x - 1) & MASK]);

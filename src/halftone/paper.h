@@ -1,4 +1,5 @@
-/* Papers as height fields that repeat without a seam, and what a pencil that is rubbed over them finds. Müller, section 2.3; row P28. */
+/* Papers as height fields that repeat without a seam, and what a pencil that is rubbed over them finds. Müller,
+ * section 2.3; row P28. */
 #ifndef LIMNER_HALFTONE_PAPER_H
 #define LIMNER_HALFTONE_PAPER_H
 
@@ -17,10 +18,12 @@ extern const char *const paper_names[PAPER_COUNT + 1]; /* NULL-terminated */
 
 enum {
     PAPER_SIDE = 1024,       /* texels of a sheet's side */
-    PAPER_TEXELS_A_GRAIN = 4 /* hardly anything is finer than one of these, so that sheets of small grain may be looked up a few texels apart */
+    PAPER_TEXELS_A_GRAIN = 4 /* hardly anything is finer than one of these, so that sheets of small grain may be looked
+                                up a few texels apart */
 };
 
-/* A sheet: heights 0 … 1, of which each tenth covers a tenth of the sheet; the steepness of its flanks goes with its relief. */
+/* A sheet: heights 0 … 1, of which each tenth covers a tenth of the sheet; the steepness of its flanks goes with
+ * its relief. */
 typedef struct paper {
     paper_kind kind;
     uint32_t   seed;
@@ -34,9 +37,10 @@ void       paper_release(paper *p);
 /* The unit normal of a texel, normalise(−k ∂h/∂x, −k ∂h/∂y, 1); k is the paper's own. */
 void paper_normal(const paper *p, int x, int y, float out[3]);
 
-/* What shaders need, RG8, one level. Red, contact: how early a pencil touches the place, from its height and from how far its normal leans towards the
- * stroke; again each tenth of it covers a tenth of the sheet. Green: light of the bare sheet from the upper left, 1/2 where it is level. The fact is the
- * paper's depth, 0 … 1: how much of its valleys a pencil leaves out. Errors: LMN_MEMORY. */
+/* What shaders need, RG8, one level. Red, contact: how early a pencil touches the place, from its height and from
+ * how far its normal leans towards the stroke; again each tenth of it covers a tenth of the sheet. Green: light of
+ * the bare sheet from the upper left, 1/2 where it is level. The fact is the paper's depth, 0 … 1: how much of its
+ * valleys a pencil leaves out. Errors: LMN_MEMORY. */
 lmn_status paper_texture(mip_chain *out, const paper *p, lmn_error *error);
 
 #endif

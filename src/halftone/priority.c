@@ -1,5 +1,5 @@
-/* Priorities: who is drawn first as light fades, and who stays as the surface moves away. Rows EX-19 to EX-22. What is ordered are lines: a stroke, or
- * the chords of a curve, which stay together. */
+/* Priorities: who is drawn first as light fades, and who stays as the surface moves away. Rows EX-19 to EX-22. What
+ * is ordered are lines: a stroke, or the chords of a curve, which stay together. */
 #include "halftone/strokes_private.h"
 
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static bool gather_lines(line_list *out, const strokes *s)
 {
     *out = (line_list){mem_calloc(s->count, sizeof *out->items), 0};
     for (size_t i = 0; out->items && i < s->count; i++) {
-        bool goes_on = i > 0 && stroke_goes_on(&s->items[i - 1], &s->items[i]);
+        bool  goes_on = i > 0 && stroke_goes_on(&s->items[i - 1], &s->items[i]);
         line *l = goes_on ? &out->items[out->count - 1] : &out->items[out->count++];
         if (!goes_on)
             *l = (line){.first = i, .layer = s->items[i].layer};
@@ -50,7 +50,7 @@ static bool gather_lines(line_list *out, const strokes *s)
 /* A place at `share` of a line's length. */
 static spread_point point_on(const strokes *s, const line *l, double share)
 {
-    double wanted = share * l->length;
+    double                wanted = share * l->length;
     const texture_stroke *t = &s->items[l->first];
     for (size_t i = 0; i < l->count; i++) {
         t = &s->items[l->first + i];
@@ -65,8 +65,8 @@ static spread_point point_on(const strokes *s, const line *l, double share)
     return (spread_point){t->u0, t->v0, 0};
 }
 
-/* Long lines are spread by points along them, as far apart as the lines are if they lie side by side: else strokes could lie beside each other
- * whose points are far apart. */
+/* Long lines are spread by points along them, as far apart as the lines are if they lie side by side: else strokes
+ * could lie beside each other whose points are far apart. */
 static size_t points_on(const line *l, size_t line_count)
 {
     double wanted = 1 + l->length * l->length * (double)line_count;
@@ -82,7 +82,7 @@ static bool order_evenly(const strokes *s, line *lines, size_t count, uint32_t s
     for (size_t i = 0; i < count; i++)
         points += points_on(&lines[i], count);
     spread_point *places = mem_calloc(points, sizeof *places);
-    line *sorted = mem_calloc(count, sizeof *sorted);
+    line         *sorted = mem_calloc(count, sizeof *sorted);
     points = 0;
     for (size_t i = 0; places && i < count; i++) {
         size_t on = points_on(&lines[i], count);
@@ -106,7 +106,7 @@ static void shuffle_lines(line *lines, size_t count, random_source *chance)
 {
     for (size_t i = count; i > 1; i--) {
         size_t j = random_below(chance, i);
-        line kept = lines[i - 1];
+        line   kept = lines[i - 1];
         lines[i - 1] = lines[j];
         lines[j] = kept;
     }
@@ -115,7 +115,7 @@ static void shuffle_lines(line *lines, size_t count, random_source *chance)
 static bool order_layers(const strokes *s, line_list *lines, priority_order order, uint32_t seed)
 {
     random_source chance = random_start(seed, 0x50FF);
-    bool good = true;
+    bool          good = true;
     for (size_t from = 0, to; good && from < lines->count; from = to) {
         for (to = from + 1; to < lines->count && lines->items[to].layer == lines->items[from].layer; to++)
             ;
@@ -154,8 +154,8 @@ static int area_side(double covering)
 
 static bool measure_areas(const strokes *s, line_list *lines, double covering)
 {
-    int side = area_side(covering);
-    area a = {mem_calloc((size_t)side * (size_t)side, sizeof *a.covered), 0};
+    int          side = area_side(covering);
+    area         a = {mem_calloc((size_t)side * (size_t)side, sizeof *a.covered), 0};
     stroke_brush brush = {.width = fmax(covering * side, 1e-3)};
     for (size_t i = 0; a.covered && i < lines->count; i++) {
         line *l = &lines->items[i];
@@ -183,7 +183,8 @@ static bool measure_steps(const strokes *s, line_list *lines, priority_share sha
     return true;
 }
 
-/* A line's priority is what is left of 1 when those before it have taken their steps; so the first has 1, and none has 0, which is never drawn. */
+/* A line's priority is what is left of 1 when those before it have taken their steps; so the first has 1, and none
+ * has 0, which is never drawn. */
 static void set_light(strokes *s, const line_list *lines)
 {
     double sum = 0, done = 0;
@@ -191,17 +192,19 @@ static void set_light(strokes *s, const line_list *lines)
         sum += lines->items[i].step;
     for (size_t i = 0; i < lines->count; i++) {
         const line *l = &lines->items[i];
-        float light = fmaxf((float)(1 - done / sum), 0x1p-24f);
+        float       light = fmaxf((float)(1 - done / sum), 0x1p-24f);
         for (size_t k = 0; k < l->count; k++)
             s->items[l->first + k].light = light;
         done += l->step;
     }
 }
 
-lmn_status strokes_set_light(strokes *s, priority_order order, priority_share share, double covering, uint32_t seed, lmn_error *error)
+lmn_status strokes_set_light(strokes *s, priority_order order, priority_share share, double covering, uint32_t seed,
+                             lmn_error *error)
 {
     line_list lines;
-    bool good = gather_lines(&lines, s) && order_layers(s, &lines, order, seed) && measure_steps(s, &lines, share, covering);
+    bool      good =
+        gather_lines(&lines, s) && order_layers(s, &lines, order, seed) && measure_steps(s, &lines, share, covering);
     if (good)
         set_light(s, &lines);
     mem_free(lines.items);
@@ -222,7 +225,7 @@ static void set_perspective(strokes *s, const line_list *lines, bool by_length)
     }
     for (size_t i = 0; i < lines->count; i++) {
         const line *l = &lines->items[i];
-        double own = by_length ? l->length : (double)l->count;
+        double      own = by_length ? l->length : (double)l->count;
         for (size_t k = 0; k < l->count; k++)
             s->items[l->first + k].perspective = (float)(1 - (done + 0.5 * own) / all);
         done += own;
@@ -231,7 +234,7 @@ static void set_perspective(strokes *s, const line_list *lines, bool by_length)
 
 lmn_status strokes_set_perspective(strokes *s, perspective_order order, uint32_t seed, lmn_error *error)
 {
-    line_list lines;
+    line_list     lines;
     random_source chance = random_start(seed, 0xFA2);
     if (order == PERSPECTIVE_TIED) {
         for (size_t i = 0; i < s->count; i++)

@@ -1,4 +1,5 @@
-/* Blue noise by void and cluster (Ulichney 1993), in integers. Freudenberg 2003 names only "any generator of nested tones" (section 6.3.1). */
+/* Blue noise by void and cluster (Ulichney 1993), in integers. Freudenberg 2003 names only "any generator of nested
+ * tones" (section 6.3.1). */
 #include "halftone/screen_private.h"
 
 #include "base/memory.h"
@@ -88,8 +89,8 @@ static void rank_all(uint32_t *ranks, dither *d)
     for (size_t i = 0; i < d->count; i++)
         if (ranks[i] < placed)
             turn(d, i, true);
-    /* Ulichney's last phase fills the tightest cluster of what is off. What is on and what is off add up to the same everywhere, so that this is again
-     * the loneliest texel. */
+    /* Ulichney's last phase fills the tightest cluster of what is off. What is on and what is off add up to the
+     * same everywhere, so that this is again the loneliest texel. */
     for (size_t rank = placed; rank < d->count; rank++) {
         size_t gap = extreme(d, false);
         ranks[gap] = (uint32_t)rank;

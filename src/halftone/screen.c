@@ -31,18 +31,18 @@ typedef struct mark {
 
 /* One level at a time, from the finest on. */
 typedef struct raster {
-    const strokes       *strokes;
+    const strokes        *strokes;
     const screen_options *options;
-    double               width; /* with the strokes' own share */
-    mark                *marks;
-    ranked              *order;
-    size_t               count;
-    double               longest;
-    bool                 dots, flat; /* flat: priorities of light do not matter */
-    int                  side;       /* of the level */
-    uint16_t            *ink;
-    int32_t             *owner;
-    uint32_t            *tones;
+    double                width; /* with the strokes' own share */
+    mark                 *marks;
+    ranked               *order;
+    size_t                count;
+    double                longest;
+    bool                  dots, flat; /* flat: priorities of light do not matter */
+    int                   side;       /* of the level */
+    uint16_t             *ink;
+    int32_t              *owner;
+    uint32_t             *tones;
     /* the stroke being drawn */
     float   strength;
     int32_t drawn;
@@ -73,15 +73,18 @@ static void raster_end(raster *r)
 static lmn_status check_options(const screen_options *w, lmn_error *error)
 {
     if (!is_power_of_two(w->side) || w->side > SIDE_MOST)
-        return error_set(error, LMN_LIMIT, "a screen of %d texels a side; allowed are powers of two up to %d", w->side, SIDE_MOST);
+        return error_set(error, LMN_LIMIT, "a screen of %d texels a side; allowed are powers of two up to %d", w->side,
+                         SIDE_MOST);
     if (!(w->brush.width > 0) || !(w->brush.width <= w->side))
-        return error_set(error, LMN_LIMIT, "strokes %g texels wide in a screen of %d texels a side; allowed are widths above 0 up to the side",
-                         w->brush.width, w->side);
+        return error_set(
+            error, LMN_LIMIT,
+            "strokes %g texels wide in a screen of %d texels a side; allowed are widths above 0 up to the side",
+            w->brush.width, w->side);
     return LMN_OK;
 }
 
-/* The diagonal of what the chords `first` to `last` reach over: the length of a straight stroke, and how far a curve goes that wanders. Chords may lie on
- * different copies of the square, so that their ways are added. */
+/* The diagonal of what the chords `first` to `last` reach over: the length of a straight stroke, and how far a
+ * curve goes that wanders. Chords may lie on different copies of the square, so that their ways are added. */
 static double extent_of(const texture_stroke *items, size_t first, size_t last)
 {
     double at[2] = {0, 0}, low[2] = {0, 0}, high[2] = {0, 0};
@@ -101,13 +104,13 @@ static double extent_of(const texture_stroke *items, size_t first, size_t last)
 static void mark_curve(raster *r, size_t first, size_t last)
 {
     const texture_stroke *items = r->strokes->items;
-    double        length = 0, before = 0;
-    float         middle[2] = {items[first].u0, items[first].v0};
+    double                length = 0, before = 0;
+    float                 middle[2] = {items[first].u0, items[first].v0};
     for (size_t i = first; i <= last; i++)
         length += stroke_length(&items[i]);
     for (size_t i = first; i <= last; i++) {
         const texture_stroke *s = &items[i];
-        double        size = stroke_length(s), along = size > 0 ? (0.5 * length - before) / size : 0;
+        double                size = stroke_length(s), along = size > 0 ? (0.5 * length - before) / size : 0;
         if (along >= 0 && along <= 1) {
             middle[0] = (float)((double)s->u0 + along * ((double)s->u1 - (double)s->u0));
             middle[1] = (float)((double)s->v0 + along * ((double)s->v1 - (double)s->v0));
@@ -115,7 +118,8 @@ static void mark_curve(raster *r, size_t first, size_t last)
         before += size;
     }
     for (size_t i = first; i <= last; i++)
-        r->marks[i] = (mark){strokes_brush_at(r->strokes, i, &r->options->brush), {middle[0], middle[1]}, i == first, i == last};
+        r->marks[i] =
+            (mark){strokes_brush_at(r->strokes, i, &r->options->brush), {middle[0], middle[1]}, i == first, i == last};
 }
 
 static void mark_strokes(raster *r)
@@ -167,15 +171,17 @@ static bool has_room(const raster *r, int level)
     return level == 0 || room >= r->width;
 }
 
-/* Each level has a quarter of the texels and strokes half as long, so that half of them keep its tone. Dots stay as large, and a quarter of them does. */
+/* Each level has a quarter of the texels and strokes half as long, so that half of them keep its tone. Dots stay as
+ * large, and a quarter of them does. */
 static bool is_kept(const texture_stroke *s, int level)
 {
     int shift = is_dot(s) ? 2 * level : level;
     return shift >= 24 ? s->perspective >= 1 : (double)s->perspective >= 1 - 1.0 / (double)(1 << shift);
 }
 
-/* Round ends cover more of a coarse level than of the finest; strokes are shortened by the difference, so that what is kept is as dark. The length is that
- * of a piece of stroke which covers as much as both its ends, with the rims that stroke_draw gives them. */
+/* Round ends cover more of a coarse level than of the finest; strokes are shortened by the difference, so that what
+ * is kept is as dark. The length is that of a piece of stroke which covers as much as both its ends, with the rims
+ * that stroke_draw gives them. */
 static double ends_as_length(double width)
 {
     return QUARTER_TURN * (width < 1 ? 1 + width * width / 3 : width + 1 / (3 * width));
@@ -184,8 +190,8 @@ static double ends_as_length(double width)
 static texture_stroke fit_ends(const raster *r, size_t index, int level)
 {
     texture_stroke out = r->strokes->items[index];
-    const mark *m = &r->marks[index];
-    double      length = stroke_length(&out);
+    const mark    *m = &r->marks[index];
+    double         length = stroke_length(&out);
     if (m->brush.taper > 0 || length <= 0)
         return out;
     double excess = ends_as_length(m->brush.width) * ((double)(1 << level) - 1) / r->options->side;
@@ -201,8 +207,8 @@ static texture_stroke fit_ends(const raster *r, size_t index, int level)
     return out;
 }
 
-/* The strongest owns a texel; of equal ones the first drawn. So a texel's value and its reference are of the same stroke, and a stroke's light rim does
- * not bite into the one below. */
+/* The strongest owns a texel; of equal ones the first drawn. So a texel's value and its reference are of the same
+ * stroke, and a stroke's light rim does not bite into the one below. */
 static void own_texel(void *user, size_t index, float coverage)
 {
     raster  *r = user;
@@ -219,7 +225,7 @@ static void draw_level(raster *r, int level)
     memset(r->ink, 0, texels * sizeof *r->ink);
     memset(r->owner, 0xff, texels * sizeof *r->owner);
     for (size_t i = 0; i < r->count && has_room(r, level); i++) {
-        uint32_t      index = r->order[i].index;
+        uint32_t              index = r->order[i].index;
         const texture_stroke *s = &r->strokes->items[index];
         if (!is_kept(s, level))
             continue;
@@ -244,7 +250,7 @@ static void reduce_level(raster *r, bool average)
                 if (r->owner[parent] != NOBODY && (r->owner[darkest] == NOBODY || r->ink[parent] > r->ink[darkest]))
                     darkest = parent;
             }
-            size_t to = (size_t)y * (size_t)half + (size_t)x;
+            size_t  to = (size_t)y * (size_t)half + (size_t)x;
             int32_t owner = r->owner[darkest];
             r->ink[to] = average ? (uint16_t)((sum + 2) / 4) : r->ink[darkest];
             r->owner[to] = owner;
@@ -344,8 +350,9 @@ lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_options *o
 /* From a place to the nearest point of a stroke's axis, whichever copy that is on. */
 static void to_axis(const texture_stroke *s, double u, double v, double way[2])
 {
-    double du = (double)s->u1 - (double)s->u0, dv = (double)s->v1 - (double)s->v0, size = du * du + dv * dv, best = INFINITY;
-    int    reach_u = (int)ceil(fabs(du)) + 1, reach_v = (int)ceil(fabs(dv)) + 1;
+    double du = (double)s->u1 - (double)s->u0, dv = (double)s->v1 - (double)s->v0, size = du * du + dv * dv,
+           best = INFINITY;
+    int reach_u = (int)ceil(fabs(du)) + 1, reach_v = (int)ceil(fabs(dv)) + 1;
     for (int j = -reach_v; j <= reach_v; j++)
         for (int i = -reach_u; i <= reach_u; i++) {
             double pu = u + i - (double)s->u0, pv = v + j - (double)s->v0;
@@ -380,7 +387,8 @@ static void fill_normals(const raster *r, int level, void *texels, double steep)
         }
 }
 
-lmn_status screen_normals(mip_chain *out, const strokes *s, const screen_options *options, double steep, lmn_error *error)
+lmn_status screen_normals(mip_chain *out, const strokes *s, const screen_options *options, double steep,
+                          lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     raster     r;

@@ -1,4 +1,5 @@
-/* The marks of a painted screen: texels of ink that hang together. Levels of detail leave out whole marks, as those of strokes do. */
+/* The marks of a painted screen: texels of ink that hang together. Levels of detail leave out whole marks, as those
+ * of strokes do. */
 #include "halftone/screen_private.h"
 #include "halftone/strokes_private.h"
 
@@ -67,7 +68,8 @@ static void place_points(spread_point *points, size_t *first, const screen_marks
             continue;
         size_t mark = (size_t)m->label[i], at = first[mark]++;
         if (at % POINT_APART == 0)
-            points[at / POINT_APART] = (spread_point){((float)(i % (size_t)side) + 0.5f) / (float)side, ((float)(i / (size_t)side) + 0.5f) / (float)side, mark};
+            points[at / POINT_APART] = (spread_point){((float)(i % (size_t)side) + 0.5f) / (float)side,
+                                                      ((float)(i / (size_t)side) + 0.5f) / (float)side, mark};
     }
 }
 
@@ -126,8 +128,8 @@ void screen_marks_reduce(screen_marks *m, uint16_t *ink, const uint16_t *finer, 
     int side = 2 * half;
     for (int y = 0; y < half; y++)
         for (int x = 0; x < half; x++) {
-            size_t  at = (size_t)(2 * y) * (size_t)side + (size_t)(2 * x), to = (size_t)y * (size_t)half + (size_t)x;
-            int32_t owner = NOBODY;
+            size_t   at = (size_t)(2 * y) * (size_t)side + (size_t)(2 * x), to = (size_t)y * (size_t)half + (size_t)x;
+            int32_t  owner = NOBODY;
             uint16_t most = 0;
             for (size_t i = 0; i < 4; i++) {
                 size_t parent = at + (i & 1) + (i >> 1) * (size_t)side;

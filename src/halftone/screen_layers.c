@@ -12,16 +12,19 @@ enum { SIDE_MOST = 4096, LAYERS_MOST = 64, PATCH = 8 };
 
 static const double MUCH = 1.15; /* times the ink of level 0 that a level may have before texels are taken away */
 
-/* --- pictures ----------------------------------------------------------------------------------------------------- */
+/* --- pictures ------------------------------------------------------------------------------------------- */
 
-/* The luminance of a pixel over white, as it is coded: the painter's grey is the threshold. 0 … 1, by the weights of Rec. 709. */
+/* The luminance of a pixel over white, as it is coded: the painter's grey is the threshold. 0 … 1, by the weights
+ * of Rec. 709. */
 static float luminance(const uint8_t *pixel)
 {
-    float over = (float)pixel[3] / 255, light = 0.2126f * (float)pixel[0] + 0.7152f * (float)pixel[1] + 0.0722f * (float)pixel[2];
+    float over = (float)pixel[3] / 255,
+          light = 0.2126f * (float)pixel[0] + 0.7152f * (float)pixel[1] + 0.0722f * (float)pixel[2];
     return over * light / 255 + (1 - over);
 }
 
-/* One axis of resampling: a texel's span of pixels when there are more pixels, else the two pixels around its middle. */
+/* One axis of resampling: a texel's span of pixels when there are more pixels, else the two pixels around its
+ * middle. */
 typedef struct span {
     int   first, count;
     float lead, tail; /* weights of the first and last pixel; those between count whole */
@@ -63,8 +66,8 @@ static float sample_layer(const screen_layer *layer, const span *across, const s
     return sum / weights;
 }
 
-/* Darker of what is there and the layer, which is compressed to ground … 1. For opaque strokes that is the same as painting layers over each other, the
- * last first. */
+/* Darker of what is there and the layer, which is compressed to ground … 1. For opaque strokes that is the same as
+ * painting layers over each other, the last first. */
 static void add_layer(uint16_t *ink, int side, const screen_layer *layer, double ground)
 {
     int size = (int)layer->width;
@@ -81,7 +84,7 @@ static void add_layer(uint16_t *ink, int side, const screen_layer *layer, double
     }
 }
 
-/* --- levels ------------------------------------------------------------------------------------------------------- */
+/* --- levels --------------------------------------------------------------------------------------------- */
 
 /* The mean of four parents, and the darkest. */
 static void reduce(const uint16_t *finer, int half, uint16_t *mean, uint16_t *darkest)
@@ -119,9 +122,10 @@ static int by_ink(const void *a, const void *b)
     return left->index < right->index ? -1 : left->index > right->index;
 }
 
-/* The darkest of four is as wide as before and has about twice the ink. Where that does not come from many marks, of which some can go, texels go: so that each
- * tone has its share again, they get the values of the level 0 in their order; of equally dark ones those around which there was more ink stay, and then
- * those of some patches, so that strokes end rather than fall apart. `up_to`: texels of level 0 that are at least as dark. */
+/* The darkest of four is as wide as before and has about twice the ink. Where that does not come from many marks,
+ * of which some can go, texels go: so that each tone has its share again, they get the values of the level 0 in
+ * their order; of equally dark ones those around which there was more ink stay, and then those of some patches, so
+ * that strokes end rather than fall apart. `up_to`: texels of level 0 that are at least as dark. */
 static bool thin(uint16_t *ink, const uint16_t *mean, int side, const uint32_t *up_to, size_t whole)
 {
     size_t   count = (size_t)side * (size_t)side;
@@ -153,8 +157,8 @@ typedef struct painting {
 
 static bool painting_begin(painting *p, size_t texels)
 {
-    *p = (painting){mem_calloc(texels, sizeof *p->ink), mem_calloc(texels / 4 + 1, sizeof *p->mean), mem_calloc(texels / 4 + 1, sizeof *p->next),
-                    mem_calloc(INK_TONES, sizeof *p->up_to)};
+    *p = (painting){mem_calloc(texels, sizeof *p->ink), mem_calloc(texels / 4 + 1, sizeof *p->mean),
+                    mem_calloc(texels / 4 + 1, sizeof *p->next), mem_calloc(INK_TONES, sizeof *p->up_to)};
     return p->ink && p->mean && p->next && p->up_to;
 }
 
@@ -194,10 +198,10 @@ static bool keep_detail(painting *p, screen_marks *m, int side, double share, si
 
 static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
 {
-    size_t whole = (size_t)out->width * (size_t)out->width;
-    double share = mean_of(p->ink, whole);
+    size_t       whole = (size_t)out->width * (size_t)out->width;
+    double       share = mean_of(p->ink, whole);
     screen_marks m = {0};
-    bool   good = detail != DETAIL_KEPT || screen_marks_find(&m, p->ink, out->width);
+    bool         good = detail != DETAIL_KEPT || screen_marks_find(&m, p->ink, out->width);
     add_up(p->up_to, p->ink, whole);
     ink_encode(out->data[0], p->ink, whole);
     for (int k = 1; good && k < out->levels; k++) {
@@ -214,26 +218,30 @@ static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
     return good;
 }
 
-/* --- all of it ---------------------------------------------------------------------------------------------------- */
+/* --- all of it ------------------------------------------------------------------------------------------ */
 
 static lmn_status check(const screen_layer *layers, size_t count, double gain, int side, lmn_error *error)
 {
     if (!is_power_of_two(side) || side > SIDE_MOST)
-        return error_set(error, LMN_LIMIT, "a screen of %d texels a side; allowed are powers of two up to %d", side, SIDE_MOST);
+        return error_set(error, LMN_LIMIT, "a screen of %d texels a side; allowed are powers of two up to %d", side,
+                         SIDE_MOST);
     if (count < 1 || count > LAYERS_MOST)
         return error_set(error, LMN_LIMIT, "a screen of %zu layers; allowed are 1 to %d", count, LAYERS_MOST);
     if (!(gain >= 1))
         return error_set(error, LMN_LIMIT, "a screen for the gain %g; it is 1 or more", gain);
     for (size_t i = 0; i < count; i++) {
         if (layers[i].width != layers[i].height || layers[i].width == 0)
-            return error_set(error, LMN_FORMAT, "layer %zu of a screen has %u x %u pixels; layers must be square", i, layers[i].width, layers[i].height);
+            return error_set(error, LMN_FORMAT, "layer %zu of a screen has %u x %u pixels; layers must be square", i,
+                             layers[i].width, layers[i].height);
         if (layers[i].width > LIMIT_IMAGE_SIDE)
-            return error_set(error, LMN_LIMIT, "layer %zu of a screen is %u pixels wide; allowed are %d", i, layers[i].width, LIMIT_IMAGE_SIDE);
+            return error_set(error, LMN_LIMIT, "layer %zu of a screen is %u pixels wide; allowed are %d", i,
+                             layers[i].width, LIMIT_IMAGE_SIDE);
     }
     return LMN_OK;
 }
 
-lmn_status screen_of_layers(mip_chain *out, const screen_layer *layers, size_t count, double gain, int side, screen_detail detail, lmn_error *error)
+lmn_status screen_of_layers(mip_chain *out, const screen_layer *layers, size_t count, double gain, int side,
+                            screen_detail detail, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     lmn_status status = check(layers, count, gain, side, error);

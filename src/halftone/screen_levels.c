@@ -6,10 +6,11 @@
 
 #include "base/memory.h"
 
-/* --- tone --------------------------------------------------------------------------------------------------------- */
+/* --- tone ----------------------------------------------------------------------------------------------- */
 
-/* A group of equally dark texels takes the middle of its share, so that the ink is never off by more than half of the group. Rounded up, since v is inked
- * up to the light 1 − v: so the ink at light t/255 is the share (255 − t)/255 exactly where groups are single texels, and none in full light. */
+/* A group of equally dark texels takes the middle of its share, so that the ink is never off by more than half of
+ * the group. Rounded up, since v is inked up to the light 1 − v: so the ink at light t/255 is the share (255 −
+ * t)/255 exactly where groups are single texels, and none in full light. */
 static uint8_t value_of_share(uint64_t before, uint64_t group, uint64_t all)
 {
     uint64_t value = (255 * (2 * before + group) + 2 * all - 1) / (2 * all);
@@ -72,7 +73,7 @@ double screen_ink(const mip_chain *screen, int level, double light, double gain,
     return sum / (double)count;
 }
 
-/* --- hatch map ---------------------------------------------------------------------------------------------------- */
+/* --- hatch map ------------------------------------------------------------------------------------------ */
 
 lmn_status screen_hatch_map(mip_chain *out, int side, int spacing, bool centred, bool white_end, lmn_error *error)
 {
@@ -80,8 +81,9 @@ lmn_status screen_hatch_map(mip_chain *out, int side, int spacing, bool centred,
     int least = centred ? 3 : 2;
     if (spacing < least || side < spacing || side % spacing || !is_power_of_two(side / spacing))
         return error_set(error, LMN_LIMIT,
-                         "a hatch map of %d texels with lines %d apart; allowed are %d texels or more, and sides that are 1, 2, 4, 8 … times as large", side,
-                         spacing, least);
+                         "a hatch map of %d texels with lines %d apart; allowed are %d texels or more, and sides that "
+                         "are 1, 2, 4, 8 … times as large",
+                         side, spacing, least);
     lmn_status status = mip_chain_create(out, 1, side, 1, 0, MIP_R8, error);
     if (status != LMN_OK)
         return status;

@@ -4,12 +4,12 @@
 
 #include "halftone/screen.h"
 
-/* How dark texels are, before they are bytes: 0 is paper, INK_MOST the first to be inked. Finer than bytes, so that strokes whose priorities differ
- * little keep their order when a screen is equalised. */
+/* How dark texels are, before they are bytes: 0 is paper, INK_MOST the first to be inked. Finer than bytes, so that
+ * strokes whose priorities differ little keep their order when a screen is equalised. */
 enum { INK_MOST = 65535, INK_TONES = INK_MOST + 1 };
 
-/* Screen values for texels in the order of their ink: the share below v becomes v. Texels of equal ink stay equal, since they are of one stroke.
- * `tones` is room for INK_TONES numbers. */
+/* Screen values for texels in the order of their ink: the share below v becomes v. Texels of equal ink stay equal,
+ * since they are of one stroke. `tones` is room for INK_TONES numbers. */
 void ink_equalise(uint8_t *out, const uint16_t *ink, size_t count, uint32_t *tones);
 /* Screen values without that: 255 × (1 − ink). */
 void ink_encode(uint8_t *out, const uint16_t *ink, size_t count);
@@ -19,8 +19,8 @@ static inline bool is_power_of_two(int n)
     return n > 0 && (n & (n - 1)) == 0;
 }
 
-
-/* Ranks 0 … side² − 1 of a dispersed order in which no texels of near ranks are near each other, also around the border; by void and cluster. */
+/* Ranks 0 … side² − 1 of a dispersed order in which no texels of near ranks are near each other, also around the
+ * border; by void and cluster. */
 lmn_status blue_noise_ranks(uint32_t *ranks, int side, lmn_error *error);
 /* The place of a texel in Bayer's order, 0 … side² − 1; side is a power of two. */
 uint32_t bayer_rank(uint32_t x, uint32_t y, int side);

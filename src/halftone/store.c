@@ -1,4 +1,5 @@
-/* Kept textures: one file each, named by a hash of what it was made from, with that text inside to be sure, and a checksum at the end. */
+/* Kept textures: one file each, named by a hash of what it was made from, with that text inside to be sure, and a
+ * checksum at the end. */
 #include "halftone/store.h"
 
 #include <dirent.h>
@@ -20,7 +21,8 @@ enum { VERSION = 2, SIDE_MOST = 4096, LAYERS_MOST = 256, HEX_DIGITS = 16, PATH_R
 static const uint64_t KEPT_MOST = (uint64_t)256 << 20; /* bytes in the folder */
 static const char     ENDING[] = ".texture";
 
-/* As it lies in the file, in the machine's byte order, which the magic number tells. The description follows, the levels, and the checksum. */
+/* As it lies in the file, in the machine's byte order, which the magic number tells. The description follows, the
+ * levels, and the checksum. */
 typedef struct header {
     uint32_t magic, version;
     uint64_t description_size;
@@ -33,13 +35,13 @@ static const uint32_t MAGIC = 0x4c6d4e74;
 uint64_t store_hash(const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    uint64_t             hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ at[i]) * UINT64_C(0x100000001b3);
     return hash;
 }
 
-/* --- places ------------------------------------------------------------------------------------------------------- */
+/* --- places --------------------------------------------------------------------------------------------- */
 
 /* The folder; false when nothing is to be kept. */
 static bool find_folder(char *out, size_t room)
@@ -62,27 +64,30 @@ static bool find_path(char *out, size_t room, const char *folder, const char *de
     return length > 0 && (size_t)length < room;
 }
 
-/* Is a file one of ours, or a half-written one that an earlier version left behind? Other files in the folder are never touched. */
+/* Is a file one of ours, or a half-written one that an earlier version left behind? Other files in the folder are
+ * never touched. */
 static bool is_ours(const char *name)
 {
     size_t digits = strspn(name, "0123456789abcdef");
     return digits == HEX_DIGITS && strncmp(name + digits, ENDING, sizeof ENDING - 1) == 0;
 }
 
-/* --- reading ------------------------------------------------------------------------------------------------------ */
+/* --- reading -------------------------------------------------------------------------------------------- */
 
 static bool is_sensible(const header *h)
 {
-    return h->magic == MAGIC && h->version == VERSION && h->width >= 1 && h->width <= SIDE_MOST && h->height >= 1 && h->height <= SIDE_MOST &&
-           h->layers >= 1 && h->layers <= LAYERS_MOST && h->levels >= 1 && h->levels <= MIP_LEVELS_MAX && h->format <= MIP_RG16F && h->clamped <= 1 &&
-           h->nearest <= 1 && h->stepped <= 1 && h->similar <= 1 && isfinite(h->fact);
+    return h->magic == MAGIC && h->version == VERSION && h->width >= 1 && h->width <= SIDE_MOST && h->height >= 1 &&
+           h->height <= SIDE_MOST && h->layers >= 1 && h->layers <= LAYERS_MOST && h->levels >= 1 &&
+           h->levels <= MIP_LEVELS_MAX && h->format <= MIP_RG16F && h->clamped <= 1 && h->nearest <= 1 &&
+           h->stepped <= 1 && h->similar <= 1 && isfinite(h->fact);
 }
 
 /* What the levels take, all together. */
 static uint64_t content_size(const header *h)
 {
-    mip_chain shape = {.width = (int)h->width, .height = (int)h->height, .layers = (int)h->layers, .format = (mip_format)h->format};
-    uint64_t  sum = 0;
+    mip_chain shape = {
+        .width = (int)h->width, .height = (int)h->height, .layers = (int)h->layers, .format = (mip_format)h->format};
+    uint64_t sum = 0;
     for (uint32_t k = 0; k < h->levels; k++)
         sum += mip_level_bytes(&shape, (int)k);
     return sum;
@@ -90,7 +95,8 @@ static uint64_t content_size(const header *h)
 
 static bool read_levels(mip_chain *out, const header *h, const unsigned char *at)
 {
-    if (mip_chain_create(out, (int)h->width, (int)h->height, (int)h->layers, (int)h->levels, (mip_format)h->format, NULL) != LMN_OK)
+    if (mip_chain_create(out, (int)h->width, (int)h->height, (int)h->layers, (int)h->levels, (mip_format)h->format,
+                         NULL) != LMN_OK)
         return false;
     if (out->levels != (int)h->levels) { /* more levels than the sides have */
         mip_chain_release(out);
@@ -125,18 +131,18 @@ static bool read_chain(mip_chain *out, const unsigned char *data, size_t size, c
     return read_levels(out, &h, data + sizeof h + told);
 }
 
-/* The bytes of a regular file of this user, which a link or a pipe with its name is not; the caller frees them. Read, not mapped: another writer may cut
- * it while it is looked at. NULL: there is none. */
+/* The bytes of a regular file of this user, which a link or a pipe with its name is not; the caller frees them.
+ * Read, not mapped: another writer may cut it while it is looked at. NULL: there is none. */
 static unsigned char *read_own(const char *path, size_t *size)
 {
     struct stat    facts;
     unsigned char *bytes = NULL;
     int            descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    bool           own = descriptor >= 0 && fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == geteuid();
+    bool own = descriptor >= 0 && fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == geteuid();
     if (own && facts.st_size > 0 && (uint64_t)facts.st_size <= KEPT_MOST)
         bytes = mem_alloc((size_t)facts.st_size);
     *size = 0;
-    for (ssize_t got = 1; bytes && got != 0 && *size < (size_t)facts.st_size; *size += got > 0 ? (size_t)got : 0) {
+    for (ssize_t got = 1; bytes && got != 0 && *size<(size_t)facts.st_size; *size += got> 0 ? (size_t)got : 0) {
         got = read(descriptor, bytes + *size, (size_t)facts.st_size - *size);
         if (got < 0 && errno != EINTR)
             break;
@@ -159,7 +165,7 @@ bool store_find(mip_chain *out, const char *description)
     return found;
 }
 
-/* --- keeping ------------------------------------------------------------------------------------------------------ */
+/* --- keeping -------------------------------------------------------------------------------------------- */
 
 typedef struct kept_file {
     char            name[64];
@@ -189,7 +195,8 @@ static kept_file *list_files(const char *folder, size_t *count)
         kept_file   file;
         size_t      length = strlen(entry->d_name);
         if (!is_ours(entry->d_name) || length >= sizeof file.name ||
-            (size_t)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) >= sizeof path || lstat(path, &facts) != 0 || !S_ISREG(facts.st_mode))
+            (size_t)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) >= sizeof path ||
+            lstat(path, &facts) != 0 || !S_ISREG(facts.st_mode))
             continue;
         if (!mem_grow((void **)&files, &capacity, *count + 1, sizeof *files))
             break;
@@ -223,8 +230,19 @@ static void make_room(const char *folder)
 
 static void write_chain(text *out, const mip_chain *chain, const char *description)
 {
-    header h = {MAGIC, VERSION, strlen(description), (uint32_t)chain->width, (uint32_t)chain->height, (uint32_t)chain->layers, (uint32_t)chain->levels,
-                (uint32_t)chain->format, chain->clamped, chain->nearest, chain->stepped, chain->similar, chain->fact};
+    header h = {MAGIC,
+                VERSION,
+                strlen(description),
+                (uint32_t)chain->width,
+                (uint32_t)chain->height,
+                (uint32_t)chain->layers,
+                (uint32_t)chain->levels,
+                (uint32_t)chain->format,
+                chain->clamped,
+                chain->nearest,
+                chain->stepped,
+                chain->similar,
+                chain->fact};
     text_append_bytes(out, (const char *)&h, sizeof h);
     text_append_bytes(out, description, strlen(description));
     for (int k = 0; k < chain->levels; k++)
@@ -237,7 +255,8 @@ void store_keep(const mip_chain *chain, const char *description)
 {
     char folder[PATH_ROOM], path[PATH_ROOM];
     text bytes = {0};
-    if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description) || file_make_folder(folder, NULL) != LMN_OK)
+    if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description) ||
+        file_make_folder(folder, NULL) != LMN_OK)
         return;
     write_chain(&bytes, chain, description);
     if (!bytes.failed && bytes.size <= KEPT_MOST && file_replace(path, bytes.data, bytes.size, NULL) == LMN_OK)

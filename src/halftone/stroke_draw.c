@@ -8,24 +8,25 @@ enum { CURVE_CHORDS = 512 };
 
 /* A stroke in texels; texel centres lie at half numbers. */
 typedef struct capsule {
-    double x0, y0, dx, dy;    /* start and way to the end */
-    double length_square;
-    double width, taper, reach; /* reach: no ink farther from the axis */
-    double from, to;            /* the stroke's place on the line that it is part of */
+    double   x0, y0, dx, dy; /* start and way to the end */
+    double   length_square;
+    double   width, taper, reach; /* reach: no ink farther from the axis */
+    double   from, to;            /* the stroke's place on the line that it is part of */
     double   grain, length;
-    uint32_t key;               /* of its streaks */
+    uint32_t key; /* of its streaks */
 } capsule;
 
 typedef struct span {
     int from, to; /* empty where from > to */
 } span;
 
-/* --- grain -------------------------------------------------------------------------------------------------------- */
+/* --- grain ---------------------------------------------------------------------------------------------- */
 
 static const double STREAK_LENGTH = 7, STREAK_WIDTH = 0.8; /* texels */
-static const double BARE = 0.85;     /* of the ink is gone in the barest streak */
-static const double LIFT = 0.4;      /* of the pressure is gone at the end */
-static const double ROOM = 20;       /* texels that a stroke takes to show all its grain; shorter ones are marks rather than strokes */
+static const double BARE = 0.85;                           /* of the ink is gone in the barest streak */
+static const double LIFT = 0.4;                            /* of the pressure is gone at the end */
+static const double ROOM =
+    20; /* texels that a stroke takes to show all its grain; shorter ones are marks rather than strokes */
 
 static double lane_noise(uint32_t key, int lane, int place)
 {
@@ -47,7 +48,8 @@ static double lane_at(uint32_t key, int lane, double along)
 static double grain_at(const capsule *c, double along, double aside)
 {
     double at = aside / STREAK_WIDTH, share = at - floor(at), t = c->from + along * (c->to - c->from);
-    double streak = lane_at(c->key, (int)floor(at), along * c->length) * (1 - share) + lane_at(c->key, (int)floor(at) + 1, along * c->length) * share;
+    double streak = lane_at(c->key, (int)floor(at), along * c->length) * (1 - share) +
+                    lane_at(c->key, (int)floor(at) + 1, along * c->length) * share;
     return (1 - c->grain * BARE * fmin(fmax(2 * streak - 0.5, 0), 1)) * (1 - c->grain * LIFT * t * t);
 }
 
@@ -66,7 +68,7 @@ double stroke_grain_mean(double grain, double texels)
 static uint32_t key_of(const texture_stroke *s)
 {
     const float ends[4] = {s->u0, s->v0, s->u1, s->v1};
-    uint32_t bits[4], key = 0x9e3779b9;
+    uint32_t    bits[4], key = 0x9e3779b9;
     memcpy(bits, ends, sizeof bits);
     for (int i = 0; i < 4; i++)
         key = (key ^ bits[i]) * 0x85ebca6bu + (key >> 15);
@@ -75,7 +77,7 @@ static uint32_t key_of(const texture_stroke *s)
 
 static capsule capsule_of(const texture_stroke *s, int side, const stroke_brush *brush)
 {
-    double scale = side;
+    double  scale = side;
     capsule c = {.x0 = (double)s->u0 * scale, .y0 = (double)s->v0 * scale, .width = brush->width};
     c.dx = ((double)s->u1 - (double)s->u0) * scale;
     c.dy = ((double)s->v1 - (double)s->v0) * scale;
@@ -157,7 +159,7 @@ static void draw_once(const capsule *c, int side, stroke_texel_fn texel, void *u
 {
     span rows = rows_of(c);
     for (int y = rows.from; y <= rows.to; y++) {
-        span columns = columns_of(c, y);
+        span   columns = columns_of(c, y);
         size_t row = (size_t)wrap(y, side) * (size_t)side;
         for (int x = columns.from; x <= columns.to; x++) {
             double coverage = coverage_at(c, x + 0.5, y + 0.5);
@@ -173,7 +175,7 @@ static double most_coverage(const capsule *c, int side, int x, int y, int last_r
     double most = 0;
     for (int row = y; row <= last_row; row += side) {
         span columns = columns_of(c, row);
-        int first = x + (columns.from > x ? (columns.from - x + side - 1) / side * side : 0);
+        int  first = x + (columns.from > x ? (columns.from - x + side - 1) / side * side : 0);
         for (int column = first; column <= columns.to; column += side)
             most = fmax(most, coverage_at(c, column + 0.5, row + 0.5));
     }
@@ -196,7 +198,7 @@ void stroke_draw(const texture_stroke *s, int side, const stroke_brush *brush, s
     if (side <= 0 || !(brush->width > 0))
         return;
     capsule c = capsule_of(s, side, brush);
-    span rows = rows_of(&c), columns = all_columns_of(&c);
+    span    rows = rows_of(&c), columns = all_columns_of(&c);
     if (rows.to - rows.from < side && columns.to - columns.from < side)
         draw_once(&c, side, texel, user);
     else
@@ -206,8 +208,8 @@ void stroke_draw(const texture_stroke *s, int side, const stroke_brush *brush, s
 stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush *brush)
 {
     stroke_brush out = *brush;
-    size_t first = index, last = index;
-    double before = 0, all = 0;
+    size_t       first = index, last = index;
+    double       before = 0, all = 0;
     if (s->width > 0)
         out.width *= (double)s->width;
     if (brush->taper <= 0 && brush->cap <= 0 && brush->grain <= 0)
@@ -228,7 +230,8 @@ stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush
     return out;
 }
 
-/* Texels that several strokes touch have the ink of the one that covers most, so that strokes that meet do not show a seam or a knot. */
+/* Texels that several strokes touch have the ink of the one that covers most, so that strokes that meet do not show
+ * a seam or a knot. */
 static void darken(void *user, size_t index, float coverage)
 {
     uint8_t *out = user, paper = (uint8_t)lrintf(255.0f * (1.0f - coverage));
@@ -236,7 +239,8 @@ static void darken(void *user, size_t index, float coverage)
         out[index] = paper;
 }
 
-void strokes_draw(const strokes *s, int side, const stroke_brush *brush, float threshold_light, float threshold_perspective, uint8_t *out)
+void strokes_draw(const strokes *s, int side, const stroke_brush *brush, float threshold_light,
+                  float threshold_perspective, uint8_t *out)
 {
     memset(out, 255, (size_t)side * (size_t)side);
     for (size_t i = 0; i < s->count; i++) {

@@ -6,7 +6,7 @@
 
 lmn_status strokes_load(strokes *out, const char *path, lmn_error *error)
 {
-    char ending[8];
+    char      ending[8];
     file_data data;
     *out = (strokes){.width = 1};
     file_ending(path, ending, sizeof ending);
@@ -20,7 +20,8 @@ lmn_status strokes_load(strokes *out, const char *path, lmn_error *error)
     if (status != LMN_OK)
         return status;
     const char *bytes = (const char *)data.data;
-    status = svg ? strokes_read_svg(out, path, bytes, data.size, error) : strokes_read(out, path, bytes, data.size, error);
+    status =
+        svg ? strokes_read_svg(out, path, bytes, data.size, error) : strokes_read(out, path, bytes, data.size, error);
     file_data_release(&data);
     if (status == LMN_OK)
         strokes_wrap(out);

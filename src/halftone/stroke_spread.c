@@ -1,13 +1,14 @@
-/* Farthest next on the torus: each item goes where most room is left, so that every beginning of the order is evenly spread. A grid of cells keeps the
- * points that a new item can bring nearer together, a heap the distances; both make it n log n. */
+/* Farthest next on the torus: each item goes where most room is left, so that every beginning of the order is
+ * evenly spread. A grid of cells keeps the points that a new item can bring nearer together, a heap the distances;
+ * both make it n log n. */
 #include "halftone/strokes_private.h"
 
 #include "base/memory.h"
 
 enum { CELLS_MAX = 512 };
 
-/* Exactly the farthest one each time would halve the widest gaps again and again, and the pattern would become a lattice. So every item's room counts a
- * little less than it is, by a share of its own. */
+/* Exactly the farthest one each time would halve the widest gaps again and again, and the pattern would become a
+ * lattice. So every item's room counts a little less than it is, by a share of its own. */
 static const double least_weight = 0.72;
 
 /* No two places of the torus are farther apart. */
@@ -24,15 +25,15 @@ typedef struct spread {
     double             *room;       /* of each item: sum of its points' distances; below 0: placed */
     size_t             *heap;       /* items; the heap's keys may be too large, never too small */
     double             *key;
-    size_t             *rank;       /* who comes first among equals */
-    float              *weight;     /* of an item's room */
+    size_t             *rank;   /* who comes first among equals */
+    float              *weight; /* of an item's room */
     size_t              heap_count;
 } spread;
 
 static size_t cell_of(const spread *s, const spread_point *p)
 {
     double u = (double)p->u - floor((double)p->u), v = (double)p->v - floor((double)p->v);
-    int column = (int)(u * s->cells), row = (int)(v * s->cells);
+    int    column = (int)(u * s->cells), row = (int)(v * s->cells);
     column = column < s->cells ? column : s->cells - 1;
     row = row < s->cells ? row : s->cells - 1;
     return (size_t)row * (size_t)s->cells + (size_t)column;
@@ -51,7 +52,8 @@ static bool allocate(spread *s)
     s->key = mem_calloc(s->item_count, sizeof *s->key);
     s->rank = mem_calloc(s->item_count, sizeof *s->rank);
     s->weight = mem_calloc(s->item_count, sizeof *s->weight);
-    return s->cell_start && s->cell_points && s->item_start && s->near && s->room && s->heap && s->key && s->rank && s->weight;
+    return s->cell_start && s->cell_points && s->item_start && s->near && s->room && s->heap && s->key && s->rank &&
+           s->weight;
 }
 
 static void release(spread *s)
@@ -95,7 +97,8 @@ static double distance_between(const spread_point *a, const spread_point *b)
     return sqrt(du * du + dv * dv);
 }
 
-/* The most that any point of what is left is away from what is placed. Distances only shrink, so an old answer is never too small. */
+/* The most that any point of what is left is away from what is placed. Distances only shrink, so an old answer is
+ * never too small. */
 static double farthest_point(const spread *s)
 {
     float most = 0;
@@ -162,7 +165,7 @@ static size_t take_farthest(spread *s)
 static void near_cell(spread *s, size_t cell, const spread_point *to)
 {
     for (size_t k = s->cell_start[cell]; k < s->cell_start[cell + 1]; k++) {
-        size_t i = s->cell_points[k];
+        size_t              i = s->cell_points[k];
         const spread_point *p = &s->points[i];
         if (s->room[p->item] < 0)
             continue;
@@ -185,7 +188,7 @@ static void bring_near(spread *s, const spread_point *to, double radius)
         last = n - 1;
     }
     size_t cell = cell_of(s, to);
-    int column = (int)(cell % (size_t)n), row = (int)(cell / (size_t)n);
+    int    column = (int)(cell % (size_t)n), row = (int)(cell / (size_t)n);
     for (int y = first; y <= last; y++)
         for (int x = first; x <= last; x++) {
             int wrapped_y = (row + y + n) % n, wrapped_x = (column + x + n) % n;
@@ -213,12 +216,13 @@ static void begin(spread *s, uint32_t seed)
     s->heap_count = s->item_count;
 }
 
-bool spread_order(size_t *order, size_t wanted, const spread_point *points, size_t point_count, size_t item_count, uint32_t seed)
+bool spread_order(size_t *order, size_t wanted, const spread_point *points, size_t point_count, size_t item_count,
+                  uint32_t seed)
 {
     spread s = {.points = points, .point_count = point_count, .item_count = item_count};
     double radius = farthest;
     size_t measured = 0;
-    bool good = allocate(&s);
+    bool   good = allocate(&s);
     if (good)
         begin(&s, seed);
     for (size_t k = 0; good && k < wanted && k < item_count; k++) {

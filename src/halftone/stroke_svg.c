@@ -1,4 +1,5 @@
-/* Strokes from SVG drawings, which any drawing program writes, and back. Entities are not replaced, and nothing is fetched. */
+/* Strokes from SVG drawings, which any drawing program writes, and back. Entities are not replaced, and nothing is
+ * fetched. */
 #include "halftone/stroke_svg.h"
 
 #include <limits.h>
@@ -19,18 +20,18 @@ typedef struct svg_box {
 } svg_box;
 
 typedef struct svg_reader {
-    const char *name;
-    strokes    *out;        /* NULL: only the bounds are wanted */
-    svg_box     bounds;     /* of all chords */
-    svg_box     frame;      /* what becomes the square */
-    double      side;       /* its longer side; 0: not known yet */
-    const xmlNode *layers;  /* whose groups are layers; NULL: all is layer 0 */
-    int32_t     layer, next_layer;
-    float       light, perspective; /* of the element, where it states them */
-    bool        stated, all_stated;
-    int         line;
-    lmn_status  status;
-    lmn_error  *error;
+    const char    *name;
+    strokes       *out;    /* NULL: only the bounds are wanted */
+    svg_box        bounds; /* of all chords */
+    svg_box        frame;  /* what becomes the square */
+    double         side;   /* its longer side; 0: not known yet */
+    const xmlNode *layers; /* whose groups are layers; NULL: all is layer 0 */
+    int32_t        layer, next_layer;
+    float          light, perspective; /* of the element, where it states them */
+    bool           stated, all_stated;
+    int            line;
+    lmn_status     status;
+    lmn_error     *error;
 } svg_reader;
 
 /* --- attributes --- */
@@ -68,9 +69,11 @@ typedef struct svg_unit {
 /* A length; `whole` is what 100 % are. */
 static bool parse_length(const char *text, double whole, double *out)
 {
-    static const svg_unit units[] = {{"", 1}, {"px", 1}, {"mm", 96 / 25.4}, {"cm", 96 / 2.54}, {"in", 96}, {"pt", 96 / 72.0}, {"pc", 16}, {"em", 16}, {"ex", 8}};
-    const char *at = svg_skip_blanks(text), *end;
-    if (!*at || !strchr("+-.0123456789", *at) || !(end = text_parse_double(at, at + strlen(at), out)) || !isfinite(*out))
+    static const svg_unit units[] = {{"", 1},           {"px", 1},  {"mm", 96 / 25.4}, {"cm", 96 / 2.54}, {"in", 96},
+                                     {"pt", 96 / 72.0}, {"pc", 16}, {"em", 16},        {"ex", 8}};
+    const char           *at = svg_skip_blanks(text), *end;
+    if (!*at || !strchr("+-.0123456789", *at) || !(end = text_parse_double(at, at + strlen(at), out)) ||
+        !isfinite(*out))
         return false;
     size_t length = strcspn(end, " \t\r\n");
     if (*svg_skip_blanks(end + length))
@@ -89,7 +92,7 @@ static bool parse_length(const char *text, double whole, double *out)
 
 static double length_of(svg_reader *r, const xmlNode *node, const char *name, double whole, double absent)
 {
-    char *value = attribute(node, name);
+    char  *value = attribute(node, name);
     double out = absent;
     if (value && strcmp(value, "auto") != 0 && !parse_length(value, whole, &out))
         fail(r, LMN_FORMAT, name, value);
@@ -126,7 +129,7 @@ static bool style_hides(const char *style)
 static bool is_hidden(const xmlNode *node)
 {
     char *display = attribute(node, "display"), *style = attribute(node, "style");
-    bool hidden = (display && strcmp(display, "none") == 0) || (style && style_hides(style));
+    bool  hidden = (display && strcmp(display, "none") == 0) || (style && style_hides(style));
     xmlFree(display);
     xmlFree(style);
     return hidden;
@@ -177,10 +180,10 @@ static void draw_line(svg_reader *r, svg_pen *pen, const xmlNode *node)
 
 static void draw_points(svg_reader *r, svg_pen *pen, const xmlNode *node, bool closed)
 {
-    char *points = attribute(node, "points");
+    char       *points = attribute(node, "points");
     const char *at = points ? svg_skip_blanks(points) : "";
     for (bool begun = false; *at && !pen->failed; begun = true) {
-        svg_point p;
+        svg_point   p;
         const char *behind = svg_number(at, &p.x);
         behind = behind ? svg_number(behind, &p.y) : NULL;
         if (!behind) {
@@ -202,7 +205,7 @@ static void draw_points(svg_reader *r, svg_pen *pen, const xmlNode *node, bool c
 static bool is_paper(const svg_reader *r, const svg_pen *pen, svg_point from, svg_point to)
 {
     svg_point a = svg_apply(&pen->transform, from), b = svg_apply(&pen->transform, to);
-    double near = 1e-6 * r->side;
+    double    near = 1e-6 * r->side;
     return r->side > 0 && fmin(a.x, b.x) <= r->frame.x0 + near && fmin(a.y, b.y) <= r->frame.y0 + near &&
            fmax(a.x, b.x) >= r->frame.x1 - near && fmax(a.y, b.y) >= r->frame.y1 - near;
 }
@@ -218,8 +221,10 @@ static void draw_rectangle(svg_reader *r, svg_pen *pen, const xmlNode *node)
     bool round = rx > 0 && ry > 0;
     if (!round)
         rx = ry = 0;
-    const svg_point sides[4][2] = {{{x + rx, y}, {x + w - rx, y}}, {{x + w, y + ry}, {x + w, y + h - ry}},
-                                   {{x + w - rx, y + h}, {x + rx, y + h}}, {{x, y + h - ry}, {x, y + ry}}};
+    const svg_point sides[4][2] = {{{x + rx, y}, {x + w - rx, y}},
+                                   {{x + w, y + ry}, {x + w, y + h - ry}},
+                                   {{x + w - rx, y + h}, {x + rx, y + h}},
+                                   {{x, y + h - ry}, {x, y + ry}}};
     svg_move(pen, sides[0][0]);
     for (int i = 0; i < 4; i++) {
         svg_line(pen, sides[i][1]);
@@ -230,8 +235,8 @@ static void draw_rectangle(svg_reader *r, svg_pen *pen, const xmlNode *node)
 
 static void draw_ellipse(svg_reader *r, svg_pen *pen, const xmlNode *node, bool circle)
 {
-    svg_point m = {x_of(r, node, "cx"), y_of(r, node, "cy")};
-    double rx = x_of(r, node, circle ? "r" : "rx"), ry = circle ? rx : y_of(r, node, "ry");
+    svg_point            m = {x_of(r, node, "cx"), y_of(r, node, "cy")};
+    double               rx = x_of(r, node, circle ? "r" : "rx"), ry = circle ? rx : y_of(r, node, "ry");
     const svg_transform *t = &pen->transform;
     if (rx <= 0 || ry <= 0)
         return;
@@ -255,9 +260,9 @@ static void draw_path(svg_reader *r, svg_pen *pen, const xmlNode *node)
 
 static bool stated_number(const xmlNode *node, const char *name, float *out)
 {
-    char *value = attribute(node, name);
+    char  *value = attribute(node, name);
     double number;
-    bool good = value && text_is_double(value, &number) && isfinite((float)number);
+    bool   good = value && text_is_double(value, &number) && isfinite((float)number);
     if (good)
         *out = (float)number;
     xmlFree(value);
@@ -268,7 +273,8 @@ static void draw_element(svg_reader *r, const xmlNode *node, const svg_transform
 {
     svg_pen pen = {.transform = *transform, .tolerance = curve_tolerance * r->side, .chord = add_chord, .user = r};
     r->light = r->perspective = 1;
-    bool stated = stated_number(node, "data-light", &r->light) && stated_number(node, "data-perspective", &r->perspective);
+    bool stated =
+        stated_number(node, "data-light", &r->light) && stated_number(node, "data-perspective", &r->perspective);
     size_t before = r->out ? r->out->count : 0;
     if (is_named(node, "line"))
         draw_line(r, &pen, node);
@@ -301,7 +307,7 @@ static const xmlNode *layers_below(const xmlNode *node)
 {
     for (int depth = 0; depth < SVG_DEPTH_MAX; depth++) {
         const xmlNode *group = NULL;
-        int count = 0;
+        int            count = 0;
         for (const xmlNode *child = node->children; child; child = child->next)
             if (is_named(child, "g") && !is_hidden(child)) {
                 group = child;
@@ -317,7 +323,7 @@ static const xmlNode *layers_below(const xmlNode *node)
 static svg_transform transform_of(svg_reader *r, const xmlNode *node, const svg_transform *outer)
 {
     svg_transform own = svg_identity;
-    char *value = attribute(node, "transform");
+    char         *value = attribute(node, "transform");
     if (value && !svg_parse_transform(value, &own))
         fail(r, LMN_FORMAT, "transform", value);
     xmlFree(value);
@@ -359,8 +365,8 @@ static void walk(svg_reader *r, const xmlNode *node, const svg_transform *outer,
 
 static bool read_view_box(svg_reader *r, const xmlNode *root)
 {
-    char *text = attribute(root, "viewBox");
-    double n[4] = {0};
+    char       *text = attribute(root, "viewBox");
+    double      n[4] = {0};
     const char *at = text ? svg_skip_blanks(text) : NULL;
     for (int i = 0; i < 4 && at; i++)
         at = svg_number(at, &n[i]);
@@ -375,9 +381,9 @@ static bool read_view_box(svg_reader *r, const xmlNode *root)
 
 static bool read_size(svg_reader *r, const xmlNode *root)
 {
-    char *w = attribute(root, "width"), *h = attribute(root, "height");
+    char  *w = attribute(root, "width"), *h = attribute(root, "height");
     double width = 0, height = 0;
-    bool good = w && h && parse_length(w, 0, &width) && parse_length(h, 0, &height) && width > 0 && height > 0;
+    bool   good = w && h && parse_length(w, 0, &width) && parse_length(h, 0, &height) && width > 0 && height > 0;
     xmlFree(w);
     xmlFree(h);
     if (good)
@@ -440,8 +446,8 @@ lmn_status strokes_read_svg(strokes *out, const char *name, const char *bytes, s
     xmlParserCtxt *context = xmlNewParserCtxt();
     if (!context)
         return error_memory(error);
-    int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_BIG_LINES;
-    xmlDoc *document = size ? xmlCtxtReadMemory(context, bytes, (int)size, NULL, NULL, options) : NULL;
+    int        options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_BIG_LINES;
+    xmlDoc    *document = size ? xmlCtxtReadMemory(context, bytes, (int)size, NULL, NULL, options) : NULL;
     svg_reader r = {.name = name, .out = out, .all_stated = true, .error = error};
     if (document)
         read_drawing(&r, xmlDocGetRootElement(document));
@@ -486,7 +492,7 @@ static bool same_priorities(const texture_stroke *a, const texture_stroke *b)
 static size_t write_line(text *out, const strokes *s, size_t first)
 {
     const texture_stroke *t = &s->items[first];
-    size_t count = 1;
+    size_t                count = 1;
     if (t->u0 == t->u1 && t->v0 == t->v1) {
         text_append(out, "<circle");
         write_attribute(out, "cx", t->u0);
@@ -544,8 +550,10 @@ void strokes_write_svg(text *out, const strokes *s)
     int32_t layers = strokes_layer_count(s);
     size_t *starts = mem_calloc((size_t)layers + 2, sizeof *starts);
     size_t *order = starts ? sort_by_layer(s, starts, layers) : NULL;
-    text_append(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1024\" height=\"1024\" viewBox=\"0 0 1 1\">\n"
-                     "<style>g{fill:none;stroke:black;stroke-width:0.006;stroke-linecap:round;stroke-linejoin:round}</style>\n");
+    text_append(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1024\" height=\"1024\" viewBox=\"0 0 1 1\">\n"
+        "<style>g{fill:none;stroke:black;stroke-width:0.006;stroke-linecap:round;stroke-linejoin:round}</style>\n");
     if (order)
         write_layers(out, s, order, starts, layers);
     else

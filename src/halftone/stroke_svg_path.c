@@ -24,15 +24,16 @@ static const char *skip_comma(const char *at)
 
 const char *svg_number(const char *at, double *out)
 {
-    /* No words: "nan" and "inf" are no numbers here. Looking for the end of all the text each time would take its length squared. */
-    bool begins = *at && strchr("+-.0123456789", *at);
+    /* No words: "nan" and "inf" are no numbers here. Looking for the end of all the text each time would take its
+     * length squared. */
+    bool        begins = *at && strchr("+-.0123456789", *at);
     const char *end = begins ? text_parse_double(at, at + strnlen(at, NUMBER_MAX), out) : NULL;
     return end && isfinite(*out) ? skip_comma(end) : NULL;
 }
 
 svg_transform svg_combine(svg_transform o, svg_transform i)
 {
-    return (svg_transform){o.a * i.a + o.c * i.b, o.b * i.a + o.d * i.b, o.a * i.c + o.c * i.d,
+    return (svg_transform){o.a * i.a + o.c * i.b, o.b * i.a + o.d * i.b,       o.a * i.c + o.c * i.d,
                            o.b * i.c + o.d * i.d, o.a * i.e + o.c * i.f + o.e, o.b * i.e + o.d * i.f + o.f};
 }
 
@@ -48,7 +49,7 @@ typedef struct named_transform {
 
 static svg_transform rotation(const double *n, int count)
 {
-    double s = sin(n[0] * half_turn / 180), c = cos(n[0] * half_turn / 180);
+    double        s = sin(n[0] * half_turn / 180), c = cos(n[0] * half_turn / 180);
     svg_transform turned = {c, s, -s, c, 0, 0};
     if (count < 3)
         return turned;
@@ -70,11 +71,12 @@ static svg_transform make_transform(int kind, const double *n, int count)
 
 bool svg_parse_transform(const char *at, svg_transform *out)
 {
-    static const named_transform kinds[] = {{"matrix", 6, 6}, {"translate", 1, 2}, {"scale", 1, 2}, {"rotate", 1, 3}, {"skewX", 1, 1}, {"skewY", 1, 1}};
+    static const named_transform kinds[] = {{"matrix", 6, 6}, {"translate", 1, 2}, {"scale", 1, 2},
+                                            {"rotate", 1, 3}, {"skewX", 1, 1},     {"skewY", 1, 1}};
     enum { KINDS = sizeof kinds / sizeof *kinds };
     *out = svg_identity;
     for (at = svg_skip_blanks(at); *at;) {
-        int kind = 0, count = 0;
+        int    kind = 0, count = 0;
         double numbers[6] = {0};
         while (kind < KINDS && strncmp(at, kinds[kind].name, strlen(kinds[kind].name)) != 0)
             kind++;
@@ -148,10 +150,10 @@ void svg_cubic(svg_pen *pen, svg_point a, svg_point b, svg_point to)
     svg_point p[4] = {svg_apply(&pen->transform, pen->at), svg_apply(&pen->transform, a), svg_apply(&pen->transform, b),
                       svg_apply(&pen->transform, to)};
     svg_point before = p[0];
-    int count = chord_count(pen, p);
+    int       count = chord_count(pen, p);
     for (int i = 1; i <= count && !pen->failed; i++) {
-        double t = (double)i / count, s = 1 - t;
-        double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+        double    t = (double)i / count, s = 1 - t;
+        double    w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
         svg_point at = {w[0] * p[0].x + w[1] * p[1].x + w[2] * p[2].x + w[3] * p[3].x,
                         w[0] * p[0].y + w[1] * p[1].y + w[2] * p[2].y + w[3] * p[3].y};
         if (i == count)
@@ -172,8 +174,9 @@ void svg_quadratic(svg_pen *pen, svg_point a, svg_point to)
 /* A piece of the unit circle, at most a quarter, as a cubic; `circle` leads from there to the pen's coordinates. */
 static void arc_piece(svg_pen *pen, const svg_transform *circle, double from, double to)
 {
-    double k = 4.0 / 3.0 * tan((to - from) / 4);
-    svg_point a = {cos(from) - k * sin(from), sin(from) + k * cos(from)}, b = {cos(to) + k * sin(to), sin(to) - k * cos(to)};
+    double    k = 4.0 / 3.0 * tan((to - from) / 4);
+    svg_point a = {cos(from) - k * sin(from), sin(from) + k * cos(from)},
+              b = {cos(to) + k * sin(to), sin(to) - k * cos(to)};
     svg_cubic(pen, svg_apply(circle, a), svg_apply(circle, b), svg_apply(circle, (svg_point){cos(to), sin(to)}));
 }
 
@@ -195,8 +198,10 @@ void svg_arc(svg_pen *pen, double rx, double ry, double degrees, bool large, boo
         ry *= sqrt(size);
         size = 1;
     }
-    double away = sqrt(fmax(0, 1 / size - 1)) * (large == sweep ? -1 : 1), mx = away * rx * y / ry, my = -away * ry * x / rx;
-    double from_angle = atan2((y - my) / ry, (x - mx) / rx), to_angle = atan2((-y - my) / ry, (-x - mx) / rx), turned = to_angle - from_angle;
+    double away = sqrt(fmax(0, 1 / size - 1)) * (large == sweep ? -1 : 1), mx = away * rx * y / ry,
+           my = -away * ry * x / rx;
+    double from_angle = atan2((y - my) / ry, (x - mx) / rx), to_angle = atan2((-y - my) / ry, (-x - mx) / rx),
+           turned = to_angle - from_angle;
     if (sweep && turned < 0)
         turned += 2 * half_turn;
     if (!sweep && turned > 0)
@@ -206,7 +211,8 @@ void svg_arc(svg_pen *pen, double rx, double ry, double degrees, bool large, boo
         svg_line(pen, to);
         return;
     }
-    svg_transform circle = {c * rx, s * rx, -s * ry, c * ry, c * mx - s * my + (from.x + to.x) / 2, s * mx + c * my + (from.y + to.y) / 2};
+    svg_transform circle = {
+        c * rx, s * rx, -s * ry, c * ry, c * mx - s * my + (from.x + to.x) / 2, s * mx + c * my + (from.y + to.y) / 2};
     int pieces = (int)ceil(fabs(turned) / (half_turn / 2) - 1e-9);
     pieces = pieces < 1 ? 1 : pieces > 4 ? 4 : pieces;
     for (int i = 0; i < pieces; i++)
@@ -223,9 +229,9 @@ void svg_close(svg_pen *pen)
 /* --- path data --- */
 
 typedef struct path_reader {
-    svg_pen   *pen;
-    svg_point  control; /* of the last curve, for smooth ones */
-    char       before;  /* the last command, in upper case */
+    svg_pen  *pen;
+    svg_point control; /* of the last curve, for smooth ones */
+    char      before;  /* the last command, in upper case */
 } path_reader;
 
 /* "0" and "1" need no blanks behind them. */
@@ -240,7 +246,7 @@ static const char *read_flag(const char *at, double *out)
 static const char *read_arguments(const char *at, char command, double *n)
 {
     static const char counts[] = "M2L2H1V1C6S4Q4T2A7";
-    int count = strchr(counts, command)[1] - '0';
+    int               count = strchr(counts, command)[1] - '0';
     for (int i = 0; i < count && at; i++)
         at = command == 'A' && (i == 3 || i == 4) ? read_flag(at, &n[i]) : svg_number(at, &n[i]);
     return at;
@@ -255,7 +261,7 @@ static svg_point mirrored(const path_reader *r, const char *commands)
 /* One command with its numbers; coordinates relative to `base`. */
 static void run_command(path_reader *r, char command, const double *n, svg_point base)
 {
-    svg_pen *pen = r->pen;
+    svg_pen  *pen = r->pen;
     svg_point p[3] = {{0, 0}};
     for (int i = 0; i < 3; i++)
         p[i] = (svg_point){base.x + n[2 * i], base.y + n[2 * i + 1]};
@@ -264,14 +270,20 @@ static void run_command(path_reader *r, char command, const double *n, svg_point
     case 'L': svg_line(pen, p[0]); break;
     case 'H': svg_line(pen, (svg_point){base.x + n[0], pen->at.y}); break;
     case 'V': svg_line(pen, (svg_point){pen->at.x, base.y + n[0]}); break;
-    case 'C': r->control = p[1]; svg_cubic(pen, p[0], p[1], p[2]); break;
+    case 'C':
+        r->control = p[1];
+        svg_cubic(pen, p[0], p[1], p[2]);
+        break;
     case 'S': {
         svg_point first = mirrored(r, "CS");
         r->control = p[0];
         svg_cubic(pen, first, p[0], p[1]);
         break;
     }
-    case 'Q': r->control = p[0]; svg_quadratic(pen, p[0], p[1]); break;
+    case 'Q':
+        r->control = p[0];
+        svg_quadratic(pen, p[0], p[1]);
+        break;
     case 'T':
         r->control = mirrored(r, "QT");
         svg_quadratic(pen, r->control, p[0]);
@@ -285,7 +297,7 @@ bool svg_path(svg_pen *pen, const char *d)
 {
     path_reader r = {.pen = pen, .before = 'Z'};
     const char *at = svg_skip_blanks(d);
-    bool begun = false;
+    bool        begun = false;
     while (*at && !pen->failed) {
         char letter = *at, command = (char)(letter & ~0x20);
         if (!strchr("MLHVCSQTAZ", command) || !(letter & 0x40) || (!begun && command != 'M'))
@@ -298,7 +310,7 @@ bool svg_path(svg_pen *pen, const char *d)
             continue;
         }
         do {
-            double n[8] = {0};
+            double      n[8] = {0};
             const char *behind = read_arguments(at, command, n);
             if (!behind)
                 return false;

@@ -25,8 +25,10 @@ typedef struct spread_point {
     size_t item;
 } spread_point;
 
-/* Writes the first `wanted` items to `order`, each the one that is then farthest from all before it (mean distance of its points to theirs, around the
- * corners). The first one, and the winner among equals, are chosen by the seed. Every item has a point. False: memory is gone. */
-bool spread_order(size_t *order, size_t wanted, const spread_point *points, size_t point_count, size_t item_count, uint32_t seed);
+/* Writes the first `wanted` items to `order`, each the one that is then farthest from all before it (mean distance
+ * of its points to theirs, around the corners). The first one, and the winner among equals, are chosen by the seed.
+ * Every item has a point. False: memory is gone. */
+bool spread_order(size_t *order, size_t wanted, const spread_point *points, size_t point_count, size_t item_count,
+                  uint32_t seed);
 
 #endif

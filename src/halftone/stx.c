@@ -32,7 +32,8 @@ static int word_size(const reader *r)
 
 static lmn_status refuse(const reader *r, int field, const char *word, int size, const char *allowed)
 {
-    error_in_file(r->error, LMN_FORMAT, r->name, r->line, "%s is '%.*s'; allowed is %s", field_names[field], size, word, allowed);
+    error_in_file(r->error, LMN_FORMAT, r->name, r->line, "%s is '%.*s'; allowed is %s", field_names[field], size, word,
+                  allowed);
     error_hint(r->error, "a line is u0 v0 u1 v1 light perspective layer: six numbers and a whole number");
     return LMN_FORMAT;
 }
@@ -46,9 +47,9 @@ static lmn_status refuse_count(const reader *r, const char *how_many)
 
 static lmn_status read_field(reader *r, int field, texture_stroke *out)
 {
-    double value = 0;
+    double      value = 0;
     const char *word = r->at;
-    int size = word_size(r);
+    int         size = word_size(r);
     const char *behind = text_parse_double(word, r->end, &value);
     if (!behind || behind != word + size)
         return refuse(r, field, word, size, "a number");
@@ -73,7 +74,7 @@ static lmn_status read_field(reader *r, int field, texture_stroke *out)
 static lmn_status read_line(reader *r, strokes *out)
 {
     texture_stroke item = {0};
-    int field = 0;
+    int            field = 0;
     for (skip_blanks(r); r->at < r->end; skip_blanks(r)) {
         if (field == FIELDS)
             return refuse_count(r, "more than seven");
@@ -95,8 +96,8 @@ static lmn_status read_line(reader *r, strokes *out)
 lmn_status strokes_read(strokes *out, const char *name, const char *bytes, size_t size, lmn_error *error)
 {
     static const char mark[] = "\xEF\xBB\xBF"; /* some editors begin UTF-8 with it */
-    const char *at = bytes, *end = bytes + size;
-    lmn_status status = LMN_OK;
+    const char       *at = bytes, *end = bytes + size;
+    lmn_status        status = LMN_OK;
     *out = (strokes){.width = 1};
     if (size >= 3 && memcmp(bytes, mark, 3) == 0)
         at += 3;
@@ -104,7 +105,7 @@ lmn_status strokes_read(strokes *out, const char *name, const char *bytes, size_
         const char *newline = memchr(at, '\n', (size_t)(end - at));
         const char *line_end = newline ? newline : end;
         const char *comment = memchr(at, '#', (size_t)(line_end - at));
-        reader r = {name, at, comment ? comment : line_end, line, error};
+        reader      r = {name, at, comment ? comment : line_end, line, error};
         status = read_line(&r, out);
         at = newline ? newline + 1 : end;
     }
@@ -129,7 +130,7 @@ static size_t replace_point(char *number)
 
 void stroke_write_number(text *out, float value)
 {
-    char number[48];
+    char   number[48];
     size_t size = 0;
     /* Nine digits are always enough. */
     for (int digits = 1; digits <= 9; digits++) {
@@ -148,7 +149,7 @@ void strokes_write(text *out, const strokes *s)
     text_append(out, "# u0 v0 u1 v1 light perspective layer\n");
     for (size_t i = 0; i < s->count; i++) {
         const texture_stroke *t = &s->items[i];
-        const float numbers[] = {t->u0, t->v0, t->u1, t->v1, t->light, t->perspective};
+        const float           numbers[] = {t->u0, t->v0, t->u1, t->v1, t->light, t->perspective};
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
             stroke_write_number(out, numbers[k]);
             text_append_bytes(out, " ", 1);

@@ -1,4 +1,5 @@
-/* Tonal art maps: tone after tone, each from its coarsest level to its finest, so that what is drawn goes on in all that is darker or finer. */
+/* Tonal art maps: tone after tone, each from its coarsest level to its finest, so that what is drawn goes on in all
+ * that is darker or finer. */
 #include "halftone/tonal_art_map_private.h"
 
 #include <math.h>
@@ -12,7 +13,8 @@ const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1] = {"best-fit", "s
 
 enum { SIDE_LEAST = 8, SIDE_MOST = 1024, TONES_LEAST = 2, TONES_MOST = 16, STREAM = 0x7a61 };
 
-/* Both ends of a stroke run out over so many widths; what it covers less for that, by stroke_draw's profile, as a share of an end. */
+/* Both ends of a stroke run out over so many widths; what it covers less for that, by stroke_draw's profile, as a
+ * share of an end. */
 static const double CAP_WIDTHS = 6, CAP_LOSS = 1.0 / 3.0;
 
 double tam_target(const tam_options *w, int tone)
@@ -33,19 +35,22 @@ double tam_missing(const tam *t)
 double tam_expected(const tam *t, int level, double length)
 {
     const tam_level *l = &t->levels[level];
-    double           texels = length * l->side, area = (texels - 2 * CAP_LOSS * fmin(t->brush.cap, texels / 4)) * t->brush.width * stroke_grain_mean(t->brush.grain, texels);
-    double           full = mean_ink(l) / (double)t->limit, open = (double)t->limit * (1 - full * full); /* in gaps there is more left than in the mean */
+    double texels = length * l->side, area = (texels - 2 * CAP_LOSS * fmin(t->brush.cap, texels / 4)) * t->brush.width *
+                                             stroke_grain_mean(t->brush.grain, texels);
+    double full = mean_ink(l) / (double)t->limit,
+           open = (double)t->limit * (1 - full * full); /* in gaps there is more left than in the mean */
     return area * (double)t->opacity * open / ((double)l->side * l->side);
 }
 
-/* --- drawing ------------------------------------------------------------------------------------------------------ */
+/* --- drawing -------------------------------------------------------------------------------------------- */
 
 typedef struct darkening {
     tam_level *level;
     float      limit, opacity;
 } darkening;
 
-/* Each stroke takes its share of what is left, so that overlaps darken less and less (Müller, section 3.2; row P32), and never past the limit. */
+/* Each stroke takes its share of what is left, so that overlaps darken less and less (Müller, section 3.2; row
+ * P32), and never past the limit. */
 static void darken(void *user, size_t index, float coverage)
 {
     darkening *d = user;
@@ -80,7 +85,7 @@ bool tam_put(tam *t, texture_stroke s, int direction)
     return keep(t, s, direction);
 }
 
-/* --- strokes that were drawn elsewhere ---------------------------------------------------------------------------- */
+/* --- strokes that were drawn elsewhere ------------------------------------------------------------------ */
 
 typedef struct ranked {
     float    light;
@@ -132,12 +137,13 @@ static double whole_length(const tam *t, size_t index)
 static bool fill_drawn(tam *t, queue *q)
 {
     const texture_stroke *items = t->options->drawn->items;
-    size_t        left = 0, before = SIZE_MAX; /* the stroke that was placed last */
+    size_t                left = 0, before = SIZE_MAX; /* the stroke that was placed last */
     for (size_t i = 0; i < q->count; i++) {
         size_t index = q->items[i].index;
         bool   goes_on = index > 0 && before == index - 1 && stroke_goes_on(&items[index - 1], &items[index]);
         if (!near_enough(&items[index], t->level) ||
-            !(goes_on || (tam_missing(t) > 0 && tam_missing(t) > 0.5 * tam_expected(t, t->level, whole_length(t, index))))) {
+            !(goes_on ||
+              (tam_missing(t) > 0 && tam_missing(t) > 0.5 * tam_expected(t, t->level, whole_length(t, index))))) {
             q->items[left++] = q->items[i];
             continue;
         }
@@ -149,26 +155,35 @@ static bool fill_drawn(tam *t, queue *q)
     return true;
 }
 
-/* --- all of it ---------------------------------------------------------------------------------------------------- */
+/* --- all of it ------------------------------------------------------------------------------------------ */
 
 static lmn_status check(const tam_options *w, lmn_error *error)
 {
     if (w->side < SIDE_LEAST || w->side > SIDE_MOST || (w->side & (w->side - 1)))
-        return error_set(error, LMN_USAGE, "a tonal art map of %d texels a side; allowed are powers of two from %d to %d", w->side, SIDE_LEAST, SIDE_MOST);
+        return error_set(error, LMN_USAGE,
+                         "a tonal art map of %d texels a side; allowed are powers of two from %d to %d", w->side,
+                         SIDE_LEAST, SIDE_MOST);
     if (w->tones < TONES_LEAST || w->tones > TONES_MOST)
-        return error_set(error, LMN_USAGE, "a tonal art map of %d tones; allowed are %d to %d", w->tones, TONES_LEAST, TONES_MOST);
+        return error_set(error, LMN_USAGE, "a tonal art map of %d tones; allowed are %d to %d", w->tones, TONES_LEAST,
+                         TONES_MOST);
     if (!(w->darkest >= 0.05 && w->darkest <= 0.98))
-        return error_set(error, LMN_USAGE, "the darkest tone of a tonal art map is %g; allowed are 0.05 to 0.98", w->darkest);
+        return error_set(error, LMN_USAGE, "the darkest tone of a tonal art map is %g; allowed are 0.05 to 0.98",
+                         w->darkest);
     if (!(w->width >= 0.5 && w->width <= w->side / 4.0))
-        return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g texels wide; allowed are 0.5 to a quarter of the side", w->width);
+        return error_set(error, LMN_USAGE,
+                         "strokes of a tonal art map are %g texels wide; allowed are 0.5 to a quarter of the side",
+                         w->width);
     if (!w->drawn && !(w->length >= 0.05 && w->length <= 1))
         return error_set(error, LMN_USAGE, "strokes of a tonal art map are %g long; allowed are 0.05 to 1", w->length);
     if (!(w->opacity >= 0.1 && w->opacity <= 1))
-        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the opacity %g; allowed are 0.1 to 1", w->opacity);
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the opacity %g; allowed are 0.1 to 1",
+                         w->opacity);
     if (!(w->grain >= 0 && w->grain <= 1))
-        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the grain %g; allowed are 0 to 1", w->grain);
+        return error_set(error, LMN_USAGE, "strokes of a tonal art map have the grain %g; allowed are 0 to 1",
+                         w->grain);
     if (!(w->uneven >= 0 && w->uneven <= 1) || (int)w->placement < 0 || w->placement >= TAM_PLACEMENT_COUNT)
-        return error_set(error, LMN_USAGE, "a tonal art map cannot be uneven by %g, or placed by method %d", (double)w->uneven, (int)w->placement);
+        return error_set(error, LMN_USAGE, "a tonal art map cannot be uneven by %g, or placed by method %d",
+                         (double)w->uneven, (int)w->placement);
     return LMN_OK;
 }
 
@@ -192,7 +207,11 @@ stroke_brush tonal_art_map_brush(const tam_options *w)
 
 static bool tam_begin(tam *t, const tam_options *w, strokes *kept)
 {
-    *t = (tam){.options = w, .brush = tonal_art_map_brush(w), .opacity = (float)w->opacity, .kept = kept, .random = random_start(w->seed, STREAM)};
+    *t = (tam){.options = w,
+               .brush = tonal_art_map_brush(w),
+               .opacity = (float)w->opacity,
+               .kept = kept,
+               .random = random_start(w->seed, STREAM)};
     /* Ink covers paper; graphite leaves some of it even where many strokes lie. */
     t->limit = w->opacity < 1 ? (float)(0.5 + 0.5 * w->darkest) : 1;
     bool enough = true;

@@ -18,16 +18,16 @@ typedef struct tam_level {
 
 typedef struct tam {
     const tam_options *options;
-    stroke_brush      brush;
-    float             limit, opacity; /* of ink; share of what is left of it that one stroke takes */
-    tam_level         levels[MIP_LEVELS_MAX];
-    int               level_count; /* with strokes */
-    random_source     random;
-    strokes          *kept; /* or NULL */
-    double            drawn_length[TAM_DIRECTIONS]; /* of all strokes of a direction */
-    float            *crowding; /* by distance, CROWD_STEPS a texel */
-    size_t            crowding_count;
-    int               tone, level; /* being filled */
+    stroke_brush       brush;
+    float              limit, opacity; /* of ink; share of what is left of it that one stroke takes */
+    tam_level          levels[MIP_LEVELS_MAX];
+    int                level_count; /* with strokes */
+    random_source      random;
+    strokes           *kept;                         /* or NULL */
+    double             drawn_length[TAM_DIRECTIONS]; /* of all strokes of a direction */
+    float             *crowding;                     /* by distance, CROWD_STEPS a texel */
+    size_t             crowding_count;
+    int                tone, level; /* being filled */
 } tam;
 
 double tam_target(const tam_options *w, int tone);

@@ -9,13 +9,13 @@
 #include "base/memory.h"
 #include "base/work.h"
 
-/* --- paths --------------------------------------------------------------------------------------------------------------------- */
+/* --- paths ---------------------------------------------------------------------------------------------- */
 
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    size_t length = !slash ? 1 : slash == path ? 1 : (size_t)(slash - path);
-    char *folder = mem_copy(slash ? path : ".", length + 1);
+    size_t      length = !slash ? 1 : slash == path ? 1 : (size_t)(slash - path);
+    char       *folder = mem_copy(slash ? path : ".", length + 1);
     if (folder)
         folder[length] = '\0';
     return folder;
@@ -30,7 +30,7 @@ static char *resolve(const char *path)
         free(real);
         return own;
     }
-    char *folder = folder_of(path), *above = NULL;
+    char       *folder = folder_of(path), *above = NULL;
     const char *slash = strrchr(path, '/'), *last = slash ? slash + 1 : path;
     if (folder && strcmp(folder, path) != 0)
         above = resolve(folder);
@@ -56,7 +56,8 @@ static char *resolve(const char *path)
 static bool lies_in(const char *path, const char *folder)
 {
     size_t length = strlen(folder);
-    return strncmp(path, folder, length) == 0 && (path[length] == '/' || path[length] == '\0' || strcmp(folder, "/") == 0);
+    return strncmp(path, folder, length) == 0 &&
+           (path[length] == '/' || path[length] == '\0' || strcmp(folder, "/") == 0);
 }
 
 /* Is something hidden on the way from the folder to the path in it? The folder itself is not. */
@@ -65,7 +66,7 @@ static bool has_hidden_part(const char *path, const char *folder)
     return strstr(path + strlen(folder), "/.") != NULL;
 }
 
-/* --- what is allowed ------------------------------------------------------------------------------------------------------------ */
+/* --- what is allowed ------------------------------------------------------------------------------------ */
 
 typedef enum verdict { ALLOWED, REFUSED, NO_MEMORY } verdict;
 
@@ -81,15 +82,16 @@ static verdict lies_in_allowed(const char *path, const lmn_task_desc *conditions
     return found;
 }
 
-/* In the model's folder; or in the one above it, where that is not the root of the file system, and what is reached is not hidden: programs
- * keep keys in such places. */
+/* In the model's folder; or in the one above it, where that is not the root of the file system, and what is reached
+ * is not hidden: programs keep keys in such places. */
 static verdict lies_near(const char *path, const char *model, lmn_file_access access)
 {
-    char *own = folder_of(model), *folder = own ? resolve(own) : NULL, *above = folder ? folder_of(folder) : NULL;
+    char   *own = folder_of(model), *folder = own ? resolve(own) : NULL, *above = folder ? folder_of(folder) : NULL;
     verdict near = above ? REFUSED : NO_MEMORY;
     if (above && strcmp(folder, "/") != 0 && lies_in(path, folder))
         near = ALLOWED;
-    else if (above && access == LMN_FILES_NEAR && strcmp(above, "/") != 0 && lies_in(path, above) && !has_hidden_part(path, above))
+    else if (above && access == LMN_FILES_NEAR && strcmp(above, "/") != 0 && lies_in(path, above) &&
+             !has_hidden_part(path, above))
         near = ALLOWED;
     mem_free(own);
     mem_free(folder);
@@ -99,8 +101,10 @@ static verdict lies_near(const char *path, const char *model, lmn_file_access ac
 
 static lmn_status refuse(lmn_error *error, const char *what, const char *path, bool folder_alone)
 {
-    error_set(error, LMN_READ, "the %s \"%.300s\" lies outside of the folders that a model may name files in", what, path);
-    error_hint(error, "allowed are the model's folder%s; --allow-path DIR adds a folder, --allow-any allows all", folder_alone ? "" : " and the one above it");
+    error_set(error, LMN_READ, "the %s \"%.300s\" lies outside of the folders that a model may name files in", what,
+              path);
+    error_hint(error, "allowed are the model's folder%s; --allow-path DIR adds a folder, --allow-any allows all",
+               folder_alone ? "" : " and the one above it");
     return LMN_READ;
 }
 
@@ -113,30 +117,33 @@ static bool reads_itself(void)
 lmn_status access_check(const import_job *job, const char *what, const char *path, lmn_error *error)
 {
     const lmn_task_desc *conditions = work_conditions();
-    lmn_file_access access = conditions ? conditions->files : LMN_FILES_NEAR;
+    lmn_file_access      access = conditions ? conditions->files : LMN_FILES_NEAR;
     if (reads_itself() || access == LMN_FILES_ANY)
         return LMN_OK;
     /* No system opens it, and resolving it would take long. */
     if (strlen(path) >= PATH_MAX)
-        return error_set(error, LMN_READ, "the path of the %s has %zu bytes, more than a path can have", what, strlen(path));
+        return error_set(error, LMN_READ, "the path of the %s has %zu bytes, more than a path can have", what,
+                         strlen(path));
     char *resolved = resolve(path);
     if (!resolved)
         return error_memory(error);
     const char *model = job->model ? job->model : job->path;
-    verdict found = lies_in_allowed(resolved, conditions);
+    verdict     found = lies_in_allowed(resolved, conditions);
     if (found == REFUSED)
         found = lies_near(resolved, model, access);
     mem_free(resolved);
-    return found == ALLOWED ? LMN_OK : found == NO_MEMORY ? error_memory(error) : refuse(error, what, path, access == LMN_FILES_FOLDER);
+    return found == ALLOWED     ? LMN_OK
+           : found == NO_MEMORY ? error_memory(error)
+                                : refuse(error, what, path, access == LMN_FILES_FOLDER);
 }
 
-/* --- reading ---------------------------------------------------------------------------------------------------------------------- */
+/* --- reading -------------------------------------------------------------------------------------------- */
 
 static lmn_status read_by_callback(const char *what, const char *path, file_data *out, lmn_error *error)
 {
     const lmn_task_desc *conditions = work_conditions();
-    void *bytes = NULL;
-    size_t size = 0;
+    void                *bytes = NULL;
+    size_t               size = 0;
     if (!conditions->read_file(path, what, &bytes, &size, conditions->read_user) || !bytes)
         return error_in_file(error, LMN_READ, path, 0, "the host program gives no such file");
     /* Readers rely on the NUL byte behind a file. */
@@ -150,7 +157,8 @@ static lmn_status read_by_callback(const char *what, const char *path, file_data
     return LMN_OK;
 }
 
-lmn_status access_read(const import_job *job, const char *what, const char *path, file_data *out, bool *refused, lmn_error *error)
+lmn_status access_read(const import_job *job, const char *what, const char *path, file_data *out, bool *refused,
+                       lmn_error *error)
 {
     *out = (file_data){0};
     lmn_status status = job ? access_check(job, what, path, error) : LMN_OK;

@@ -1,5 +1,5 @@
-/* Formats that are not read here: assimp does, behind the fence, because it reads out of bounds on some damaged files and takes all memory on
- * others. */
+/* Formats that are not read here: assimp does, behind the fence, because it reads out of bounds on some damaged
+ * files and takes all memory on others. */
 #include <string.h>
 
 #include "base/error.h"
@@ -22,12 +22,13 @@ static lmn_status warn_of_others(const import_job *job, fence_reader *r, lmn_err
 {
     for (uint32_t i = 0, count = fence_take_u32(r); i < count && !r->ended; i++) {
         char *raw = fence_take_text(r), *name = raw ? scene_clean_name(raw, strlen(raw)) : NULL;
-        bool there = name && build_has_file(job, name);
+        bool  there = name && build_has_file(job, name);
         mem_free(raw);
         if (!name)
             return error_memory(error);
         if (there)
-            warnings_add(&job->scene->warnings, WARNING_IGNORED, "the file \"%s\" beside the model is not read in this format", name);
+            warnings_add(&job->scene->warnings, WARNING_IGNORED,
+                         "the file \"%s\" beside the model is not read in this format", name);
         mem_free(name);
     }
     return LMN_OK;

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "import/assimp_stream.h"
 
-/* --- files as assimp wants them ----------------------------------------------------------------------------------------------- */
+/* --- files as assimp wants them ------------------------------------------------------------------------- */
 
 enum { OTHERS_MAX = 16 };
 
@@ -36,7 +36,7 @@ static open_file *opened(struct aiFile *f)
 static size_t read_file(struct aiFile *f, char *out, size_t size, size_t count)
 {
     open_file *o = opened(f);
-    size_t left = size ? (o->model->size - o->at) / size : 0, taken = count < left ? count : left;
+    size_t     left = size ? (o->model->size - o->at) / size : 0, taken = count < left ? count : left;
     if (taken)
         memcpy(out, o->model->bytes + o->at, taken * size);
     o->at += taken * size;
@@ -62,7 +62,11 @@ static size_t size_file(struct aiFile *f)
 static enum aiReturn seek_file(struct aiFile *f, size_t offset, enum aiOrigin origin)
 {
     open_file *o = opened(f);
-    size_t size = o->model->size, from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? o->at : size, to = from + offset;
+    size_t     size = o->model->size,
+           from = origin == aiOrigin_SET   ? 0
+                  : origin == aiOrigin_CUR ? o->at
+                                           : size,
+           to = from + offset;
     if (to > size)
         return aiReturn_FAILURE;
     o->at = to;
@@ -95,8 +99,13 @@ static struct aiFile *open_named(struct aiFileIO *io, const char *name, const ch
     if (!o)
         return NULL;
     o->model = m;
-    o->interface = (struct aiFile){.ReadProc = read_file, .WriteProc = write_file, .TellProc = tell_file, .FileSizeProc = size_file, .SeekProc = seek_file,
-                                   .FlushProc = flush_file, .UserData = (aiUserData)o};
+    o->interface = (struct aiFile){.ReadProc = read_file,
+                                   .WriteProc = write_file,
+                                   .TellProc = tell_file,
+                                   .FileSizeProc = size_file,
+                                   .SeekProc = seek_file,
+                                   .FlushProc = flush_file,
+                                   .UserData = (aiUserData)o};
     return &o->interface;
 }
 
@@ -106,7 +115,7 @@ static void close_file(struct aiFileIO *io, struct aiFile *f)
     mem_free(opened(f));
 }
 
-/* --- the model as a stream -------------------------------------------------------------------------------------------------------- */
+/* --- the model as a stream ------------------------------------------------------------------------------ */
 
 static void put(fence_bytes *w, const void *bytes, size_t size)
 {
@@ -142,7 +151,7 @@ static float material_float(const struct aiMaterial *m, const char *key, unsigne
 
 static void put_material(fence_bytes *w, const struct aiMaterial *m)
 {
-    struct aiString name = {0}, texture = {0};
+    struct aiString  name = {0}, texture = {0};
     struct aiColor4D diffuse = {1, 1, 1, 1}, emissive = {0, 0, 0, 1};
     aiGetMaterialString(m, AI_MATKEY_NAME, &name);
     if (aiGetMaterialColor(m, AI_MATKEY_COLOR_DIFFUSE, &diffuse) != aiReturn_SUCCESS)
@@ -209,10 +218,10 @@ static uint32_t count_nodes(const struct aiNode *n)
 
 static void put_node(fence_bytes *w, const struct aiNode *n, uint32_t parent, uint32_t *next)
 {
-    uint32_t own = (*next)++;
+    uint32_t                  own = (*next)++;
     const struct aiMatrix4x4 *t = &n->mTransformation;
-    const float columns[16] = {t->a1, t->b1, t->c1, t->d1, t->a2, t->b2, t->c2, t->d2,
-                               t->a3, t->b3, t->c3, t->d3, t->a4, t->b4, t->c4, t->d4};
+    const float               columns[16] = {t->a1, t->b1, t->c1, t->d1, t->a2, t->b2, t->c2, t->d2,
+                                             t->a3, t->b3, t->c3, t->d3, t->a4, t->b4, t->c4, t->d4};
     put_u32(w, parent);
     put_string(w, &n->mName);
     put(w, columns, sizeof columns);
@@ -248,11 +257,11 @@ static void put_scene(fence_bytes *w, const struct aiScene *s)
 lmn_status assimp_read(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(request, size);
-    char *name = fence_take_text(&r);
+    char        *name = fence_take_text(&r);
     if (!name)
         return error_memory(error);
-    model_file model = {.name = name, .bytes = r.at, .size = (size_t)(r.end - r.at)};
-    struct aiFileIO io = {.OpenProc = open_named, .CloseProc = close_file, .UserData = (aiUserData)&model};
+    model_file            model = {.name = name, .bytes = r.at, .size = (size_t)(r.end - r.at)};
+    struct aiFileIO       io = {.OpenProc = open_named, .CloseProc = close_file, .UserData = (aiUserData)&model};
     const struct aiScene *s = aiImportFileEx(name, aiProcess_Triangulate, &io);
     put_u32(answer, model.other_count);
     for (uint32_t i = 0; i < model.other_count; i++) {

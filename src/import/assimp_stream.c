@@ -25,7 +25,7 @@ typedef struct stream {
     uint32_t            *uses;
     uint32_t             mesh_count, material_count;
     int32_t             *materials; /* the child's → the scene's; INVENTED: assimp's own, made when a mesh uses it */
-    int32_t             *images; /* of embedded pictures, NONE when they cannot be had */
+    int32_t             *images;    /* of embedded pictures, NONE when they cannot be had */
     uint32_t             image_count;
     size_t               vertices, triangles;
 } stream;
@@ -58,7 +58,7 @@ static const unsigned char *take(stream *s, size_t size)
 
 static uint32_t take_u32(stream *s)
 {
-    uint32_t value = 0;
+    uint32_t             value = 0;
     const unsigned char *from = take(s, sizeof value);
     if (from)
         memcpy(&value, from, sizeof value);
@@ -77,7 +77,7 @@ static uint32_t take_count(stream *s, size_t smallest)
 /* NULL for an empty text or after an error. */
 static char *take_text(stream *s)
 {
-    uint32_t size = take_count(s, 1);
+    uint32_t             size = take_count(s, 1);
     const unsigned char *from = take(s, size);
     if (!from || size == 0)
         return NULL;
@@ -89,15 +89,15 @@ static char *take_text(stream *s)
 
 static void *take_array(stream *s, size_t count, size_t size)
 {
-    size_t bytes;
+    size_t               bytes;
     const unsigned char *from = size_mul(count, size, &bytes) ? take(s, bytes) : NULL;
-    void *copy = from ? mem_copy(from, bytes) : NULL;
+    void                *copy = from ? mem_copy(from, bytes) : NULL;
     if (!copy)
         from ? out_of_memory(s) : broken(s);
     return copy;
 }
 
-/* --- materials ---------------------------------------------------------------------------------------------------- */
+/* --- materials ------------------------------------------------------------------------------------------ */
 
 static int32_t embedded_image(stream *s, const char *name)
 {
@@ -138,11 +138,11 @@ static float unit(float value)
 
 static void read_material(stream *s, uint32_t index)
 {
-    float v[MATERIAL_FLOATS];
-    char *name = take_text(s);
+    float                v[MATERIAL_FLOATS];
+    char                *name = take_text(s);
     const unsigned char *from = take(s, sizeof v);
-    char *texture = take_text(s);
-    bool invented = name && strcmp(name, "DefaultMaterial") == 0; /* the file has none */
+    char                *texture = take_text(s);
+    bool                 invented = name && strcmp(name, "DefaultMaterial") == 0; /* the file has none */
     if (s->status == LMN_OK && invented) {
         s->materials[index] = INVENTED;
         mem_free(name);
@@ -191,8 +191,8 @@ static void read_pictures(stream *s)
     for (uint32_t i = 0; i < s->image_count; i++)
         s->images[i] = NONE;
     for (uint32_t i = 0; i < s->image_count && s->status == LMN_OK; i++) {
-        char name[32];
-        uint32_t size = take_count(s, 1);
+        char                 name[32];
+        uint32_t             size = take_count(s, 1);
         const unsigned char *bytes = take(s, size);
         snprintf(name, sizeof name, "embedded %u", (unsigned)i);
         if (bytes && size > 0)
@@ -218,7 +218,7 @@ static void read_materials(stream *s)
         s->at = behind;
 }
 
-/* --- meshes ------------------------------------------------------------------------------------------------------- */
+/* --- meshes --------------------------------------------------------------------------------------------- */
 
 static bool same_bytes(const void *array, size_t element, uint32_t a, uint32_t b)
 {
@@ -232,13 +232,13 @@ static bool same_vertex(const primitive *p, uint32_t a, uint32_t b)
            same_bytes(p->uvs[1], sizeof *p->uvs[1], a, b) && same_bytes(p->colours, sizeof *p->colours, a, b);
 }
 
-/* Gives back the sharing that assimp takes away: corners that agree in all the file says become one vertex. The unused ones
- * are dropped when the scene is finished. */
+/* Gives back the sharing that assimp takes away: corners that agree in all the file says become one vertex. The
+ * unused ones are dropped when the scene is finished. */
 static bool share_vertices(stream *s, primitive *p)
 {
     uint32_t *ids = mesh_position_ids(p);
     uint32_t *next = mem_alloc((size_t)p->vertex_count * sizeof *next);
-    bool good = ids && next;
+    bool      good = ids && next;
     for (uint32_t v = 0; good && v < p->vertex_count; v++) {
         uint32_t other = ids[v], last = v;
         next[v] = UINT32_MAX;
@@ -353,7 +353,7 @@ static void read_meshes(stream *s)
         read_mesh(s, i);
 }
 
-/* --- nodes -------------------------------------------------------------------------------------------------------- */
+/* --- nodes ---------------------------------------------------------------------------------------------- */
 
 static bool copy_primitive(primitive *out, const primitive *p)
 {
@@ -375,7 +375,7 @@ static bool copy_primitive(primitive *out, const primitive *p)
 /* A scene's mesh of the child's meshes `list`; the last use of each takes it over, earlier ones copy. */
 static int32_t make_mesh(stream *s, const uint32_t *list, uint32_t count)
 {
-    mesh *m = scene_append_mesh(s->job->scene);
+    mesh      *m = scene_append_mesh(s->job->scene);
     primitive *primitives = mem_calloc(count, sizeof *primitives);
     if (!m || !primitives) {
         mem_free(primitives);
@@ -392,7 +392,8 @@ static int32_t make_mesh(stream *s, const uint32_t *list, uint32_t count)
         } else {
             s->vertices += from->vertex_count;
             if (s->vertices > 3 * LIMIT_VERTICES) {
-                s->status = error_in_file(s->error, LMN_LIMIT, s->job->path, 0, "more than %zu vertices", LIMIT_VERTICES);
+                s->status =
+                    error_in_file(s->error, LMN_LIMIT, s->job->path, 0, "more than %zu vertices", LIMIT_VERTICES);
                 m->primitive_count--;
                 return NONE;
             }
@@ -451,7 +452,7 @@ static void count_uses(stream *s, uint32_t count)
 static void read_node(stream *s, uint32_t index)
 {
     node_record record;
-    float matrix[16];
+    float       matrix[16];
     if (!take_node(s, index, &record)) {
         mem_free(record.name);
         return;
@@ -497,14 +498,14 @@ static void read_nodes(stream *s)
         read_node(s, i);
 }
 
-/* --- the whole ---------------------------------------------------------------------------------------------------- */
+/* --- the whole ------------------------------------------------------------------------------------------ */
 
 static void read_error(stream *s)
 {
     char *message = take_text(s);
     if (s->status == LMN_OK && message && strstr(message, "bad_alloc")) {
-        s->status = error_in_file(s->error, LMN_LIMIT, s->job->path, 0, "reading the file takes more than %zu GiB of memory",
-                                  LIMIT_IMPORT_MEMORY >> 30);
+        s->status = error_in_file(s->error, LMN_LIMIT, s->job->path, 0,
+                                  "reading the file takes more than %zu GiB of memory", LIMIT_IMPORT_MEMORY >> 30);
         error_hint(s->error, "its header promises too much, or the model must be simplified");
     } else if (s->status == LMN_OK) {
         s->status = error_in_file(s->error, LMN_FORMAT, s->job->path, 0, "%.300s",
@@ -516,7 +517,7 @@ static void read_error(stream *s)
 
 lmn_status assimp_stream_read(const import_job *job, const unsigned char *bytes, size_t size, lmn_error *error)
 {
-    stream s = {.job = job, .at = bytes, .end = bytes + size, .error = error};
+    stream               s = {.job = job, .at = bytes, .end = bytes + size, .error = error};
     const unsigned char *kind = take(&s, 1);
     if (kind && *kind == STREAM_ERROR) {
         read_error(&s);

@@ -1,6 +1,6 @@
 /* Inside the import folder: how assimp, behind the fence, hands a model over. Numbers are in the machine's order,
- * texts are a length and bytes; the reader trusts nothing. Order: 'M' or ('E' text) · animation count · materials · embedded
- * pictures · meshes · nodes (parents first) · 'Z'. */
+ * texts are a length and bytes; the reader trusts nothing. Order: 'M' or ('E' text) · animation count · materials ·
+ * embedded pictures · meshes · nodes (parents first) · 'Z'. */
 #ifndef LIMNER_IMPORT_ASSIMP_STREAM_H
 #define LIMNER_IMPORT_ASSIMP_STREAM_H
 
@@ -10,7 +10,8 @@
 enum { STREAM_MODEL = 'M', STREAM_ERROR = 'E', STREAM_END = 'Z' };
 enum { STREAM_NORMALS = 1, STREAM_UV0 = 2, STREAM_UV1 = 4, STREAM_COLOURS = 8 };
 
-/* Behind the fence. Request: the file's name, then its bytes. Answer: how many and which other files assimp asked for, then the model. */
+/* Behind the fence. Request: the file's name, then its bytes. Answer: how many and which other files assimp asked
+ * for, then the model. */
 lmn_status assimp_read(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error);
 
 /* Before it: checks the bytes and fills the scene. */

@@ -66,8 +66,8 @@ lmn_status build_side_file(const import_job *job, const char *what, const char *
     char *path = file_beside(job->path, name);
     if (!path)
         return error_memory(error);
-    lmn_error problem = {0};
-    bool refused;
+    lmn_error  problem = {0};
+    bool       refused;
     lmn_status status = access_read(job, what, path, out, &refused, &problem);
     mem_free(path);
     if (status == LMN_MEMORY)
@@ -82,7 +82,7 @@ lmn_status build_side_file(const import_job *job, const char *what, const char *
 bool build_has_file(const import_job *job, const char *name)
 {
     char *path = file_beside(job->path, name);
-    bool there = path && access_has(job, path);
+    bool  there = path && access_has(job, path);
     mem_free(path);
     return there;
 }

@@ -25,7 +25,7 @@ static lmn_status evaluate(csg_reader *r, int32_t *shape)
     return r->tree.nodes[root].dimension == 2 ? csg_plate_of(r, root, shape) : csg_shape_of(r, root, shape);
 }
 
-/* --- into the scene ---------------------------------------------------------------------------------------------------- */
+/* --- into the scene ------------------------------------------------------------------------------------- */
 
 typedef struct emission {
     csg_reader *reader;
@@ -37,8 +37,8 @@ static lmn_status set_mesh(emission *e, int32_t target, int32_t index)
 {
     csg_mesh *m = &e->reader->meshes[index];
     if (++e->operands > SOLID_OPERANDS_MAX)
-        return error_in_file(e->reader->error, LMN_LIMIT, e->reader->job->path, 0, "the model has more than %d operands",
-                             SOLID_OPERANDS_MAX);
+        return error_in_file(e->reader->error, LMN_LIMIT, e->reader->job->path, 0,
+                             "the model has more than %d operands", SOLID_OPERANDS_MAX);
     if (m->scene_mesh == NONE)
         m->scene_mesh = polyhedron_into_scene(e->reader->job->scene, &m->polyhedron);
     e->solid->nodes[target].mesh = m->scene_mesh;
@@ -50,9 +50,9 @@ static lmn_status emit(emission *e, int32_t parent, int32_t shape);
 /* Gives a node of the solid what the shape has, children too. */
 static lmn_status fill(emission *e, int32_t target, int32_t shape)
 {
-    csg_reader *r = e->reader;
+    csg_reader      *r = e->reader;
     const csg_shape *s = &r->shapes[shape];
-    solid_node *n = &e->solid->nodes[target];
+    solid_node      *n = &e->solid->nodes[target];
     n->matrix = s->matrix;
     n->has_colour = s->has_colour;
     n->colour = s->colour;
@@ -72,17 +72,18 @@ static lmn_status emit(emission *e, int32_t parent, int32_t shape)
     return index == NONE ? error_memory(e->reader->error) : fill(e, index, shape);
 }
 
-/* The root is a union, that of the shape or one around it. What it takes away is kept beside it, for looks that show that. */
+/* The root is a union, that of the shape or one around it. What it takes away is kept beside it, for looks that
+ * show that. */
 static lmn_status fill_scene(csg_reader *r, int32_t shape)
 {
     lmn_scene *scene = r->job->scene;
-    int32_t index = (int32_t)scene->node_count;
-    node *n = scene_append_node(scene);
-    solid *s = scene_append_solid(scene, SOLID_UNION);
+    int32_t    index = (int32_t)scene->node_count;
+    node      *n = scene_append_node(scene);
+    solid     *s = scene_append_solid(scene, SOLID_UNION);
     if (!n || !s)
         return error_memory(r->error);
     n->solid = (int32_t)scene->solid_count - 1;
-    emission e = {.reader = r, .solid = s};
+    emission   e = {.reader = r, .solid = s};
     lmn_status status = r->shapes[shape].kind == SOLID_UNION ? fill(&e, 0, shape) : emit(&e, 0, shape);
     return status != LMN_OK || scene_append_removed(scene, index) ? status : error_memory(r->error);
 }
@@ -100,9 +101,9 @@ static void release_reader(csg_reader *r)
 /* A file may be whole and draw nothing: what is in it may all be background or echo() alone. */
 lmn_status csg_read(const import_job *job, bool evaluated, lmn_error *error)
 {
-    lmn_error own = {0};
+    lmn_error  own = {0};
     csg_reader r = {.job = job, .evaluated = evaluated, .error = &own};
-    int32_t shape = NONE;
+    int32_t    shape = NONE;
     job->scene->may_be_empty = true;
     lmn_status status = csg_parse(&r.tree, job, &own);
     if (status == LMN_OK) {

@@ -1,5 +1,5 @@
-/* Inside the import folder: the meaning of .csg files. Solids become trees of set operations ("shapes" until the whole is known), what
- * lies in the plane is computed at once; leaves that say the same share a mesh. */
+/* Inside the import folder: the meaning of .csg files. Solids become trees of set operations ("shapes" until the
+ * whole is known), what lies in the plane is computed at once; leaves that say the same share a mesh. */
 #ifndef LIMNER_IMPORT_CSG_H
 #define LIMNER_IMPORT_CSG_H
 
@@ -39,9 +39,9 @@ typedef struct csg_reader {
     size_t            slot_count;
     csg_shape        *shapes;
     size_t            shape_count, shape_capacity;
-    bool              absent; /* set by a reader of files that finds nothing to read */
+    bool              absent;  /* set by a reader of files that finds nothing to read */
     bool              refused; /* the model may not have the file that it names */
-    lmn_error        *error;  /* never NULL */
+    lmn_error        *error;   /* never NULL */
 } csg_reader;
 
 /* What a word of the file means; of mesh, region and shape those that it can be. */
@@ -51,22 +51,23 @@ typedef struct csg_meaning {
     lmn_status (*mesh)(csg_reader *r, int32_t node, polyhedron *out);
     lmn_status (*region)(csg_reader *r, int32_t node, region *out);
     lmn_status (*shape)(csg_reader *r, int32_t node, int32_t *shape);
-    bool        groups; /* only puts together what is below it */
+    bool groups; /* only puts together what is below it */
 } csg_meaning;
 
-/* --- csg.c ---------------------------------------------------------------------------------------------------------------- */
+/* --- csg.c ---------------------------------------------------------------------------------------------- */
 
 /* Reads the job's bytes as .csg. */
 lmn_status csg_read(const import_job *job, bool evaluated, lmn_error *error);
 
-/* --- csg_nodes.c: words, children, shapes, the cache of leaves --------------------------------------------------------- */
+/* --- csg_nodes.c: words, children, shapes, the cache of leaves ------------------------------------------ */
 
 const csg_meaning *csg_meaning_of(const csg_reader *r, int32_t node); /* NULL: unknown */
 /* Sets the dimension of all nodes and warns of those that are left out. */
 void csg_set_dimensions(csg_reader *r);
 /* The child after this one (NONE: the first) that counts: neither % nor *. NONE at the end. */
 int32_t csg_child(const csg_reader *r, int32_t parent, int32_t previous);
-void    csg_warn(csg_reader *r, int32_t node, warning_code code, const char *format, ...) __attribute__((format(printf, 4, 5)));
+void    csg_warn(csg_reader *r, int32_t node, warning_code code, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 /* What cannot be made is left out with a warning; limits, memory and cancelling end the reading. */
 lmn_status csg_tolerate(csg_reader *r, int32_t node, lmn_status status);
 /* Makes the shape of a solid node: an index, NONE or CSG_ABSENT. */
@@ -80,7 +81,7 @@ void       csg_append_child(csg_reader *r, int32_t parent, int32_t child);
 /* Takes over what the polyhedron holds, also when it fails. */
 lmn_status csg_append_mesh(csg_reader *r, polyhedron *p, int32_t *mesh);
 
-/* --- csg_leaves.c ------------------------------------------------------------------------------------------------------ */
+/* --- csg_leaves.c --------------------------------------------------------------------------------------- */
 
 facets     csg_facets(const csg_reader *r, int32_t node);
 lmn_status csg_cube(csg_reader *r, int32_t node, polyhedron *out);
@@ -99,7 +100,7 @@ typedef struct csg_paths {
 lmn_status csg_read_paths(csg_reader *r, int32_t value, size_t point_count, csg_paths *out);
 void       csg_paths_release(csg_paths *p);
 
-/* --- csg_operations.c -------------------------------------------------------------------------------------------------- */
+/* --- csg_operations.c ----------------------------------------------------------------------------------- */
 
 lmn_status csg_union(csg_reader *r, int32_t node, int32_t *shape);
 lmn_status csg_difference(csg_reader *r, int32_t node, int32_t *shape);
@@ -115,12 +116,12 @@ bool csg_read_matrix(csg_reader *r, int32_t node, int dimensions, mat4 *out);
 /* False when the node names none. */
 bool csg_read_colour(const csg_reader *r, int32_t node, vec4 *out);
 
-/* --- csg_minkowski.c, csg_projection.c --------------------------------------------------------------------------------- */
+/* --- csg_minkowski.c, csg_projection.c ------------------------------------------------------------------ */
 
 lmn_status csg_minkowski(csg_reader *r, int32_t node, int32_t *shape);
 lmn_status csg_projection(csg_reader *r, int32_t node, region *out);
 
-/* --- csg_regions.c ----------------------------------------------------------------------------------------------------- */
+/* --- csg_regions.c -------------------------------------------------------------------------------------- */
 
 lmn_status csg_region_of(csg_reader *r, int32_t node, region *out, bool *absent);
 /* All figures below a node, united. */
@@ -138,7 +139,7 @@ lmn_status csg_region_hull(csg_reader *r, int32_t node, region *out);
 lmn_status csg_region_minkowski(csg_reader *r, int32_t node, region *out);
 lmn_status csg_region_resize(csg_reader *r, int32_t node, region *out);
 
-/* --- csg_files.c, csg_dxf.c -------------------------------------------------------------------------------------------- */
+/* --- csg_files.c, csg_dxf.c ----------------------------------------------------------------------------- */
 
 /* 2 for drawings, 3 for meshes, 0 when the ending says neither. */
 int        csg_file_dimension(const csg_reader *r, int32_t node);

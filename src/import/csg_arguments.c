@@ -7,8 +7,8 @@
 int32_t csg_argument_value(const csg_tree *t, int32_t node, const char *name, int position)
 {
     const csg_node *n = &t->nodes[node];
-    int32_t found = NONE;
-    int unnamed = 0;
+    int32_t         found = NONE;
+    int             unnamed = 0;
     for (int32_t i = n->first_argument; i < n->first_argument + n->argument_count; i++) {
         const csg_argument *a = &t->arguments[i];
         if (a->name != 0 ? strcmp(t->text + a->name, name) == 0 : unnamed++ == position)
@@ -45,7 +45,8 @@ void csg_vector_numbers(const csg_tree *t, int32_t value, double *out, uint32_t 
             out[i] = t->values[element].as.number;
 }
 
-uint32_t csg_numbers(const csg_tree *t, int32_t node, const char *name, int position, double *out, uint32_t count, bool spread)
+uint32_t csg_numbers(const csg_tree *t, int32_t node, const char *name, int position, double *out, uint32_t count,
+                     bool spread)
 {
     int32_t v = csg_argument_value(t, node, name, position);
     if (v == NONE)

@@ -1,5 +1,5 @@
-/* DXF drawings as OpenSCAD reads them: lines, arcs, circles, ellipses and polylines of one layer (or all), blocks put in place, joined
- * into paths. */
+/* DXF drawings as OpenSCAD reads them: lines, arcs, circles, ellipses and polylines of one layer (or all), blocks
+ * put in place, joined into paths. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,7 +50,7 @@ typedef struct drawing {
     lmn_error         *error;
 } drawing;
 
-/* --- groups ------------------------------------------------------------------------------------------------------------ */
+/* --- groups --------------------------------------------------------------------------------------------- */
 
 static void take_line(drawing *d, char *out, size_t size)
 {
@@ -70,7 +70,7 @@ static void take_line(drawing *d, char *out, size_t size)
 /* A group is a line with its code and one with its value. *more becomes false at the end. */
 static lmn_status take_group(drawing *d, bool *more)
 {
-    char code[32];
+    char      code[32];
     long long number;
     *more = d->at < d->end;
     if (!*more)
@@ -104,55 +104,39 @@ static lmn_status keep_group(drawing *d)
 {
     entity *e = &d->entity;
     switch (d->code) {
-    case 2:
-        copy_name(e->name, d->value);
-        break;
-    case 8:
-        copy_name(e->layer, d->value);
-        break;
+    case 2: copy_name(e->name, d->value); break;
+    case 8: copy_name(e->layer, d->value); break;
     case 10:
         e->x[0] = number_of(d);
         if (!mem_grow((void **)&e->vertices, &e->vertex_capacity, e->vertex_count + 1, sizeof *e->vertices))
             return error_memory(d->error);
         e->vertices[e->vertex_count++] = (point2){e->x[0], 0};
         break;
-    case 11:
-        e->x[1] = number_of(d);
-        break;
+    case 11: e->x[1] = number_of(d); break;
     case 20:
         e->y[0] = number_of(d);
         if (e->vertex_count > 0)
             e->vertices[e->vertex_count - 1].y = e->y[0];
         break;
-    case 21:
-        e->y[1] = number_of(d);
-        break;
-    case 40:
-        e->radius = number_of(d);
-        break;
+    case 21: e->y[1] = number_of(d); break;
+    case 40: e->radius = number_of(d); break;
     case 41:
-    case 42:
-        e->ratio[d->code - 41] = number_of(d);
-        break;
+    case 42: e->ratio[d->code - 41] = number_of(d); break;
     case 50:
-    case 51:
-        e->angles[d->code - 50] = number_of(d);
-        break;
-    case 70:
-        e->flags = (int)number_of(d);
-        break;
-    default:
-        break;
+    case 51: e->angles[d->code - 50] = number_of(d); break;
+    case 70: e->flags = (int)number_of(d); break;
+    default: break;
     }
     return LMN_OK;
 }
 
-/* --- entities ---------------------------------------------------------------------------------------------------------- */
+/* --- entities ------------------------------------------------------------------------------------------- */
 
 static lmn_status add_line(drawing *d, point2 a, point2 b)
 {
-    bool shown = strcmp(d->section, "ENTITIES") == 0 && (!*d->how->layer || strcmp(d->how->layer, d->entity.layer) == 0);
-    bool kept = strcmp(d->section, "BLOCKS") == 0 && d->in_block;
+    bool shown =
+        strcmp(d->section, "ENTITIES") == 0 && (!*d->how->layer || strcmp(d->how->layer, d->entity.layer) == 0);
+    bool       kept = strcmp(d->section, "BLOCKS") == 0 && d->in_block;
     line_list *l = kept ? &d->block_lines : &d->lines;
     if (!shown && !kept)
         return LMN_OK;
@@ -169,10 +153,10 @@ static lmn_status add_line(drawing *d, point2 a, point2 b)
 /* An arc of an ellipse: radii along its axes, which are turned by `turn`; angles in degrees. */
 static lmn_status add_arc(drawing *d, point2 centre, const double radii[2], double turn, double from, double to)
 {
-    int whole = facets_of_circle(fmax(radii[0], radii[1]), d->how->facets);
-    double share = (to - from) / 360;
-    int pieces = (int)ceil(whole * share - 1e-9);
-    point2 last = {0, 0};
+    int        whole = facets_of_circle(fmax(radii[0], radii[1]), d->how->facets);
+    double     share = (to - from) / 360;
+    int        pieces = (int)ceil(whole * share - 1e-9);
+    point2     last = {0, 0};
     lmn_status status = LMN_OK;
     for (int i = 0; i <= pieces && pieces > 0 && status == LMN_OK; i++) {
         double angle = (from + (to - from) * i / pieces) * RADIANS;
@@ -188,7 +172,7 @@ static lmn_status add_arc(drawing *d, point2 centre, const double radii[2], doub
 static lmn_status add_vertices(drawing *d, bool closed)
 {
     const entity *e = &d->entity;
-    lmn_status status = LMN_OK;
+    lmn_status    status = LMN_OK;
     for (size_t i = 1; i < e->vertex_count && status == LMN_OK; i++)
         status = add_line(d, e->vertices[i - 1], e->vertices[i]);
     if (status == LMN_OK && closed && e->vertex_count > 2)
@@ -199,12 +183,12 @@ static lmn_status add_vertices(drawing *d, bool closed)
 static lmn_status add_block(drawing *d)
 {
     const entity *e = &d->entity;
-    const block *found = NULL;
+    const block  *found = NULL;
     for (size_t i = 0; i < d->block_count && !found; i++)
         if (strcmp(d->blocks[i].name, e->name) == 0)
             found = &d->blocks[i];
-    double c = cos(e->angles[0] * RADIANS), s = sin(e->angles[0] * RADIANS);
-    double sx = e->ratio[0] != 0 ? e->ratio[0] : 1, sy = e->ratio[1] != 0 ? e->ratio[1] : 1;
+    double     c = cos(e->angles[0] * RADIANS), s = sin(e->angles[0] * RADIANS);
+    double     sx = e->ratio[0] != 0 ? e->ratio[0] : 1, sy = e->ratio[1] != 0 ? e->ratio[1] : 1;
     lmn_status status = LMN_OK;
     for (size_t i = 0; found && i < found->count && status == LMN_OK; i++) {
         line2 l = d->block_lines.items[found->first + i];
@@ -222,8 +206,8 @@ static lmn_status add_block(drawing *d)
 static lmn_status add_round(drawing *d)
 {
     const entity *e = &d->entity;
-    point2 centre = {e->x[0], e->y[0]};
-    double radii[2] = {e->radius, e->radius}, from = 0, to = 360, turn = 0;
+    point2        centre = {e->x[0], e->y[0]};
+    double        radii[2] = {e->radius, e->radius}, from = 0, to = 360, turn = 0;
     if (strcmp(e->type, "ARC") == 0) {
         from = e->angles[0];
         to = e->angles[1];
@@ -257,7 +241,7 @@ static lmn_status begin_block(drawing *d)
 /* Returns whether the entity's vertices go on with the next one. */
 static lmn_status end_entity(drawing *d, bool *goes_on)
 {
-    entity *e = &d->entity;
+    entity     *e = &d->entity;
     const char *type = e->type;
     *goes_on = false;
     if (strcmp(type, "SECTION") == 0)
@@ -305,8 +289,8 @@ static lmn_status read_groups(drawing *d)
         }
         entity *e = &d->entity;
         point2 *vertices = e->vertices;
-        size_t count = goes_on ? e->vertex_count : 0, capacity = e->vertex_capacity;
-        char layer[NAME_SIZE];
+        size_t  count = goes_on ? e->vertex_count : 0, capacity = e->vertex_capacity;
+        char    layer[NAME_SIZE];
         copy_name(layer, goes_on ? e->layer : "");
         *e = (entity){.vertices = vertices, .vertex_count = count, .vertex_capacity = capacity};
         copy_name(e->type, d->value);
@@ -314,7 +298,7 @@ static lmn_status read_groups(drawing *d)
     }
 }
 
-/* --- paths ------------------------------------------------------------------------------------------------------------- */
+/* --- paths ---------------------------------------------------------------------------------------------- */
 
 /* Ends that lie within JOINS of each other are one point: a hash table of cells as wide. */
 typedef struct joints {
@@ -322,13 +306,13 @@ typedef struct joints {
     size_t    count;
     uint32_t *next, *slots; /* points of a slot are chained */
     size_t    slot_count;
-    uint32_t (*ends)[2];    /* of the lines */
+    uint32_t (*ends)[2]; /* of the lines */
 } joints;
 
 static size_t slot_of(const joints *j, double x, double y)
 {
     /* Cells that no integer counts share a slot. */
-    int64_t column = fabs(x) < 9e18 ? (int64_t)x : 0, row = fabs(y) < 9e18 ? (int64_t)y : 0;
+    int64_t  column = fabs(x) < 9e18 ? (int64_t)x : 0, row = fabs(y) < 9e18 ? (int64_t)y : 0;
     uint64_t h = (uint64_t)column * 0x9E3779B97F4A7C15u ^ (uint64_t)row * 0xC2B2AE3D27D4EB4Fu;
     return (size_t)(h ^ h >> 29) & (j->slot_count - 1);
 }
@@ -342,7 +326,7 @@ static uint32_t joint_at(joints *j, point2 p)
                 if (hypot(j->points[i].x - p.x, j->points[i].y - p.y) <= JOINS)
                     return i;
     uint32_t made = (uint32_t)j->count++;
-    size_t slot = slot_of(j, x, y);
+    size_t   slot = slot_of(j, x, y);
     j->points[made] = p;
     j->next[made] = j->slots[slot];
     j->slots[slot] = made;
@@ -364,7 +348,8 @@ static bool join(joints *j, const line_list *lines, const csg_drawing *how)
     for (size_t i = 0; i < lines->count; i++)
         for (int k = 0; k < 2; k++) {
             point2 p = lines->items[i].ends[k];
-            j->ends[i][k] = joint_at(j, (point2){(p.x - how->origin[0]) * how->scale, (p.y - how->origin[1]) * how->scale});
+            j->ends[i][k] =
+                joint_at(j, (point2){(p.x - how->origin[0]) * how->scale, (p.y - how->origin[1]) * how->scale});
         }
     return true;
 }
@@ -396,11 +381,11 @@ static bool list_lines(incidence *in, const joints *j, size_t line_count)
     return true;
 }
 
-/* Walks from a point along unused lines as far as there are some or until it is back. Returns how many points were written; the last
- * one of an open path is among them, since OpenSCAD closes such paths by a line. */
+/* Walks from a point along unused lines as far as there are some or until it is back. Returns how many points were
+ * written; the last one of an open path is among them, since OpenSCAD closes such paths by a line. */
 static size_t walk(incidence *in, const joints *j, uint32_t start, uint32_t *corners)
 {
-    size_t count = 0;
+    size_t   count = 0;
     uint32_t at = start;
     for (;;) {
         uint32_t line = UINT32_MAX;
@@ -424,16 +409,19 @@ static size_t walk(incidence *in, const joints *j, uint32_t start, uint32_t *cor
 static lmn_status trace(const joints *j, incidence *in, size_t line_count, region *out, lmn_error *error)
 {
     /* An open path has one point more than lines, and there are as many such paths as lines at most. */
-    uint32_t *corners = mem_alloc((2 * line_count + 1) * sizeof *corners), *sizes = mem_alloc((line_count + 1) * sizeof *sizes);
+    uint32_t *corners = mem_alloc((2 * line_count + 1) * sizeof *corners),
+             *sizes = mem_alloc((line_count + 1) * sizeof *sizes);
     size_t corner_count = 0, path_count = 0, count;
     for (int pass = 0; pass < 2 && corners && sizes; pass++)
         for (uint32_t p = 0; p < j->count; p++)
-            while ((pass == 1 || in->first[p + 1] - in->first[p] == 1) && (count = walk(in, j, p, corners + corner_count)) > 0) {
+            while ((pass == 1 || in->first[p + 1] - in->first[p] == 1) &&
+                   (count = walk(in, j, p, corners + corner_count)) > 0) {
                 corner_count += count;
                 sizes[path_count++] = (uint32_t)count;
             }
-    lmn_status status = corners && sizes ? construct_polygon(out, j->points, j->count, corners, sizes, path_count, error)
-                                         : error_memory(error);
+    lmn_status status = corners && sizes
+                            ? construct_polygon(out, j->points, j->count, corners, sizes, path_count, error)
+                            : error_memory(error);
     mem_free(corners);
     mem_free(sizes);
     return status;
@@ -441,8 +429,8 @@ static lmn_status trace(const joints *j, incidence *in, size_t line_count, regio
 
 static lmn_status make_paths(drawing *d, region *out)
 {
-    joints j = {0};
-    incidence in = {0};
+    joints     j = {0};
+    incidence  in = {0};
     lmn_status status = LMN_OK;
     if (!join(&j, &d->lines, d->how) || !list_lines(&in, &j, d->lines.count))
         status = error_memory(d->error);
@@ -460,7 +448,7 @@ static lmn_status make_paths(drawing *d, region *out)
 
 lmn_status csg_dxf(const char *bytes, size_t size, const csg_drawing *how, region *out, lmn_error *error)
 {
-    drawing d = {.at = bytes, .end = bytes + size, .how = how, .error = error};
+    drawing    d = {.at = bytes, .end = bytes + size, .how = how, .error = error};
     lmn_status status = read_groups(&d);
     if (status == LMN_OK && d.lines.count > 0)
         status = make_paths(&d, out);

@@ -28,14 +28,14 @@ lmn_status csg_sphere(csg_reader *r, int32_t node, polyhedron *out)
 lmn_status csg_cylinder(csg_reader *r, int32_t node, polyhedron *out)
 {
     const csg_tree *t = &r->tree;
-    double both = csg_number(t, node, "d", NONE, 2 * csg_number(t, node, "r", NONE, 1)) / 2;
-    double r1 = csg_number(t, node, "d1", NONE, 2 * csg_number(t, node, "r1", 1, both)) / 2;
-    double r2 = csg_number(t, node, "d2", NONE, 2 * csg_number(t, node, "r2", 2, both)) / 2;
-    return construct_cylinder(out, csg_number(t, node, "h", 0, 1), r1, r2, csg_bool(t, node, "center", 3, false), csg_facets(r, node),
-                              r->error);
+    double          both = csg_number(t, node, "d", NONE, 2 * csg_number(t, node, "r", NONE, 1)) / 2;
+    double          r1 = csg_number(t, node, "d1", NONE, 2 * csg_number(t, node, "r1", 1, both)) / 2;
+    double          r2 = csg_number(t, node, "d2", NONE, 2 * csg_number(t, node, "r2", 2, both)) / 2;
+    return construct_cylinder(out, csg_number(t, node, "h", 0, 1), r1, r2, csg_bool(t, node, "center", 3, false),
+                              csg_facets(r, node), r->error);
 }
 
-/* --- polyhedron -------------------------------------------------------------------------------------------------------- */
+/* --- polyhedron ----------------------------------------------------------------------------------------- */
 
 void csg_paths_release(csg_paths *p)
 {
@@ -46,7 +46,7 @@ void csg_paths_release(csg_paths *p)
 
 lmn_status csg_read_paths(csg_reader *r, int32_t value, size_t point_count, csg_paths *out)
 {
-    const csg_tree *t = &r->tree;
+    const csg_tree  *t = &r->tree;
     const csg_value *list = &t->values[value];
     *out = (csg_paths){0};
     if (list->kind != CSG_VECTOR)
@@ -90,16 +90,17 @@ static lmn_status read_points(csg_reader *r, int32_t value, point3 **out, size_t
 
 lmn_status csg_polyhedron(csg_reader *r, int32_t node, polyhedron *out)
 {
-    point3 *points;
-    size_t count;
+    point3   *points;
+    size_t    count;
     csg_paths faces = {0};
-    bool flawed = false;
-    int32_t list = csg_argument_value(&r->tree, node, "faces", 1);
+    bool      flawed = false;
+    int32_t   list = csg_argument_value(&r->tree, node, "faces", 1);
     if (list == NONE)
         list = csg_argument_value(&r->tree, node, "triangles", NONE);
     lmn_status status = read_points(r, csg_argument_value(&r->tree, node, "points", 0), &points, &count);
     if (status == LMN_OK)
-        status = list == NONE ? error_set(r->error, LMN_FORMAT, "it has no faces") : csg_read_paths(r, list, count, &faces);
+        status =
+            list == NONE ? error_set(r->error, LMN_FORMAT, "it has no faces") : csg_read_paths(r, list, count, &faces);
     if (status == LMN_OK)
         status = construct_polyhedron(out, points, count, faces.corners, faces.sizes, faces.count, &flawed, r->error);
     if (status == LMN_OK && flawed)
@@ -109,7 +110,7 @@ lmn_status csg_polyhedron(csg_reader *r, int32_t node, polyhedron *out)
     return status;
 }
 
-/* --- extrusions -------------------------------------------------------------------------------------------------------- */
+/* --- extrusions ----------------------------------------------------------------------------------------- */
 
 /* Old files name a drawing instead of having children. */
 static lmn_status profile(csg_reader *r, int32_t node, region *out)
@@ -120,14 +121,17 @@ static lmn_status profile(csg_reader *r, int32_t node, region *out)
 
 lmn_status csg_linear_extrude(csg_reader *r, int32_t node, polyhedron *out)
 {
-    const csg_tree *t = &r->tree;
-    linear_extrusion how = {.height = csg_number(t, node, "height", 0, 100), .twist = csg_number(t, node, "twist", NONE, 0),
-                            .scale = {1, 1}, .centre = csg_bool(t, node, "center", NONE, false), .facets = csg_facets(r, node)};
+    const csg_tree  *t = &r->tree;
+    linear_extrusion how = {.height = csg_number(t, node, "height", 0, 100),
+                            .twist = csg_number(t, node, "twist", NONE, 0),
+                            .scale = {1, 1},
+                            .centre = csg_bool(t, node, "center", NONE, false),
+                            .facets = csg_facets(r, node)};
     csg_numbers(t, node, "scale", NONE, how.scale, 2, true);
     double slices = csg_number(t, node, "slices", NONE, 0);
     how.has_slices = slices >= 1;
     how.slices = slices < 1e6 ? (int)slices : 1000000;
-    region r2 = {0};
+    region     r2 = {0};
     lmn_status status = profile(r, node, &r2);
     if (status == LMN_OK && r2.count > 0)
         status = construct_linear_extrude(out, &r2, &how, r->error);
@@ -139,7 +143,7 @@ static lmn_status turn(csg_reader *r, polyhedron *p, double degrees)
 {
     double angle = degrees * 0.017453292519943295;
     double c = fabs(fmod(degrees, 180)) == 90 ? 0 : cos(angle), s = fmod(degrees, 180) == 0 ? 0 : sin(angle);
-    mat4 m = mat4_identity();
+    mat4   m = mat4_identity();
     m.m[0] = m.m[5] = c;
     m.m[1] = s;
     m.m[4] = -s;
@@ -152,13 +156,14 @@ static lmn_status turn(csg_reader *r, polyhedron *p, double degrees)
     return status;
 }
 
-/* `start` came with OpenSCAD 2024; before, full turns began at 180° and others at 0°, as construct_rotate_extrude does. */
+/* `start` came with OpenSCAD 2024; before, full turns began at 180° and others at 0°, as construct_rotate_extrude
+ * does. */
 lmn_status csg_rotate_extrude(csg_reader *r, int32_t node, polyhedron *out)
 {
-    double angle = csg_number(&r->tree, node, "angle", NONE, 360);
-    bool full = angle <= -360 || angle >= 360;
-    double usual = full ? 180 : 0, start = csg_number(&r->tree, node, "start", NONE, usual);
-    region r2 = {0};
+    double     angle = csg_number(&r->tree, node, "angle", NONE, 360);
+    bool       full = angle <= -360 || angle >= 360;
+    double     usual = full ? 180 : 0, start = csg_number(&r->tree, node, "start", NONE, usual);
+    region     r2 = {0};
     lmn_status status = profile(r, node, &r2);
     if (status == LMN_OK && r2.count > 0 && angle != 0)
         status = construct_rotate_extrude(out, &r2, full ? 360 : angle, csg_facets(r, node), r->error);
@@ -171,8 +176,8 @@ lmn_status csg_rotate_extrude(csg_reader *r, int32_t node, polyhedron *out)
 lmn_status csg_plate_mesh(csg_reader *r, int32_t node, polyhedron *out)
 {
     const linear_extrusion how = {.height = 1, .scale = {1, 1}, .centre = true};
-    region r2 = {0};
-    lmn_status status = csg_region_of(r, node, &r2, &r->absent);
+    region                 r2 = {0};
+    lmn_status             status = csg_region_of(r, node, &r2, &r->absent);
     if (status == LMN_OK && r2.count > 0)
         status = construct_linear_extrude(out, &r2, &how, r->error);
     region_release(&r2);

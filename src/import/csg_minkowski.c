@@ -1,5 +1,6 @@
-/* Sums of solids (minkowski()) without computing a surface: convex pieces add up to convex pieces, and a concave one plus a convex
- * one is the concave one moved by a point of the other together with the sum along each of its triangles. */
+/* Sums of solids (minkowski()) without computing a surface: convex pieces add up to convex pieces, and a concave
+ * one plus a convex one is the concave one moved by a point of the other together with the sum along each of its
+ * triangles. */
 #include <string.h>
 
 #include "base/error.h"
@@ -38,8 +39,8 @@ static lmn_status add_piece(csg_reader *r, piece_list *l, polyhedron *p)
 static lmn_status gather_pieces(csg_reader *r, int32_t shape, const mat4 *above, piece_list *out, bool *possible)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
-    lmn_status status = LMN_OK;
+    mat4             place = mat4_multiply(above, &s->matrix);
+    lmn_status       status = LMN_OK;
     if (s->kind == SOLID_OPERAND) {
         polyhedron p = {0};
         status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &place, r->error);
@@ -54,7 +55,7 @@ static lmn_status gather_pieces(csg_reader *r, int32_t shape, const mat4 *above,
 static lmn_status moved_copy(csg_reader *r, const polyhedron *p, point3 by, piece_list *out)
 {
     polyhedron copy = {0};
-    mat4 m = mat4_identity();
+    mat4       m = mat4_identity();
     m.m[12] = by.x;
     m.m[13] = by.y;
     m.m[14] = by.z;
@@ -63,13 +64,14 @@ static lmn_status moved_copy(csg_reader *r, const polyhedron *p, point3 by, piec
 }
 
 /* The hull of the convex one at the three corners. */
-static lmn_status sum_with_triangle(csg_reader *r, const polyhedron *concave, size_t triangle, const polyhedron *convex, piece_list *out)
+static lmn_status sum_with_triangle(csg_reader *r, const polyhedron *concave, size_t triangle, const polyhedron *convex,
+                                    piece_list *out)
 {
     polyhedron at_corners[3] = {{0}}, sum = {0};
     lmn_status status = LMN_OK;
     for (int i = 0; i < 3 && status == LMN_OK; i++) {
         point3 corner = concave->points[concave->triangles[3 * triangle + (size_t)i]];
-        mat4 m = mat4_identity();
+        mat4   m = mat4_identity();
         m.m[12] = corner.x;
         m.m[13] = corner.y;
         m.m[14] = corner.z;
@@ -94,7 +96,7 @@ static lmn_status sum_of_two(csg_reader *r, const polyhedron *a, const polyhedro
         return status == LMN_OK ? add_piece(r, out, &sum) : status;
     }
     const polyhedron *concave = a->convex ? b : a, *convex = a->convex ? a : b;
-    lmn_status status = moved_copy(r, concave, convex->points[0], out);
+    lmn_status        status = moved_copy(r, concave, convex->points[0], out);
     for (size_t i = 0; i < concave->triangle_count && status == LMN_OK; i++)
         status = sum_with_triangle(r, concave, i, convex, out);
     return status;
@@ -160,12 +162,13 @@ static lmn_status shape_of_pieces(csg_reader *r, int32_t node, piece_list *sum, 
 }
 
 /* Empty operands do not count. *several: there is more than the first, which is the shape until the sum is known. */
-static lmn_status add_children(csg_reader *r, int32_t node, piece_list *sum, int32_t *shape, bool *several, bool *possible)
+static lmn_status add_children(csg_reader *r, int32_t node, piece_list *sum, int32_t *shape, bool *several,
+                               bool *possible)
 {
     const mat4 identity = mat4_identity();
     for (int32_t c = csg_child(r, node, NONE); c != NONE; c = csg_child(r, node, c)) {
         piece_list pieces = {0};
-        int32_t made;
+        int32_t    made;
         lmn_status status = csg_shape_of(r, c, &made);
         if (status == LMN_OK && made < 0)
             continue;
@@ -189,14 +192,15 @@ static lmn_status add_children(csg_reader *r, int32_t node, piece_list *sum, int
 lmn_status csg_minkowski(csg_reader *r, int32_t node, int32_t *shape)
 {
     piece_list sum = {0};
-    bool possible = true, several = false;
+    bool       possible = true, several = false;
     *shape = NONE;
     lmn_status status = add_children(r, node, &sum, shape, &several, &possible);
     if (status == LMN_OK && several && possible)
         status = shape_of_pieces(r, node, &sum, shape);
     else if (status == LMN_OK && several)
         csg_warn(r, node, WARNING_APPROXIMATE,
-                 "minkowski() draws its first operand alone: two operands are concave, one is not a union, or it takes more than %d pieces",
+                 "minkowski() draws its first operand alone: two operands are concave, one is not a union, or it takes "
+                 "more than %d pieces",
                  OPERANDS_MAX);
     release_pieces(&sum);
     return csg_tolerate(r, node, status);

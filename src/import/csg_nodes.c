@@ -49,7 +49,7 @@ const csg_meaning *csg_meaning_of(const csg_reader *r, int32_t node)
 
 void csg_warn(csg_reader *r, int32_t node, warning_code code, const char *format, ...)
 {
-    char message[384];
+    char    message[384];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
@@ -70,12 +70,12 @@ lmn_status csg_tolerate(csg_reader *r, int32_t node, lmn_status status)
     return status;
 }
 
-/* --- children and dimensions ------------------------------------------------------------------------------------------- */
+/* --- children and dimensions ---------------------------------------------------------------------------- */
 
 int32_t csg_child(const csg_reader *r, int32_t parent, int32_t previous)
 {
     const csg_tree *t = &r->tree;
-    int32_t child = previous == NONE ? csg_first_child(t, parent) : csg_next_child(t, parent, previous);
+    int32_t         child = previous == NONE ? csg_first_child(t, parent) : csg_next_child(t, parent, previous);
     while (child != NONE && (t->nodes[child].modifiers & (CSG_BACKGROUND | CSG_DISABLED)))
         child = csg_next_child(t, parent, child);
     return child;
@@ -99,18 +99,19 @@ void csg_set_dimensions(csg_reader *r)
         t->nodes[i].dimension = dimension_of(r, (int32_t)i);
     for (int32_t i = 0; i < (int32_t)t->node_count;) {
         const csg_node *n = &t->nodes[i];
-        bool background = n->modifiers & CSG_BACKGROUND, unknown = !csg_meaning_of(r, i);
+        bool            background = n->modifiers & CSG_BACKGROUND, unknown = !csg_meaning_of(r, i);
         if (background)
             csg_warn(r, i, WARNING_BACKGROUND, "%s() is background (%%) and left out", csg_word(t, i));
         else if (unknown)
             csg_warn(r, i, WARNING_IGNORED, "%.60s() is not known and left out", csg_word(t, i));
         else if (csg_meaning_of(r, i)->dimension < 0 && n->dimension == 0)
-            csg_warn(r, i, WARNING_MISSING_FILE, "%s() is left out: the ending of \"%.200s\" is none that is read", csg_word(t, i), csg_string(t, i, "file", 0, ""));
+            csg_warn(r, i, WARNING_MISSING_FILE, "%s() is left out: the ending of \"%.200s\" is none that is read",
+                     csg_word(t, i), csg_string(t, i, "file", 0, ""));
         i = background || unknown || (n->modifiers & CSG_DISABLED) ? n->after : i + 1;
     }
 }
 
-/* --- shapes ------------------------------------------------------------------------------------------------------------ */
+/* --- shapes --------------------------------------------------------------------------------------------- */
 
 lmn_status csg_append_shape(csg_reader *r, solid_kind kind, int32_t node, int32_t *shape)
 {
@@ -118,7 +119,12 @@ lmn_status csg_append_shape(csg_reader *r, solid_kind kind, int32_t node, int32_
         !mem_grow((void **)&r->shapes, &r->shape_capacity, r->shape_count + 1, sizeof *r->shapes))
         return error_memory(r->error);
     *shape = (int32_t)r->shape_count++;
-    r->shapes[*shape] = (csg_shape){.kind = kind, .first_child = NONE, .last_child = NONE, .next = NONE, .node = node, .mesh = NONE,
+    r->shapes[*shape] = (csg_shape){.kind = kind,
+                                    .first_child = NONE,
+                                    .last_child = NONE,
+                                    .next = NONE,
+                                    .node = node,
+                                    .mesh = NONE,
                                     .matrix = mat4_identity()};
     return LMN_OK;
 }
@@ -139,8 +145,9 @@ static lmn_status shape_of_child(csg_reader *r, int32_t parent, int32_t child, b
     int wanted = plates ? 2 : 3, found = r->tree.nodes[child].dimension;
     *shape = NONE;
     if (found != 0 && found != wanted) {
-        csg_warn(r, child, WARNING_IGNORED, "%s() is %dD among %dD objects of %s%s and left out", csg_word(&r->tree, child), found,
-                 wanted, parent == 0 ? "the file" : csg_word(&r->tree, parent), parent == 0 ? "" : "()");
+        csg_warn(r, child, WARNING_IGNORED, "%s() is %dD among %dD objects of %s%s and left out",
+                 csg_word(&r->tree, child), found, wanted, parent == 0 ? "the file" : csg_word(&r->tree, parent),
+                 parent == 0 ? "" : "()");
         return LMN_OK;
     }
     return plates ? csg_plate_of(r, child, shape) : csg_shape_of(r, child, shape);
@@ -152,7 +159,7 @@ static lmn_status group(csg_reader *r, int32_t node, solid_kind kind, bool plate
     int32_t first = NONE, last = NONE;
     *shape = NONE;
     for (int32_t c = csg_child(r, node, NONE); c != NONE; c = csg_child(r, node, c)) {
-        int32_t made;
+        int32_t    made;
         lmn_status status = shape_of_child(r, node, c, plates, &made);
         if (status != LMN_OK)
             return status;
@@ -183,7 +190,7 @@ lmn_status csg_group(csg_reader *r, int32_t node, solid_kind kind, int32_t *shap
     return group(r, node, kind, false, shape);
 }
 
-/* --- leaves ------------------------------------------------------------------------------------------------------------ */
+/* --- leaves --------------------------------------------------------------------------------------------- */
 
 /* Beyond this the sums of the drawing lose all digits; nobody means it. */
 static const double FARTHEST = 1e15;
@@ -243,7 +250,8 @@ static lmn_status grow_slots(csg_reader *r)
 static lmn_status make_leaf(csg_reader *r, int32_t node, bool plate, polyhedron *out)
 {
     const csg_meaning *m = csg_meaning_of(r, node);
-    lmn_status status = import_progress(r->job, 0.2 + 0.6 * (double)node / (double)r->tree.node_count, "evaluating", r->error);
+    lmn_status         status =
+        import_progress(r->job, 0.2 + 0.6 * (double)node / (double)r->tree.node_count, "evaluating", r->error);
     if (status != LMN_OK)
         return status;
     if (!csg_all_finite(&r->tree, node))
@@ -267,8 +275,8 @@ static lmn_status leaf_mesh(csg_reader *r, int32_t node, bool plate, int32_t *me
     if (*mesh != NONE)
         return LMN_OK;
     polyhedron made = {0};
-    size_t shapes = r->shape_count;
-    bool above = r->absent;
+    size_t     shapes = r->shape_count;
+    bool       above = r->absent;
     r->absent = false;
     status = make_leaf(r, node, plate, &made);
     bool absent = r->absent;
@@ -313,7 +321,7 @@ lmn_status csg_shape_of(csg_reader *r, int32_t node, int32_t *shape)
     return m->shape ? m->shape(r, node, shape) : leaf(r, node, false, shape);
 }
 
-/* --- plates ------------------------------------------------------------------------------------------------------------ */
+/* --- plates --------------------------------------------------------------------------------------------- */
 
 /* A difference or intersection is one figure: it has the first colour that stands in it. */
 static void take_colour(csg_reader *r, int32_t node, int32_t shape)

@@ -22,7 +22,7 @@ lmn_status csg_intersection(csg_reader *r, int32_t node, int32_t *shape)
     return csg_group(r, node, SOLID_INTERSECTION, shape);
 }
 
-/* --- places ------------------------------------------------------------------------------------------------------------ */
+/* --- places --------------------------------------------------------------------------------------------- */
 
 /* Numbers beyond this cannot place anything that is drawn. */
 static const double LARGEST = 1e15;
@@ -30,7 +30,7 @@ static const double LARGEST = 1e15;
 static double determinant(const mat4 *a, int dimensions)
 {
     const double *m = a->m;
-    double plane = m[0] * m[5] - m[4] * m[1];
+    double        plane = m[0] * m[5] - m[4] * m[1];
     return dimensions == 2 ? plane
                            : plane * m[10] + (m[4] * m[9] - m[8] * m[5]) * m[2] + (m[8] * m[1] - m[0] * m[9]) * m[6];
 }
@@ -63,7 +63,7 @@ static const char *read_rows(const csg_tree *t, int32_t value, mat4 *out)
 bool csg_read_matrix(csg_reader *r, int32_t node, int dimensions, mat4 *out)
 {
     *out = mat4_identity();
-    int32_t value = csg_argument_value(&r->tree, node, "m", 0);
+    int32_t     value = csg_argument_value(&r->tree, node, "m", 0);
     const char *problem = value == NONE ? NULL : read_rows(&r->tree, value, out);
     if (!problem && determinant(out, dimensions) == 0)
         problem = "its matrix flattens what is below it";
@@ -84,7 +84,7 @@ lmn_status csg_multmatrix(csg_reader *r, int32_t node, int32_t *shape)
     return status;
 }
 
-/* --- colours ----------------------------------------------------------------------------------------------------------- */
+/* --- colours -------------------------------------------------------------------------------------------- */
 
 static float unit(double value)
 {
@@ -111,7 +111,7 @@ bool csg_read_colour(const csg_reader *r, int32_t node, vec4 *out)
 lmn_status csg_color(csg_reader *r, int32_t node, int32_t *shape)
 {
     lmn_status status = csg_union(r, node, shape);
-    vec4 colour;
+    vec4       colour;
     if (status == LMN_OK && *shape >= 0 && csg_read_colour(r, node, &colour)) {
         r->shapes[*shape].has_colour = true;
         r->shapes[*shape].colour = colour;
@@ -119,7 +119,7 @@ lmn_status csg_color(csg_reader *r, int32_t node, int32_t *shape)
     return status;
 }
 
-/* --- sizes ------------------------------------------------------------------------------------------------------------- */
+/* --- sizes ---------------------------------------------------------------------------------------------- */
 
 typedef struct extent {
     double low[3], high[3];
@@ -130,7 +130,7 @@ static const extent EMPTY_EXTENT = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, 
 static extent operand_extent(const csg_reader *r, const csg_shape *s, const mat4 *place)
 {
     const polyhedron *p = &r->meshes[s->mesh].polyhedron;
-    extent e = EMPTY_EXTENT;
+    extent            e = EMPTY_EXTENT;
     for (size_t i = 0; i < p->point_count; i++) {
         const double at[3] = {p->points[i].x, p->points[i].y, p->points[i].z};
         for (int k = 0; k < 3; k++) {
@@ -146,7 +146,7 @@ static extent operand_extent(const csg_reader *r, const csg_shape *s, const mat4
 static extent shape_extent(const csg_reader *r, int32_t shape, const mat4 *above)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
+    mat4             place = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_OPERAND)
         return operand_extent(r, s, &place);
     extent all = shape_extent(r, s->first_child, &place);
@@ -163,14 +163,14 @@ static extent shape_extent(const csg_reader *r, int32_t shape, const mat4 *above
 void csg_resize_factors(const csg_reader *r, int32_t node, const double *size, int dimensions, double *factors)
 {
     const csg_tree *t = &r->tree;
-    double wanted[3] = {0, 0, 0};
-    int largest = 0;
-    bool automatic[3] = {false, false, false};
+    double          wanted[3] = {0, 0, 0};
+    int             largest = 0;
+    bool            automatic[3] = {false, false, false};
     csg_numbers(t, node, "newsize", 0, wanted, (uint32_t)dimensions, false);
     int32_t flags = csg_argument_value(t, node, "auto", 1);
     int32_t element = flags + 1;
     for (int i = 0; i < 3 && flags != NONE; i++) {
-        bool vector = t->values[flags].kind == CSG_VECTOR;
+        bool             vector = t->values[flags].kind == CSG_VECTOR;
         const csg_value *v = &t->values[vector ? element : flags];
         if (vector && (uint32_t)i >= t->values[flags].count)
             break;
@@ -185,13 +185,14 @@ void csg_resize_factors(const csg_reader *r, int32_t node, const double *size, i
         factors[i] = wanted[i] > 0 && size[i] > 0 ? wanted[i] / size[i] : automatic[i] && !(wanted[i] > 0) ? same : 1;
 }
 
-/* The file's numbers may be exact where the tree only tells what is at most filled; then the result is nearly as large. */
+/* The file's numbers may be exact where the tree only tells what is at most filled; then the result is nearly as
+ * large. */
 lmn_status csg_resize(csg_reader *r, int32_t node, int32_t *shape)
 {
     lmn_status status = csg_union(r, node, shape);
     if (status != LMN_OK || *shape < 0)
         return status;
-    mat4 scale = mat4_identity();
+    mat4   scale = mat4_identity();
     extent e = shape_extent(r, *shape, &scale);
     double size[3], factors[3];
     for (int k = 0; k < 3; k++)
@@ -206,14 +207,15 @@ lmn_status csg_resize(csg_reader *r, int32_t node, int32_t *shape)
     }
     for (int32_t i = *shape; i != NONE && r->shapes[i].kind != SOLID_OPERAND; i = r->shapes[i].first_child)
         if (r->shapes[i].kind == SOLID_INTERSECTION || r->shapes[i].kind == SOLID_DIFFERENCE) {
-            csg_warn(r, node, WARNING_APPROXIMATE, "resize() of a %s() takes its size from the operands", csg_word(&r->tree, r->shapes[i].node));
+            csg_warn(r, node, WARNING_APPROXIMATE, "resize() of a %s() takes its size from the operands",
+                     csg_word(&r->tree, r->shapes[i].node));
             break;
         }
     r->shapes[*shape].matrix = mat4_multiply(&scale, &r->shapes[*shape].matrix);
     return LMN_OK;
 }
 
-/* --- hulls ------------------------------------------------------------------------------------------------------------- */
+/* --- hulls ---------------------------------------------------------------------------------------------- */
 
 typedef struct hull_input {
     csg_reader *reader;
@@ -224,9 +226,9 @@ typedef struct hull_input {
 
 static lmn_status add_to_hull(hull_input *h, int32_t shape, const mat4 *above)
 {
-    csg_reader *r = h->reader;
+    csg_reader      *r = h->reader;
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
+    mat4             place = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_OPERAND) {
         if (!mem_grow((void **)&h->items, &h->capacity, h->count + 1, sizeof *h->items))
             return error_memory(r->error);
@@ -234,17 +236,18 @@ static lmn_status add_to_hull(hull_input *h, int32_t shape, const mat4 *above)
         return polyhedron_transform(&h->items[h->count++], &r->meshes[s->mesh].polyhedron, &place, r->error);
     }
     if (s->kind != SOLID_UNION)
-        csg_warn(r, h->node, WARNING_APPROXIMATE, "hull() takes the %s() in line %u as its first operand", csg_word(&r->tree, s->node),
-                 (unsigned)r->tree.nodes[s->node].line);
+        csg_warn(r, h->node, WARNING_APPROXIMATE, "hull() takes the %s() in line %u as its first operand",
+                 csg_word(&r->tree, s->node), (unsigned)r->tree.nodes[s->node].line);
     lmn_status status = LMN_OK;
-    for (int32_t c = s->first_child; c != NONE && status == LMN_OK; c = s->kind == SOLID_UNION ? r->shapes[c].next : NONE)
+    for (int32_t c = s->first_child; c != NONE && status == LMN_OK;
+         c = s->kind == SOLID_UNION ? r->shapes[c].next : NONE)
         status = add_to_hull(h, c, &place);
     return status;
 }
 
 lmn_status csg_hull(csg_reader *r, int32_t node, polyhedron *out)
 {
-    int32_t shape;
+    int32_t    shape;
     lmn_status status = csg_union(r, node, &shape);
     if (status != LMN_OK || shape < 0)
         return status;

@@ -1,5 +1,5 @@
-/* Tokens and syntax of .csg files: `word(name = value, …) { children }` or `;`, comments, modifiers. Nothing here calls itself, so
- * that nesting costs no stack. */
+/* Tokens and syntax of .csg files: `word(name = value, …) { children }` or `;`, comments, modifiers. Nothing here
+ * calls itself, so that nesting costs no stack. */
 #include <stdio.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ typedef struct parser {
     lmn_error        *error;
 } parser;
 
-/* --- messages ---------------------------------------------------------------------------------------------------------- */
+/* --- messages ------------------------------------------------------------------------------------------- */
 
 /* Columns count bytes, as compilers do. */
 static lmn_status fail_at(parser *p, lmn_status status, int line, const char *at, const char *message)
@@ -46,7 +46,7 @@ static lmn_status too_much(parser *p, const char *what, size_t limit)
     return error_in_file(p->error, LMN_LIMIT, p->job->path, p->line, "%s; the limit is %zu", what, limit);
 }
 
-/* --- tokens ------------------------------------------------------------------------------------------------------------ */
+/* --- tokens --------------------------------------------------------------------------------------------- */
 
 static void next_line(parser *p)
 {
@@ -124,7 +124,7 @@ static lmn_status keep_word(parser *p, size_t length, size_t *out)
     return LMN_OK;
 }
 
-/* --- strings ----------------------------------------------------------------------------------------------------------- */
+/* --- strings -------------------------------------------------------------------------------------------- */
 
 static bool keep_code_point(csg_tree *t, uint32_t code)
 {
@@ -143,11 +143,13 @@ static bool keep_code_point(csg_tree *t, uint32_t code)
 /* \xHH, \uHHHH, \UHHHHHH; p->at is on the letter. */
 static bool keep_number_escape(parser *p)
 {
-    int digits = *p->at == 'x' ? 2 : *p->at == 'u' ? 4 : 6;
+    int      digits = *p->at == 'x' ? 2 : *p->at == 'u' ? 4 : 6;
     uint32_t code = 0;
     for (int i = 1; i <= digits; i++) {
         char c = p->at + i < p->end ? p->at[i] : ' ';
-        int digit = c >= '0' && c <= '9' ? c - '0' : (c | 0x20) >= 'a' && (c | 0x20) <= 'f' ? (c | 0x20) - 'a' + 10 : -1;
+        int  digit = c >= '0' && c <= '9'                     ? c - '0'
+                     : (c | 0x20) >= 'a' && (c | 0x20) <= 'f' ? (c | 0x20) - 'a' + 10
+                                                              : -1;
         if (digit < 0)
             return keep_bytes(p->tree, p->at - 1, 2);
         code = code * 16 + (uint32_t)digit;
@@ -161,21 +163,14 @@ static bool keep_escape(parser *p)
 {
     switch (*p->at) {
     case '"':
-    case '\\':
-        return keep_bytes(p->tree, p->at, 1);
-    case 'n':
-        return keep_bytes(p->tree, "\n", 1);
-    case 't':
-        return keep_bytes(p->tree, "\t", 1);
-    case 'r':
-        return keep_bytes(p->tree, "\r", 1);
+    case '\\': return keep_bytes(p->tree, p->at, 1);
+    case 'n': return keep_bytes(p->tree, "\n", 1);
+    case 't': return keep_bytes(p->tree, "\t", 1);
+    case 'r': return keep_bytes(p->tree, "\r", 1);
     case 'x':
     case 'u':
-    case 'U':
-        return keep_number_escape(p);
-    default:
-        p->at--;
-        return keep_bytes(p->tree, p->at, 1);
+    case 'U': return keep_number_escape(p);
+    default: p->at--; return keep_bytes(p->tree, p->at, 1);
     }
 }
 
@@ -193,7 +188,7 @@ static bool is_closing_quote(const parser *p)
 static lmn_status parse_string(parser *p, csg_value *v)
 {
     const char *opened = p->at++, *opened_line = p->line_begin;
-    int line = p->line;
+    int         line = p->line;
     v->kind = CSG_STRING;
     v->as.string = p->tree->text_size;
     for (; p->at < p->end && !is_closing_quote(p); p->at++) {
@@ -216,7 +211,7 @@ static lmn_status parse_string(parser *p, csg_value *v)
     return keep_bytes(p->tree, "", 1) ? LMN_OK : error_memory(p->error);
 }
 
-/* --- values ------------------------------------------------------------------------------------------------------------ */
+/* --- values --------------------------------------------------------------------------------------------- */
 
 static bool is_word(const parser *p, size_t length, const char *word)
 {
@@ -228,7 +223,7 @@ static lmn_status parse_plain(parser *p, csg_value *v)
     if (p->at < p->end && *p->at == '"')
         return parse_string(p, v);
     size_t length = word_length(p);
-    bool truth = is_word(p, length, "true");
+    bool   truth = is_word(p, length, "true");
     if (truth || is_word(p, length, "false")) {
         v->kind = CSG_BOOL;
         v->as.truth = truth;
@@ -284,8 +279,8 @@ static lmn_status close_vectors(parser *p, const int32_t *open, int *depth, bool
 static lmn_status parse_value(parser *p)
 {
     int32_t open[LIMIT_CSG_DEPTH], index = NONE;
-    int depth = 0;
-    bool more = true;
+    int     depth = 0;
+    bool    more = true;
     while (more) {
         skip_blanks(p);
         lmn_status status = append_value(p, &index);
@@ -315,14 +310,14 @@ static lmn_status parse_value(parser *p)
     return LMN_OK;
 }
 
-/* --- statements -------------------------------------------------------------------------------------------------------- */
+/* --- statements ----------------------------------------------------------------------------------------- */
 
 static lmn_status parse_argument(parser *p)
 {
-    csg_tree *t = p->tree;
+    csg_tree    *t = p->tree;
     csg_argument a = {.value = (int32_t)t->value_count};
     skip_blanks(p);
-    size_t length = word_length(p);
+    size_t      length = word_length(p);
     const char *behind = p->at + length;
     while (behind < p->end && (*behind == ' ' || *behind == '\t'))
         behind++;
@@ -365,20 +360,11 @@ static uint8_t take_modifiers(parser *p)
     for (;; p->at++) {
         skip_blanks(p);
         switch (p->at < p->end ? *p->at : '\0') {
-        case '#':
-            found |= CSG_SHOWN;
-            break;
-        case '%':
-            found |= CSG_BACKGROUND;
-            break;
-        case '*':
-            found |= CSG_DISABLED;
-            break;
-        case '!':
-            found |= CSG_ROOT;
-            break;
-        default:
-            return found;
+        case '#': found |= CSG_SHOWN; break;
+        case '%': found |= CSG_BACKGROUND; break;
+        case '*': found |= CSG_DISABLED; break;
+        case '!': found |= CSG_ROOT; break;
+        default: return found;
         }
     }
 }
@@ -391,10 +377,12 @@ static lmn_status append_node(parser *p, int32_t *index)
     if (!mem_grow((void **)&t->nodes, &t->node_capacity, t->node_count + 1, sizeof *t->nodes))
         return error_memory(p->error);
     *index = (int32_t)t->node_count++;
-    t->nodes[*index] = (csg_node){.line = (uint32_t)p->line, .first_argument = (int32_t)t->argument_count,
+    t->nodes[*index] = (csg_node){.line = (uint32_t)p->line,
+                                  .first_argument = (int32_t)t->argument_count,
                                   .first_value = (int32_t)t->value_count};
     return (t->node_count & 0xFFF) == 0
-               ? import_progress(p->job, 0.2 * (1 - (double)(p->end - p->at) / (double)p->job->file->size), "reading", p->error)
+               ? import_progress(p->job, 0.2 * (1 - (double)(p->end - p->at) / (double)p->job->file->size), "reading",
+                                 p->error)
                : LMN_OK;
 }
 
@@ -402,7 +390,7 @@ static lmn_status append_node(parser *p, int32_t *index)
 static lmn_status parse_head(parser *p, int32_t *index)
 {
     uint8_t modifiers = take_modifiers(p);
-    size_t length = word_length(p);
+    size_t  length = word_length(p);
     if (length == 0)
         return expected(p, "an object such as \"cube\"");
     lmn_status status = append_node(p, index);
@@ -422,8 +410,9 @@ static lmn_status parse_head(parser *p, int32_t *index)
 static lmn_status never_closed(parser *p, int32_t node)
 {
     const csg_node *n = &p->tree->nodes[node];
-    error_in_file(p->error, LMN_FORMAT, p->job->path, p->line, "the file is cut off: the block of %.60s in line %u is never closed",
-                  p->tree->text + n->word, (unsigned)n->line);
+    error_in_file(p->error, LMN_FORMAT, p->job->path, p->line,
+                  "the file is cut off: the block of %.60s in line %u is never closed", p->tree->text + n->word,
+                  (unsigned)n->line);
     error_hint(p->error, "export it again from OpenSCAD");
     return LMN_FORMAT;
 }
@@ -431,7 +420,7 @@ static lmn_status never_closed(parser *p, int32_t node)
 static lmn_status parse_statements(parser *p)
 {
     int32_t open[LIMIT_CSG_DEPTH], index = NONE;
-    int depth = 0;
+    int     depth = 0;
     for (;;) {
         skip_blanks(p);
         if (p->at >= p->end)
@@ -458,7 +447,7 @@ static lmn_status parse_statements(parser *p)
     }
 }
 
-/* --- sameness ---------------------------------------------------------------------------------------------------------- */
+/* --- sameness ------------------------------------------------------------------------------------------- */
 
 static uint64_t mix(uint64_t hash, uint64_t value)
 {
@@ -512,7 +501,8 @@ static bool same_own(const csg_tree *t, const csg_node *a, const csg_node *b)
         strcmp(t->text + a->word, t->text + b->word) != 0)
         return false;
     for (int32_t i = 0; i < a->argument_count; i++)
-        if (strcmp(t->text + t->arguments[a->first_argument + i].name, t->text + t->arguments[b->first_argument + i].name) != 0)
+        if (strcmp(t->text + t->arguments[a->first_argument + i].name,
+                   t->text + t->arguments[b->first_argument + i].name) != 0)
             return false;
     for (int32_t i = 0; i < a->value_count; i++) {
         const csg_value *v = &t->values[a->first_value + i], *w = &t->values[b->first_value + i];
@@ -534,7 +524,7 @@ bool csg_equal(const csg_tree *t, int32_t a, int32_t b)
     return true;
 }
 
-/* --- the tree ---------------------------------------------------------------------------------------------------------- */
+/* --- the tree ------------------------------------------------------------------------------------------- */
 
 int32_t csg_first_child(const csg_tree *tree, int32_t node)
 {
@@ -564,7 +554,13 @@ void csg_release(csg_tree *tree)
 lmn_status csg_parse(csg_tree *out, const import_job *job, lmn_error *error)
 {
     const char *begin = (const char *)job->file->data;
-    parser p = {.tree = out, .job = job, .at = begin, .end = begin + job->file->size, .line_begin = begin, .line = 1, .error = error};
+    parser      p = {.tree = out,
+                     .job = job,
+                     .at = begin,
+                     .end = begin + job->file->size,
+                     .line_begin = begin,
+                     .line = 1,
+                     .error = error};
     if (job->file->size >= 3 && memcmp(begin, "\xEF\xBB\xBF", 3) == 0)
         p.at = p.line_begin = begin + 3;
     int32_t root;

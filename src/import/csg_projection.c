@@ -1,5 +1,5 @@
-/* Solids cut by the plane z = 0 and their shadows on it (projection()). A cut of a tree is the tree of the cuts; a shadow is that only
- * for unions. */
+/* Solids cut by the plane z = 0 and their shadows on it (projection()). A cut of a tree is the tree of the cuts; a
+ * shadow is that only for unions. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,10 +29,11 @@ static region_operation operation_of(solid_kind kind)
 /* Applies one function to all children and puts the regions together. */
 typedef lmn_status (*project_fn)(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out);
 
-static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, const mat4 *place, project_fn fn, region *out)
+static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, const mat4 *place, project_fn fn,
+                                   region *out)
 {
-    region *items = NULL;
-    size_t count = 0, capacity = 0;
+    region    *items = NULL;
+    size_t     count = 0, capacity = 0;
     lmn_status status = LMN_OK;
     for (int32_t c = r->shapes[shape].first_child; c != NONE && status == LMN_OK; c = r->shapes[c].next) {
         if (!mem_grow((void **)&items, &capacity, count + 1, sizeof *items)) {
@@ -53,19 +54,21 @@ static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, c
 static lmn_status cut(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
-    return s->kind == SOLID_OPERAND ? cut_operand(r, s, &place, out) : combine_children(r, node, shape, &place, cut, out);
+    mat4             place = mat4_multiply(above, &s->matrix);
+    return s->kind == SOLID_OPERAND ? cut_operand(r, s, &place, out)
+                                    : combine_children(r, node, shape, &place, cut, out);
 }
 
 /* How far the shape reaches along z at most. */
 static void reach(const csg_reader *r, int32_t shape, const mat4 *above, double *low, double *high)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
+    mat4             place = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_OPERAND) {
         const polyhedron *p = &r->meshes[s->mesh].polyhedron;
         for (size_t i = 0; i < p->point_count; i++) {
-            double z = place.m[2] * p->points[i].x + place.m[6] * p->points[i].y + place.m[10] * p->points[i].z + place.m[14];
+            double z =
+                place.m[2] * p->points[i].x + place.m[6] * p->points[i].y + place.m[10] * p->points[i].z + place.m[14];
             *low = fmin(*low, z);
             *high = fmax(*high, z);
         }
@@ -88,8 +91,8 @@ typedef struct heights {
 static lmn_status gather_heights(csg_reader *r, int32_t shape, const mat4 *above, heights *out)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
-    lmn_status status = LMN_OK;
+    mat4             place = mat4_multiply(above, &s->matrix);
+    lmn_status       status = LMN_OK;
     for (int32_t c = s->first_child; c != NONE && status == LMN_OK; c = r->shapes[c].next)
         status = gather_heights(r, c, &place, out);
     if (s->kind != SOLID_OPERAND)
@@ -126,9 +129,9 @@ static void thin_out(heights *h, double low, double high)
 /* Cuts at many heights, united: through the corners, where the outline of what is round is widest, and between. */
 static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
-    region cuts[CUTS] = {{0}};
+    region  cuts[CUTS] = {{0}};
     heights h = {0};
-    double low = INFINITY, high = -INFINITY;
+    double  low = INFINITY, high = -INFINITY;
     reach(r, shape, above, &low, &high);
     csg_warn(r, node, WARNING_APPROXIMATE, "projection() of the %s() in line %u is put together from %d cuts",
              csg_word(&r->tree, r->shapes[shape].node), (unsigned)r->tree.nodes[r->shapes[shape].node].line, CUTS);
@@ -137,7 +140,7 @@ static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, con
         thin_out(&h, low, high);
     for (size_t i = 0; i < CUTS && low < high && status == LMN_OK; i++) {
         double between = ((double)(i - h.count) + 0.5) / (double)(CUTS - h.count), margin = (high - low) * 1e-9;
-        mat4 down = mat4_identity();
+        mat4   down = mat4_identity();
         down.m[14] = -(i < h.count ? h.items[i] + margin : low + (high - low) * between);
         mat4 place = mat4_multiply(&down, above);
         status = import_progress(r->job, 0.5, "evaluating", r->error);
@@ -155,7 +158,7 @@ static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, con
 static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4 place = mat4_multiply(above, &s->matrix);
+    mat4             place = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_UNION)
         return combine_children(r, node, shape, &place, shadow, out);
     if (s->kind != SOLID_OPERAND)
@@ -168,7 +171,8 @@ static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 
     return status;
 }
 
-/* Meshes that close only within their rounding leave hairlines in a shadow: contours that are thin against all of it go. */
+/* Meshes that close only within their rounding leave hairlines in a shadow: contours that are thin against all of
+ * it go. */
 static void drop_hairlines(region *r)
 {
     double low[2], high[2];
@@ -178,7 +182,7 @@ static void drop_hairlines(region *r)
     double thin = 2e-6 * fmax(high[0] - low[0], high[1] - low[1]);
     for (size_t i = 0; i < r->count; i++) {
         const contour *c = &r->contours[i];
-        double twice = 0, around = 0;
+        double         twice = 0, around = 0;
         for (size_t k = 0; k < c->count; k++) {
             point2 a = c->points[k], b = c->points[(k + 1) % c->count], o = c->points[0];
             twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
@@ -196,8 +200,8 @@ static void drop_hairlines(region *r)
 lmn_status csg_projection(csg_reader *r, int32_t node, region *out)
 {
     const mat4 identity = mat4_identity();
-    size_t shapes = r->shape_count;
-    int32_t shape;
+    size_t     shapes = r->shape_count;
+    int32_t    shape;
     lmn_status status = csg_union(r, node, &shape);
     if (status == LMN_OK && shape >= 0)
         status = (csg_bool(&r->tree, node, "cut", 0, false) ? cut : shadow)(r, node, shape, &identity, out);

@@ -48,7 +48,7 @@ static lmn_status gather(csg_reader *r, int32_t node, region_list *out)
 static lmn_status combine(csg_reader *r, int32_t node, region_operation operation, region *out)
 {
     region_list list;
-    lmn_status status = gather(r, node, &list);
+    lmn_status  status = gather(r, node, &list);
     if (status == LMN_OK && list.count == 1) {
         *out = list.items[0];
         list.count = 0;
@@ -97,7 +97,7 @@ lmn_status csg_region_of(csg_reader *r, int32_t node, region *out, bool *absent)
     return csg_tolerate(r, node, status);
 }
 
-/* --- plain figures ----------------------------------------------------------------------------------------------------- */
+/* --- plain figures -------------------------------------------------------------------------------------- */
 
 lmn_status csg_square(csg_reader *r, int32_t node, region *out)
 {
@@ -149,11 +149,12 @@ static lmn_status one_path(csg_reader *r, size_t count, csg_paths *out)
 static lmn_status one_bare_path(csg_reader *r, int32_t value, size_t point_count, csg_paths *out)
 {
     const csg_tree *t = &r->tree;
-    lmn_status status = one_path(r, t->values[value].count, out);
+    lmn_status      status = one_path(r, t->values[value].count, out);
     for (uint32_t i = 0; i < t->values[value].count && status == LMN_OK; i++) {
         const csg_value *v = &t->values[value + 1 + (int32_t)i];
         if (v->kind != CSG_NUMBER || !(v->as.number >= 0 && v->as.number < (double)point_count))
-            return error_set(r->error, LMN_FORMAT, "an index of its path is out of range, there are %zu points", point_count);
+            return error_set(r->error, LMN_FORMAT, "an index of its path is out of range, there are %zu points",
+                             point_count);
         out->corners[i] = (uint32_t)v->as.number;
     }
     return status;
@@ -162,12 +163,13 @@ static lmn_status one_bare_path(csg_reader *r, int32_t value, size_t point_count
 lmn_status csg_polygon(csg_reader *r, int32_t node, region *out)
 {
     const csg_tree *t = &r->tree;
-    point2 *points;
-    size_t count;
-    csg_paths paths = {0};
-    int32_t list = csg_argument_value(t, node, "paths", 1);
-    lmn_status status = read_points(r, csg_argument_value(t, node, "points", 0), &points, &count);
-    bool bare = list != NONE && t->values[list].kind == CSG_VECTOR && t->values[list].count > 0 && t->values[list + 1].kind == CSG_NUMBER;
+    point2         *points;
+    size_t          count;
+    csg_paths       paths = {0};
+    int32_t         list = csg_argument_value(t, node, "paths", 1);
+    lmn_status      status = read_points(r, csg_argument_value(t, node, "points", 0), &points, &count);
+    bool            bare = list != NONE && t->values[list].kind == CSG_VECTOR && t->values[list].count > 0 &&
+                t->values[list + 1].kind == CSG_NUMBER;
     if (status == LMN_OK)
         status = list == NONE ? one_path(r, count, &paths)
                  : bare       ? one_bare_path(r, list, count, &paths)
@@ -189,35 +191,42 @@ static const char *word_or_null(const csg_reader *r, int32_t node, const char *n
 lmn_status csg_text(csg_reader *r, int32_t node, region *out)
 {
     const csg_tree *t = &r->tree;
-    bool missing = false;
-    text_style style = {.font = csg_string(t, node, "font", 2, NULL), .size = csg_number(t, node, "size", 1, 10),
-                        .spacing = csg_number(t, node, "spacing", NONE, 1), .direction = word_or_null(r, node, "direction"),
-                        .language = word_or_null(r, node, "language"), .script = word_or_null(r, node, "script"),
-                        .halign = word_or_null(r, node, "halign"), .valign = word_or_null(r, node, "valign")};
-    lmn_status status = construct_text(out, csg_string(t, node, "text", 0, ""), &style, csg_facets(r, node), &missing, r->error);
+    bool            missing = false;
+    text_style      style = {.font = csg_string(t, node, "font", 2, NULL),
+                             .size = csg_number(t, node, "size", 1, 10),
+                             .spacing = csg_number(t, node, "spacing", NONE, 1),
+                             .direction = word_or_null(r, node, "direction"),
+                             .language = word_or_null(r, node, "language"),
+                             .script = word_or_null(r, node, "script"),
+                             .halign = word_or_null(r, node, "halign"),
+                             .valign = word_or_null(r, node, "valign")};
+    lmn_status      status =
+        construct_text(out, csg_string(t, node, "text", 0, ""), &style, csg_facets(r, node), &missing, r->error);
     if (status == LMN_OK && missing)
-        csg_warn(r, node, WARNING_MISSING_FILE, "text(): another font stands in for \"%.80s\"", style.font ? style.font : "");
+        csg_warn(r, node, WARNING_MISSING_FILE, "text(): another font stands in for \"%.80s\"",
+                 style.font ? style.font : "");
     return status;
 }
 
-/* --- changed figures --------------------------------------------------------------------------------------------------- */
+/* --- changed figures ------------------------------------------------------------------------------------ */
 
 lmn_status csg_offset(csg_reader *r, int32_t node, region *out)
 {
     const csg_tree *t = &r->tree;
-    bool delta = csg_argument_value(t, node, "delta", NONE) != NONE && csg_argument_value(t, node, "r", NONE) == NONE;
+    bool   delta = csg_argument_value(t, node, "delta", NONE) != NONE && csg_argument_value(t, node, "r", NONE) == NONE;
     double distance = delta ? csg_number(t, node, "delta", NONE, 1) : csg_number(t, node, "r", 0, 1);
     region below = {0};
     lmn_status status = csg_children_region(r, node, &below);
     if (status == LMN_OK && below.count > 0)
-        status = region_offset(out, &below, distance, !delta, csg_bool(t, node, "chamfer", NONE, false), csg_facets(r, node), r->error);
+        status = region_offset(out, &below, distance, !delta, csg_bool(t, node, "chamfer", NONE, false),
+                               csg_facets(r, node), r->error);
     region_release(&below);
     return status;
 }
 
 static lmn_status placed(csg_reader *r, int32_t node, const double m[6], region *out)
 {
-    region below = {0};
+    region     below = {0};
     lmn_status status = csg_children_region(r, node, &below);
     if (status == LMN_OK && below.count > 0)
         status = region_transform(out, &below, m, r->error);
@@ -235,8 +244,8 @@ lmn_status csg_region_multmatrix(csg_reader *r, int32_t node, region *out)
 
 lmn_status csg_region_resize(csg_reader *r, int32_t node, region *out)
 {
-    region below = {0};
-    double low[2], high[2], factors[3];
+    region     below = {0};
+    double     low[2], high[2], factors[3];
     lmn_status status = csg_children_region(r, node, &below);
     if (status == LMN_OK && region_bounds(&below, low, high)) {
         csg_resize_factors(r, node, (const double[2]){high[0] - low[0], high[1] - low[1]}, 2, factors);
@@ -249,7 +258,7 @@ lmn_status csg_region_resize(csg_reader *r, int32_t node, region *out)
 lmn_status csg_region_hull(csg_reader *r, int32_t node, region *out)
 {
     region_list list;
-    lmn_status status = gather(r, node, &list);
+    lmn_status  status = gather(r, node, &list);
     if (status == LMN_OK && list.count > 0)
         status = region_hull(out, list.items, list.count, r->error);
     release_list(&list);
@@ -260,7 +269,7 @@ lmn_status csg_region_hull(csg_reader *r, int32_t node, region *out)
 lmn_status csg_region_minkowski(csg_reader *r, int32_t node, region *out)
 {
     region_list list;
-    lmn_status status = gather(r, node, &list);
+    lmn_status  status = gather(r, node, &list);
     for (size_t i = 0; i < list.count && status == LMN_OK; i++) {
         region sum = {0};
         if (list.items[i].count == 0)

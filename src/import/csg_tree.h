@@ -1,5 +1,5 @@
-/* Inside the import folder: the syntax of OpenSCAD's evaluated files (.csg) as a tree. Nodes and values are kept in the order of
- * the text, so that all below one is the run up to its `after`. Nienhaus et al. 2006, section 2. */
+/* Inside the import folder: the syntax of OpenSCAD's evaluated files (.csg) as a tree. Nodes and values are kept in
+ * the order of the text, so that all below one is the run up to its `after`. Nienhaus et al. 2006, section 2. */
 #ifndef LIMNER_IMPORT_CSG_TREE_H
 #define LIMNER_IMPORT_CSG_TREE_H
 
@@ -45,7 +45,8 @@ typedef struct csg_tree {
     size_t        text_size, text_capacity;
 } csg_tree;
 
-/* Parses the job's file. Errors: LMN_FORMAT with line and column, LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED. Release it also after one. */
+/* Parses the job's file. Errors: LMN_FORMAT with line and column, LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED. Release it
+ * also after one. */
 lmn_status csg_parse(csg_tree *out, const import_job *job, lmn_error *error);
 void       csg_release(csg_tree *tree);
 
@@ -56,17 +57,19 @@ const char *csg_word(const csg_tree *tree, int32_t node);
 /* Do both say the same, children too? */
 bool csg_equal(const csg_tree *tree, int32_t a, int32_t b);
 
-/* --- csg_arguments.c: what a node is told ------------------------------------------------------------------------------ */
+/* --- csg_arguments.c: what a node is told --------------------------------------------------------------- */
 
-/* The value given by this name, or as the n-th without a name (from 0; NONE: by name only). NONE when absent or undef. */
+/* The value given by this name, or as the n-th without a name (from 0; NONE: by name only). NONE when absent or
+ * undef. */
 int32_t csg_argument_value(const csg_tree *tree, int32_t node, const char *name, int position);
 /* The same as a type; `otherwise` when absent or of another type. */
 double      csg_number(const csg_tree *tree, int32_t node, const char *name, int position, double otherwise);
 bool        csg_bool(const csg_tree *tree, int32_t node, const char *name, int position, bool otherwise);
 const char *csg_string(const csg_tree *tree, int32_t node, const char *name, int position, const char *otherwise);
-/* Numbers of a vector into `out`, which keeps its content where there are none; one number alone stands for all when `spread`. Returns
- * how many the vector has; 0 when absent. */
-uint32_t csg_numbers(const csg_tree *tree, int32_t node, const char *name, int position, double *out, uint32_t count, bool spread);
+/* Numbers of a vector into `out`, which keeps its content where there are none; one number alone stands for all
+ * when `spread`. Returns how many the vector has; 0 when absent. */
+uint32_t csg_numbers(const csg_tree *tree, int32_t node, const char *name, int position, double *out, uint32_t count,
+                     bool spread);
 /* Numbers of a vector value; those missing keep what `out` has. */
 void csg_vector_numbers(const csg_tree *tree, int32_t value, double *out, uint32_t count);
 /* Are all numbers that the node is told finite? */

@@ -82,7 +82,7 @@ lmn_status draco_open(draco_model **out, const unsigned char *bytes, size_t size
     if (!m)
         return error_memory(error);
     fence_bytes request = {.bytes = (unsigned char *)bytes, .size = size};
-    lmn_status status = fence_call(&m->answer, decode, "the reader of Draco data", &request, error);
+    lmn_status  status = fence_call(&m->answer, decode, "the reader of Draco data", &request, error);
     if (status == LMN_OK && !check(m))
         status = error_set(error, LMN_FORMAT, "the Draco data is damaged");
     if (status == LMN_OK)
@@ -119,8 +119,8 @@ void draco_read_indices(const draco_model *model, uint32_t *out)
 bool draco_read_attribute(const draco_model *model, uint32_t id, int components, bool normalized, float *out)
 {
     const unsigned char *at = model->first;
-    draco_attribute head = {0};
-    uint32_t i = 0;
+    draco_attribute      head = {0};
+    uint32_t             i = 0;
     for (; i < model->attributes; i++, at += attribute_size(model)) {
         memcpy(&head, at, sizeof head);
         if (head.id == id)

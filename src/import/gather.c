@@ -5,7 +5,7 @@
 
 static lmn_status append_primitive(polyhedron *out, const primitive *p, const mat4 *place, lmn_error *error)
 {
-    size_t points = out->point_count + p->vertex_count, corners = 3 * out->triangle_count + p->index_count;
+    size_t  points = out->point_count + p->vertex_count, corners = 3 * out->triangle_count + p->index_count;
     point3 *grown = mem_realloc(out->points, points * sizeof *grown);
     if (grown)
         out->points = grown;
@@ -19,8 +19,9 @@ static lmn_status append_primitive(polyhedron *out, const primitive *p, const ma
     const double *m = place->m;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         double x = (double)p->positions[i].x, y = (double)p->positions[i].y, z = (double)p->positions[i].z;
-        grown[out->point_count + i] = (point3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
-                                               m[2] * x + m[6] * y + m[10] * z + m[14]};
+        grown[out->point_count + i] =
+            (point3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
+                     m[2] * x + m[6] * y + m[10] * z + m[14]};
     }
     out->point_count = points;
     out->triangle_count = corners / 3;
@@ -30,7 +31,7 @@ static lmn_status append_primitive(polyhedron *out, const primitive *p, const ma
 static bool has_border(const primitive *p)
 {
     uint32_t *adjacent = mesh_adjacency(p);
-    bool found = false;
+    bool      found = false;
     for (uint32_t i = 0; adjacent && i < p->index_count && !found; i++)
         found = adjacent[i] == UINT32_MAX;
     mem_free(adjacent);
@@ -39,7 +40,7 @@ static bool has_border(const primitive *p)
 
 lmn_status import_gather(polyhedron *out, const lmn_scene *s, bool *open, lmn_error *error)
 {
-    mat4 *worlds = scene_world_matrices(s);
+    mat4      *worlds = scene_world_matrices(s);
     lmn_status status = worlds ? LMN_OK : error_memory(error);
     *open = false;
     for (size_t i = 0; i < s->part_count && status == LMN_OK; i++) {

@@ -4,7 +4,8 @@
 
 #include "construct/construct.h"
 
-/* At rest, in the scene's axes, solids left out. *open: some have borders. Errors: LMN_MEMORY; release the result all the same. */
+/* At rest, in the scene's axes, solids left out. *open: some have borders. Errors: LMN_MEMORY; release the result
+ * all the same. */
 lmn_status import_gather(polyhedron *out, const lmn_scene *scene, bool *open, lmn_error *error);
 
 #endif

@@ -37,7 +37,7 @@ static bool recognises(const file_data *file)
            memmem(p, (size_t)(end - p), "\"version\"", 9);
 }
 
-/* --- container --------------------------------------------------------------------------------------------------- */
+/* --- container ------------------------------------------------------------------------------------------ */
 
 static bool cut_off(gltf_reader *r, const char *what, size_t wanted, size_t have)
 {
@@ -50,7 +50,7 @@ static bool cut_off(gltf_reader *r, const char *what, size_t wanted, size_t have
 static bool split_glb(gltf_reader *r, const unsigned char **json, size_t *json_size)
 {
     const unsigned char *data = r->job->file->data;
-    size_t size = r->job->file->size;
+    size_t               size = r->job->file->size;
     if (size < GLB_HEADER)
         return cut_off(r, "the GLB header", GLB_HEADER, size);
     if (read_u32(data + 4) != 2) {
@@ -88,9 +88,9 @@ enum { VALUE_BYTES = 96 };
 /* Nesting is checked before the parser recurses, and that what it makes will find room. */
 static bool check_json(gltf_reader *r, const unsigned char *json, size_t size)
 {
-    int depth = 0;
+    int    depth = 0;
     size_t values = 0;
-    bool quoted = false;
+    bool   quoted = false;
     for (size_t i = 0; i < size; i++) {
         unsigned char c = json[i];
         values += !quoted && (c == ',' || c == '{' || c == '[' || c == ':');
@@ -117,7 +117,7 @@ typedef struct json_text {
 static size_t next_part(void *buffer, size_t size, void *user)
 {
     json_text *t = user;
-    size_t left = (size_t)(t->end - t->at), some = left < size ? left : size;
+    size_t     left = (size_t)(t->end - t->at), some = left < size ? left : size;
     if (work_stopped())
         return (size_t)-1;
     memcpy(buffer, t->at, some);
@@ -128,7 +128,7 @@ static size_t next_part(void *buffer, size_t size, void *user)
 static bool parse(gltf_reader *r)
 {
     const unsigned char *json = NULL;
-    size_t size = 0;
+    size_t               size = 0;
     if (is_glb(r->job->file)) {
         if (!split_glb(r, &json, &size))
             return false;
@@ -165,15 +165,22 @@ static bool parse(gltf_reader *r)
     return true;
 }
 
-/* --- version and extensions -------------------------------------------------------------------------------------- */
+/* --- version and extensions ----------------------------------------------------------------------------- */
 
 /* Those whose absence would not change what is drawn, or that are read. */
 static bool is_known(const char *name)
 {
-    static const char *const known[] = {
-        "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_texture_transform", "KHR_lights_punctual",
-        "EXT_mesh_gpu_instancing", "EXT_mesh_primitive_edge_visibility", "EXT_texture_webp", "KHR_node_visibility",
-        "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness"};
+    static const char *const known[] = {"KHR_mesh_quantization",
+                                        "EXT_meshopt_compression",
+                                        "KHR_texture_transform",
+                                        "KHR_lights_punctual",
+                                        "EXT_mesh_gpu_instancing",
+                                        "EXT_mesh_primitive_edge_visibility",
+                                        "EXT_texture_webp",
+                                        "KHR_node_visibility",
+                                        "KHR_materials_unlit",
+                                        "KHR_materials_emissive_strength",
+                                        "KHR_materials_pbrSpecularGlossiness"};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(name, known[i]) == 0)
             return true;
@@ -190,9 +197,10 @@ static bool is_harmless(const char *name)
 static void check_extensions(gltf_reader *r)
 {
     json_t *name;
-    size_t i;
+    size_t  i;
     json_t *required = gltf_member(r, r->root, "extensionsRequired", JSON_ARRAY, "glTF");
-    json_array_foreach(required, i, name) {
+    json_array_foreach(required, i, name)
+    {
         const char *text = json_string_value(name);
         if (!text || is_known(text) || is_harmless(text))
             continue;
@@ -201,7 +209,8 @@ static void check_extensions(gltf_reader *r)
         return;
     }
     json_t *used = gltf_member(r, r->root, "extensionsUsed", JSON_ARRAY, "glTF");
-    json_array_foreach(used, i, name) {
+    json_array_foreach(used, i, name)
+    {
         const char *text = json_string_value(name);
         if (text && !is_known(text))
             gltf_warn(r, WARNING_IGNORED, "glTF extension %.100s", text);
@@ -210,7 +219,7 @@ static void check_extensions(gltf_reader *r)
 
 static void check_version(gltf_reader *r)
 {
-    json_t *asset = gltf_member(r, r->root, "asset", JSON_OBJECT, "glTF");
+    json_t     *asset = gltf_member(r, r->root, "asset", JSON_OBJECT, "glTF");
     const char *version = json_string_value(json_object_get(asset, "version"));
     if (!version) {
         gltf_fail(r, LMN_FORMAT, "asset.version is missing: this is not a glTF file, or not a whole one");
@@ -222,7 +231,7 @@ static void check_version(gltf_reader *r)
     }
 }
 
-/* --- the whole --------------------------------------------------------------------------------------------------- */
+/* --- the whole ------------------------------------------------------------------------------------------ */
 
 static int32_t *make_map(gltf_reader *r, const char *list, size_t *count)
 {
@@ -246,8 +255,8 @@ static void prepare(gltf_reader *r)
         gltf_fail(r, LMN_LIMIT, "%zu nodes, allowed are %zu", r->node_count, LIMIT_NODES);
 }
 
-/* When nothing can be drawn because a file is missing, that file is to blame. A valid file in which no drawn node has a
- * mesh, or whose only data is not there to be found (a buffer without a uri), is an empty scene. */
+/* When nothing can be drawn because a file is missing, that file is to blame. A valid file in which no drawn node
+ * has a mesh, or whose only data is not there to be found (a buffer without a uri), is an empty scene. */
 static void check_content(gltf_reader *r)
 {
     for (size_t i = 0; i < r->scene->mesh_count; i++)
@@ -262,12 +271,11 @@ static void check_content(gltf_reader *r)
 
 static lmn_status read_gltf(const import_job *job, lmn_error *error)
 {
-    static void (*const steps[])(gltf_reader *) = {check_version,     check_extensions, prepare,
-                                                   gltf_read_materials, gltf_read_cameras, gltf_read_lights,
-                                                   gltf_read_nodes,   gltf_read_skins,  gltf_read_animations,
-                                                   check_content};
+    static void (*const steps[])(gltf_reader *) = {
+        check_version,    check_extensions, prepare,         gltf_read_materials,  gltf_read_cameras,
+        gltf_read_lights, gltf_read_nodes,  gltf_read_skins, gltf_read_animations, check_content};
     gltf_reader r = {.job = job, .scene = job->scene, .error = error};
-    bool parsed = parse(&r);
+    bool        parsed = parse(&r);
     for (size_t i = 0; parsed && r.status == LMN_OK && i < sizeof steps / sizeof *steps; i++)
         steps[i](&r);
     gltf_release_buffers(&r);

@@ -38,8 +38,8 @@ typedef struct gltf_reader {
     int32_t             *mesh_map, *node_map, *image_map; /* index in the file → in the scene, NONE: not there */
     size_t               mesh_count, node_count, image_count;
     size_t               elements, zeros, vertices, triangles, instances; /* read so far, against the limits */
-    const char          *missing_buffer;                /* the name of the first */
-    bool                 nameless_buffer;               /* one that names no file is missing */
+    const char          *missing_buffer;                                  /* the name of the first */
+    bool                 nameless_buffer;                                 /* one that names no file is missing */
 } gltf_reader;
 
 /* An accessor's data, checked to lie within its view. */
@@ -51,7 +51,7 @@ typedef struct gltf_accessor {
     json_t              *sparse;
 } gltf_accessor;
 
-/* --- gltf_json.c: values with messages that say where ----------------------------------------------------------- */
+/* --- gltf_json.c: values with messages that say where --------------------------------------------------- */
 
 lmn_status gltf_fail(gltf_reader *r, lmn_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 bool       gltf_out_of_memory(gltf_reader *r); /* sets the error; returns false for `return` */
@@ -60,7 +60,8 @@ size_t     gltf_count(gltf_reader *r, const char *list);
 json_t    *gltf_item(gltf_reader *r, const char *list, size_t index); /* NULL and an error when it is no object */
 json_t    *gltf_member(gltf_reader *r, json_t *object, const char *key, json_type type, const char *where);
 json_t    *gltf_extension(json_t *object, const char *name);
-/* False when the key is absent (or after an error); `count` is what the index must lie below, `what` its list's name. */
+/* False when the key is absent (or after an error); `count` is what the index must lie below, `what` its list's
+ * name. */
 bool   gltf_index(gltf_reader *r, json_t *object, const char *key, size_t count, const char *what, const char *where,
                   size_t *out);
 bool   gltf_size(gltf_reader *r, json_t *object, const char *key, size_t otherwise, const char *where, size_t *out);
@@ -68,10 +69,10 @@ double gltf_number(json_t *object, const char *key, double otherwise);
 bool   gltf_true(json_t *object, const char *key);
 /* Copies `count` numbers; false and untouched when the key is absent or holds something else. */
 bool  gltf_numbers(json_t *object, const char *key, double *out, size_t count);
-char *gltf_name(gltf_reader *r, json_t *object); /* NULL when there is none */
+char *gltf_name(gltf_reader *r, json_t *object);             /* NULL when there is none */
 void *gltf_alloc(gltf_reader *r, size_t count, size_t size); /* zeroed */
 
-/* --- gltf_buffer.c ----------------------------------------------------------------------------------------------- */
+/* --- gltf_buffer.c -------------------------------------------------------------------------------------- */
 
 /* NULL when missing or after an error. */
 const gltf_view *gltf_get_view(gltf_reader *r, size_t index, const char *where);
@@ -80,15 +81,16 @@ bool gltf_load_uri(gltf_reader *r, const char *uri, const char *kind, unsigned c
                    char **name);
 void gltf_release_buffers(gltf_reader *r);
 
-/* --- gltf_accessor.c --------------------------------------------------------------------------------------------- */
+/* --- gltf_accessor.c ------------------------------------------------------------------------------------ */
 
 /* False when its buffer is missing or after an error. */
 bool gltf_open_accessor(gltf_reader *r, size_t index, const char *where, gltf_accessor *out);
-/* All elements as floats, `components` each: missing ones become 0, a fourth 1. NULL like above; free with mem_free. */
+/* All elements as floats, `components` each: missing ones become 0, a fourth 1. NULL like above; free with
+ * mem_free. */
 float    *gltf_read_floats(gltf_reader *r, const gltf_accessor *a, int components, const char *where);
 uint32_t *gltf_read_integers(gltf_reader *r, const gltf_accessor *a, int components, const char *where);
 
-/* --- the content ------------------------------------------------------------------------------------------------- */
+/* --- the content ---------------------------------------------------------------------------------------- */
 
 void    gltf_read_materials(gltf_reader *r);
 int32_t gltf_get_mesh(gltf_reader *r, size_t index); /* NONE when nothing of it can be drawn or after an error */

@@ -11,9 +11,12 @@ enum { TYPE_BYTE = 5120, TYPE_UBYTE, TYPE_SHORT, TYPE_USHORT, TYPE_UINT = 5125, 
 static size_t type_size(int type)
 {
     switch (type) {
-    case TYPE_BYTE: case TYPE_UBYTE: return 1;
-    case TYPE_SHORT: case TYPE_USHORT: return 2;
-    case TYPE_UINT: case TYPE_FLOAT: return 4;
+    case TYPE_BYTE:
+    case TYPE_UBYTE: return 1;
+    case TYPE_SHORT:
+    case TYPE_USHORT: return 2;
+    case TYPE_UINT:
+    case TYPE_FLOAT: return 4;
     default: return 0;
     }
 }
@@ -55,8 +58,9 @@ static bool place(gltf_reader *r, json_t *object, const char *where, gltf_access
     if (v->stride)
         a->stride = v->stride;
     if (!fits(v, offset, a->count, a->stride, element)) {
-        gltf_fail(r, LMN_FORMAT, "%s: %zu elements of %zu bytes from byte %zu do not fit bufferViews[%zu], which has %zu",
-                  where, a->count, element, offset, view_index, v->size);
+        gltf_fail(r, LMN_FORMAT,
+                  "%s: %zu elements of %zu bytes from byte %zu do not fit bufferViews[%zu], which has %zu", where,
+                  a->count, element, offset, view_index, v->size);
         return false;
     }
     a->data = v->data + offset;
@@ -65,7 +69,7 @@ static bool place(gltf_reader *r, json_t *object, const char *where, gltf_access
 
 bool gltf_open_accessor(gltf_reader *r, size_t index, const char *where, gltf_accessor *out)
 {
-    char here[GLTF_WHERE];
+    char   here[GLTF_WHERE];
     size_t type;
     memset(out, 0, sizeof *out);
     if (r->status != LMN_OK)
@@ -122,8 +126,10 @@ static float one_float(const unsigned char *p, int type, bool normalized)
 static uint32_t one_integer(const unsigned char *p, int type)
 {
     switch (type) {
-    case TYPE_BYTE: case TYPE_UBYTE: return *p;
-    case TYPE_SHORT: case TYPE_USHORT: return p[0] | (uint32_t)p[1] << 8;
+    case TYPE_BYTE:
+    case TYPE_UBYTE: return *p;
+    case TYPE_SHORT:
+    case TYPE_USHORT: return p[0] | (uint32_t)p[1] << 8;
     case TYPE_UINT: return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
     default: {
         float value;
@@ -139,10 +145,10 @@ typedef struct sparse_part {
     int                  type;
 } sparse_part;
 
-static bool open_sparse(gltf_reader *r, json_t *sparse, const char *key, size_t count, size_t element, const char *where,
-                        sparse_part *out)
+static bool open_sparse(gltf_reader *r, json_t *sparse, const char *key, size_t count, size_t element,
+                        const char *where, sparse_part *out)
 {
-    size_t view_index, offset;
+    size_t  view_index, offset;
     json_t *object = gltf_member(r, sparse, key, JSON_OBJECT, where);
     if (!object || !gltf_index(r, object, "bufferView", r->view_count, "bufferViews", where, &view_index)) {
         gltf_fail(r, LMN_FORMAT, "%s.sparse.%s: no bufferView", where, key);
@@ -153,7 +159,8 @@ static bool open_sparse(gltf_reader *r, json_t *sparse, const char *key, size_t 
     if (!v)
         return false;
     if (!fits(v, offset, count, element, element)) {
-        gltf_fail(r, LMN_FORMAT, "%s.sparse.%s: %zu elements do not fit bufferViews[%zu]", where, key, count, view_index);
+        gltf_fail(r, LMN_FORMAT, "%s.sparse.%s: %zu elements do not fit bufferViews[%zu]", where, key, count,
+                  view_index);
         return false;
     }
     out->data = v->data + offset;
@@ -176,7 +183,7 @@ static bool apply_sparse(gltf_reader *r, const gltf_accessor *a, int components,
     if (r->status != LMN_OK || index_size == 0 || count > a->count)
         return gltf_fail(r, LMN_FORMAT, "%s.sparse: wrong count or index type", where), false;
     sparse_part indices, values;
-    size_t element = type_size(a->type) * (size_t)a->components;
+    size_t      element = type_size(a->type) * (size_t)a->components;
     if (!open_sparse(r, a->sparse, "indices", count, index_size, where, &indices) ||
         !open_sparse(r, a->sparse, "values", count, element, where, &values))
         return false;
@@ -200,7 +207,7 @@ static void store_floats(void *out, size_t index, const unsigned char *value, co
 static void store_integers(void *out, size_t index, const unsigned char *value, const gltf_accessor *a, int components)
 {
     uint32_t *to = (uint32_t *)out + index * (size_t)components;
-    size_t size = type_size(a->type);
+    size_t    size = type_size(a->type);
     for (int k = 0; k < components; k++)
         to[k] = k < a->components ? one_integer(value + (size_t)k * size, a->type) : 0;
 }

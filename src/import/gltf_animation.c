@@ -35,7 +35,7 @@ static bool bad_channel(gltf_reader *r, const char *where, const char *why)
 static float *read_sampler(gltf_reader *r, json_t *sampler, const char *key, int components, const char *where,
                            size_t *count, int *own_components)
 {
-    size_t index;
+    size_t        index;
     gltf_accessor a;
     if (!gltf_index(r, sampler, key, gltf_count(r, "accessors"), "accessors", where, &index) ||
         !gltf_open_accessor(r, index, where, &a))
@@ -65,8 +65,8 @@ static bool values_are_finite(const float *values, size_t count)
 static bool read_values(gltf_reader *r, json_t *sampler, const char *where, animation_channel *c)
 {
     static const int path_components[] = {3, 4, 3, 1};
-    size_t count = 0, per_key = c->interpolation == INTERPOLATION_CUBIC ? 3 : 1;
-    int components = path_components[c->path], own = 0;
+    size_t           count = 0, per_key = c->interpolation == INTERPOLATION_CUBIC ? 3 : 1;
+    int              components = path_components[c->path], own = 0;
     c->values = read_sampler(r, sampler, "output", components, where, &count, &own);
     if (!c->values)
         return bad_channel(r, where, "no usable output values");
@@ -80,8 +80,8 @@ static bool read_values(gltf_reader *r, json_t *sampler, const char *where, anim
 static bool read_channel(gltf_reader *r, json_t *animation_object, json_t *object, const char *where,
                          animation_channel *c)
 {
-    size_t node_index, sampler_index;
-    int own;
+    size_t  node_index, sampler_index;
+    int     own;
     json_t *target = gltf_member(r, object, "target", JSON_OBJECT, where);
     json_t *samplers = json_object_get(animation_object, "samplers");
     /* A target without a node is for extensions. */
@@ -104,10 +104,10 @@ static bool read_channel(gltf_reader *r, json_t *animation_object, json_t *objec
 
 static void read_animation(gltf_reader *r, size_t index)
 {
-    char where[GLTF_WHERE];
+    char    where[GLTF_WHERE];
     json_t *object = gltf_item(r, "animations", index);
     snprintf(where, sizeof where, "animations[%zu]", index);
-    json_t *channels = object ? gltf_member(r, object, "channels", JSON_ARRAY, where) : NULL;
+    json_t    *channels = object ? gltf_member(r, object, "channels", JSON_ARRAY, where) : NULL;
     animation *a = r->status == LMN_OK ? scene_append_animation(r->scene) : NULL;
     if (!a) {
         gltf_out_of_memory(r);

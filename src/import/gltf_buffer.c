@@ -19,7 +19,8 @@ static int hex_digit(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Decodes %XX in place of itself; returns the size. A NUL byte inside a name would hide its rest and is kept encoded. */
+/* Decodes %XX in place of itself; returns the size. A NUL byte inside a name would hide its rest and is kept
+ * encoded. */
 static size_t decode_percent(const char *from, char *to)
 {
     size_t size = 0;
@@ -50,7 +51,7 @@ static int base64_digit(char c)
 static bool decode_base64(const char *from, unsigned char *to, size_t *size)
 {
     uint32_t bits = 0;
-    int have = 0;
+    int      have = 0;
     *size = 0;
     for (; *from && *from != '='; from++) {
         int digit = base64_digit(*from);
@@ -71,7 +72,7 @@ static bool decode_base64(const char *from, unsigned char *to, size_t *size)
 static bool load_data_uri(gltf_reader *r, const char *uri, const char *kind, unsigned char **owned, file_data *file)
 {
     const char *comma = strchr(uri, ',');
-    bool base64 = comma && comma - uri >= 7 && memcmp(comma - 7, ";base64", 7) == 0;
+    bool        base64 = comma && comma - uri >= 7 && memcmp(comma - 7, ";base64", 7) == 0;
     if (!comma)
         return gltf_fail(r, LMN_FORMAT, "%s: a data URI without a comma", kind), false;
     *owned = gltf_alloc(r, strlen(comma) + 1, 1);
@@ -108,9 +109,9 @@ bool gltf_load_uri(gltf_reader *r, const char *uri, const char *kind, unsigned c
     *name = scene_clean_name(decoded, strlen(decoded));
     char *path = file_beside(r->job->path, decoded);
     mem_free(decoded);
-    lmn_error problem = {.message = "limner does not fetch from the network"};
-    bool refused = false;
-    bool good = *name && path;
+    lmn_error  problem = {.message = "limner does not fetch from the network"};
+    bool       refused = false;
+    bool       good = *name && path;
     lmn_status status = LMN_READ;
     if (good && !has_scheme(uri))
         status = access_read(r->job, kind, path, file, &refused, &problem);
@@ -163,7 +164,7 @@ static const gltf_buffer *get_buffer(gltf_reader *r, size_t index)
         return NULL;
     gltf_buffer *b = &r->buffers[index];
     if (!b->asked) {
-        char where[GLTF_WHERE];
+        char   where[GLTF_WHERE];
         size_t length;
         b->asked = true;
         snprintf(where, sizeof where, "buffers[%zu]", index);
@@ -218,10 +219,10 @@ static bool is_plausible(const packed *p, size_t bytes)
 
 static bool check_packed(gltf_reader *r, const packed *p, const char *where)
 {
-    bool attributes = strcmp(p->mode, "ATTRIBUTES") == 0, triangles = strcmp(p->mode, "TRIANGLES") == 0;
+    bool   attributes = strcmp(p->mode, "ATTRIBUTES") == 0, triangles = strcmp(p->mode, "TRIANGLES") == 0;
     size_t bytes;
-    bool good = attributes ? p->stride % 4 == 0 && p->stride > 0 && p->stride <= 256
-                           : (triangles || strcmp(p->mode, "INDICES") == 0) && (p->stride == 2 || p->stride == 4);
+    bool   good = attributes ? p->stride % 4 == 0 && p->stride > 0 && p->stride <= 256
+                             : (triangles || strcmp(p->mode, "INDICES") == 0) && (p->stride == 2 || p->stride == 4);
     if (triangles && p->count % 3 != 0)
         good = false;
     if (strcmp(p->filter, "OCTAHEDRAL") == 0)
@@ -234,7 +235,8 @@ static bool check_packed(gltf_reader *r, const packed *p, const char *where)
         good = good && strcmp(p->filter, "NONE") == 0;
     if (!good)
         return gltf_fail(r, LMN_FORMAT, "%s: mode %s, filter %s and byteStride %zu do not go together", where, p->mode,
-                         p->filter, p->stride), false;
+                         p->filter, p->stride),
+               false;
     if (!size_mul(p->count, p->stride, &bytes) || bytes > LIMIT_FILE_BYTES || !is_plausible(p, bytes))
         return gltf_fail(r, LMN_FORMAT, "%s: %zu compressed bytes cannot hold %zu elements", where, p->size, p->count),
                false;
@@ -255,14 +257,14 @@ static void apply_filter(const char *filter, void *data, size_t count, size_t st
 static lmn_status decode_packed(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(request, size);
-    uint64_t counts[2] = {0, 0};
-    const void *at = fence_take(&r, sizeof counts);
+    uint64_t     counts[2] = {0, 0};
+    const void  *at = fence_take(&r, sizeof counts);
     if (at)
         memcpy(counts, at, sizeof counts);
-    char *mode = fence_take_text(&r), *filter = fence_take_text(&r);
-    size_t count = (size_t)counts[0], stride = (size_t)counts[1], packed_size = (size_t)(r.end - r.at);
+    char          *mode = fence_take_text(&r), *filter = fence_take_text(&r);
+    size_t         count = (size_t)counts[0], stride = (size_t)counts[1], packed_size = (size_t)(r.end - r.at);
     unsigned char *out = mode && filter ? mem_calloc(count, stride) : NULL;
-    int failed = 0;
+    int            failed = 0;
     if (out && strcmp(mode, "ATTRIBUTES") == 0)
         failed = meshopt_decodeVertexBuffer(out, count, stride, r.at, packed_size);
     else if (out && strcmp(mode, "TRIANGLES") == 0)
@@ -274,14 +276,16 @@ static lmn_status decode_packed(const unsigned char *request, size_t size, fence
     mem_free(mode);
     mem_free(filter);
     *answer = (fence_bytes){.bytes = out, .size = out ? count * stride : 0, .capacity = out ? count * stride : 0};
-    return !out ? error_memory(error) : failed ? error_set(error, LMN_FORMAT, "the compressed data is damaged") : LMN_OK;
+    return !out     ? error_memory(error)
+           : failed ? error_set(error, LMN_FORMAT, "the compressed data is damaged")
+                    : LMN_OK;
 }
 
 static bool unpack(gltf_reader *r, const packed *p, const char *where, gltf_view *v)
 {
     if (!check_packed(r, p, where))
         return false;
-    lmn_error problem = {0};
+    lmn_error   problem = {0};
     fence_bytes request = {0}, answer;
     fence_put(&request, &(uint64_t[]){p->count, p->stride}, 2 * sizeof(uint64_t));
     fence_put_text(&request, p->mode);
@@ -326,7 +330,7 @@ const gltf_view *gltf_get_view(gltf_reader *r, size_t index, const char *where)
     }
     gltf_view *v = &r->views[index];
     if (!v->asked) {
-        char here[GLTF_WHERE];
+        char    here[GLTF_WHERE];
         json_t *object = gltf_item(r, "bufferViews", index);
         if (!object)
             return NULL;

@@ -11,7 +11,7 @@ lmn_status gltf_fail(gltf_reader *r, lmn_status status, const char *format, ...)
 {
     if (r->status != LMN_OK)
         return r->status;
-    char message[400];
+    char    message[400];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
@@ -29,7 +29,7 @@ bool gltf_out_of_memory(gltf_reader *r)
 
 void gltf_warn(gltf_reader *r, warning_code code, const char *format, ...)
 {
-    char message[400];
+    char    message[400];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);

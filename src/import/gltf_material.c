@@ -11,7 +11,7 @@ enum { FILTER_NEAREST = 9728, WRAP_CLAMP_TO_EDGE = 33071, WRAP_MIRRORED = 33648 
 /* The image's bytes: in a view, a data URI or a file. */
 static void load_image(gltf_reader *r, json_t *object, size_t index, int32_t *out)
 {
-    char where[GLTF_WHERE], label[GLTF_WHERE];
+    char   where[GLTF_WHERE], label[GLTF_WHERE];
     size_t view_index;
     snprintf(where, sizeof where, "images[%zu]", index);
     const char *name = json_string_value(json_object_get(object, "name"));
@@ -26,8 +26,8 @@ static void load_image(gltf_reader *r, json_t *object, size_t index, int32_t *ou
     if (r->status != LMN_OK || !uri)
         return;
     unsigned char *owned;
-    char *file_name;
-    file_data file;
+    char          *file_name;
+    file_data      file;
     if (gltf_load_uri(r, json_string_value(uri), "texture", &owned, &file, &file_name))
         r->status = build_image_bytes(r->job, file_name ? file_name : label, file.data, file.size, out, r->error);
     mem_free(file_name);
@@ -40,7 +40,7 @@ static void load_image(gltf_reader *r, json_t *object, size_t index, int32_t *ou
 /* Decoded at its first use; NONE when it cannot be had. */
 static int32_t get_image(gltf_reader *r, size_t index)
 {
-    json_t *object = gltf_item(r, "images", index);
+    json_t       *object = gltf_item(r, "images", index);
     const int32_t failed = -2;
     if (!object)
         return NONE;
@@ -71,7 +71,7 @@ static void read_sampler(gltf_reader *r, json_t *texture, const char *where, tex
 static void read_transform(json_t *info, texture_use *use, double *uv_set)
 {
     json_t *transform = gltf_extension(info, "KHR_texture_transform");
-    double pair[2];
+    double  pair[2];
     if (gltf_numbers(transform, "offset", pair, 2)) {
         use->offset[0] = (float)pair[0];
         use->offset[1] = (float)pair[1];
@@ -86,15 +86,15 @@ static void read_transform(json_t *info, texture_use *use, double *uv_set)
 
 static void read_texture(gltf_reader *r, json_t *parent, const char *key, const char *where, texture_use *use)
 {
-    char here[GLTF_WHERE];
-    size_t index, source, images = r->image_count;
+    char    here[GLTF_WHERE];
+    size_t  index, source, images = r->image_count;
     json_t *info = gltf_member(r, parent, key, JSON_OBJECT, where);
     if (!info || !gltf_index(r, info, "index", gltf_count(r, "textures"), "textures", where, &index))
         return;
     json_t *texture = gltf_item(r, "textures", index);
     snprintf(here, sizeof here, "textures[%zu]", index);
     json_t *webp = gltf_extension(texture, "EXT_texture_webp");
-    bool found = (webp && gltf_index(r, webp, "source", images, "images", here, &source)) ||
+    bool    found = (webp && gltf_index(r, webp, "source", images, "images", here, &source)) ||
                  gltf_index(r, texture, "source", images, "images", here, &source);
     if (!found) {
         if (r->status == LMN_OK)
@@ -131,7 +131,7 @@ static void read_emissive(json_t *object, material *m)
 
 static void read_material(gltf_reader *r, size_t index)
 {
-    char where[GLTF_WHERE];
+    char    where[GLTF_WHERE];
     json_t *object = gltf_item(r, "materials", index);
     if (!object)
         return;

@@ -24,19 +24,21 @@ static size_t accessor_total(gltf_reader *r)
     return gltf_count(r, "accessors");
 }
 
-/* Values of one attribute, `components` floats a vertex; NULL when the primitive does not have it (or after an error). */
+/* Values of one attribute, `components` floats a vertex; NULL when the primitive does not have it (or after an
+ * error). */
 static float *read_attribute(gltf_reader *r, shape *s, const char *name, int components)
 {
-    size_t index;
+    size_t        index;
     gltf_accessor a;
-    char where[GLTF_WHERE + 32];
-    if (r->status != LMN_OK || s->missing || !gltf_index(r, s->attributes, name, accessor_total(r), "accessors", s->where, &index))
+    char          where[GLTF_WHERE + 32];
+    if (r->status != LMN_OK || s->missing ||
+        !gltf_index(r, s->attributes, name, accessor_total(r), "accessors", s->where, &index))
         return NULL;
     snprintf(where, sizeof where, "%s.%s", s->where, name);
     json_t *id = json_object_get(s->draco_ids, name);
     if (s->draco && json_is_integer(id)) {
         json_t *object = gltf_item(r, "accessors", index);
-        float *values = gltf_alloc(r, s->p.vertex_count, (size_t)components * sizeof *values);
+        float  *values = gltf_alloc(r, s->p.vertex_count, (size_t)components * sizeof *values);
         if (values && !draco_read_attribute(s->draco, (uint32_t)json_integer_value(id), components,
                                             gltf_true(object, "normalized"), values)) {
             gltf_fail(r, LMN_FORMAT, "%s: the Draco data has no such attribute", where);
@@ -59,7 +61,7 @@ static float *read_attribute(gltf_reader *r, shape *s, const char *name, int com
 /* How many vertices, checked against the limits before anything is allocated. */
 static bool count_vertices(gltf_reader *r, shape *s)
 {
-    size_t index, count;
+    size_t        index, count;
     gltf_accessor a;
     if (!gltf_index(r, s->attributes, "POSITION", accessor_total(r), "accessors", s->where, &index)) {
         if (r->status == LMN_OK)
@@ -111,14 +113,14 @@ static void read_attributes(gltf_reader *r, shape *s)
         gltf_warn(r, WARNING_IGNORED, "texture coordinate sets beyond the second");
 }
 
-/* --- indices ----------------------------------------------------------------------------------------------------- */
+/* --- indices -------------------------------------------------------------------------------------------- */
 
 /* The corners as the file lists them; without indices, all vertices in order. */
 static uint32_t *read_corners(gltf_reader *r, shape *s, size_t *count)
 {
-    size_t index;
+    size_t        index;
     gltf_accessor a;
-    char where[GLTF_WHERE + 32];
+    char          where[GLTF_WHERE + 32];
     snprintf(where, sizeof where, "%s.indices", s->where);
     if (s->draco) {
         *count = draco_triangle_count(s->draco) * 3;
@@ -147,7 +149,8 @@ static bool check_corners(gltf_reader *r, const shape *s, const uint32_t *corner
     for (size_t i = 0; i < count; i++)
         if (corners[i] >= s->p.vertex_count)
             return gltf_fail(r, LMN_FORMAT, "%s.indices[%zu] is %u, but there are only %u vertices", s->where, i,
-                             (unsigned)corners[i], (unsigned)s->p.vertex_count), false;
+                             (unsigned)corners[i], (unsigned)s->p.vertex_count),
+                   false;
     return true;
 }
 
@@ -166,9 +169,9 @@ static uint32_t *unroll(gltf_reader *r, const uint32_t *corners, size_t triangle
 
 static void read_triangles(gltf_reader *r, shape *s, int mode)
 {
-    size_t count = 0;
+    size_t    count = 0;
     uint32_t *corners = read_corners(r, s, &count);
-    size_t triangles = mode == MODE_TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2;
+    size_t    triangles = mode == MODE_TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2;
     r->triangles += triangles;
     if (corners && r->triangles > LIMIT_TRIANGLES)
         gltf_fail(r, LMN_LIMIT, "%s: more than %zu triangles in all", s->where, LIMIT_TRIANGLES);
@@ -190,9 +193,9 @@ static void read_triangles(gltf_reader *r, shape *s, int mode)
 /* EXT_mesh_primitive_edge_visibility packs four edges of two bits into a byte. */
 static void read_edges(gltf_reader *r, shape *s, int mode)
 {
-    size_t index;
+    size_t        index;
     gltf_accessor a;
-    json_t *extension = gltf_extension(s->object, "EXT_mesh_primitive_edge_visibility");
+    json_t       *extension = gltf_extension(s->object, "EXT_mesh_primitive_edge_visibility");
     if (!extension || mode != MODE_TRIANGLES ||
         !gltf_index(r, extension, "visibility", accessor_total(r), "accessors", s->where, &index) ||
         !gltf_open_accessor(r, index, s->where, &a))
@@ -208,12 +211,12 @@ static void read_edges(gltf_reader *r, shape *s, int mode)
     mem_free(packed);
 }
 
-/* --- morphs ------------------------------------------------------------------------------------------------------ */
+/* --- morphs --------------------------------------------------------------------------------------------- */
 
 static void read_morphs(gltf_reader *r, shape *s)
 {
     json_t *targets = gltf_member(r, s->object, "targets", JSON_ARRAY, s->where);
-    size_t count = json_array_size(targets);
+    size_t  count = json_array_size(targets);
     if (count == 0 || r->status != LMN_OK)
         return;
     s->p.morphs = gltf_alloc(r, count, sizeof *s->p.morphs);
@@ -229,7 +232,7 @@ static void read_morphs(gltf_reader *r, shape *s)
     }
 }
 
-/* --- the whole --------------------------------------------------------------------------------------------------- */
+/* --- the whole ------------------------------------------------------------------------------------------ */
 
 /* A build without Draco can still use the plain data that a file may offer beside it. */
 static void check_plain(gltf_reader *r, shape *s)
@@ -237,13 +240,13 @@ static void check_plain(gltf_reader *r, shape *s)
     size_t index;
     if (gltf_index(r, s->attributes, "POSITION", accessor_total(r), "accessors", s->where, &index) &&
         !json_object_get(gltf_item(r, "accessors", index), "bufferView"))
-        gltf_fail(r, LMN_UNSUPPORTED, "%s needs the extension KHR_draco_mesh_compression, which this build does not read",
-                  s->where);
+        gltf_fail(r, LMN_UNSUPPORTED,
+                  "%s needs the extension KHR_draco_mesh_compression, which this build does not read", s->where);
 }
 
 static void open_draco(gltf_reader *r, shape *s)
 {
-    size_t view_index;
+    size_t  view_index;
     json_t *extension = gltf_extension(s->object, "KHR_draco_mesh_compression");
     if (extension && !draco_is_built())
         check_plain(r, s);
@@ -258,7 +261,7 @@ static void open_draco(gltf_reader *r, shape *s)
     if (!v)
         return;
     s->draco_ids = json_object_get(extension, "attributes");
-    lmn_error problem = {0};
+    lmn_error  problem = {0};
     lmn_status status = draco_open(&s->draco, v->data, v->size, &problem);
     if (status != LMN_OK) {
         gltf_fail(r, status, "%s: %s", s->where, problem.message);
@@ -345,7 +348,7 @@ static void fill_mesh(gltf_reader *r, json_t *object, size_t index, mesh *m)
     snprintf(where, sizeof where, "meshes[%zu]", index);
     m->name = gltf_name(r, object);
     json_t *list = gltf_member(r, object, "primitives", JSON_ARRAY, where);
-    size_t count = json_array_size(list);
+    size_t  count = json_array_size(list);
     m->primitives = gltf_alloc(r, count, sizeof *m->primitives);
     for (size_t i = 0; i < count && r->status == LMN_OK; i++)
         if (read_primitive(r, json_array_get(list, i), index, i, &m->primitives[m->primitive_count]))

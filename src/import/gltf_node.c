@@ -9,7 +9,7 @@
 #include "import/build.h"
 #include "import/gltf.h"
 
-/* --- what nodes carry -------------------------------------------------------------------------------------------- */
+/* --- what nodes carry ----------------------------------------------------------------------------------- */
 
 static void read_transform(json_t *object, node *n)
 {
@@ -28,14 +28,16 @@ static void read_transform(json_t *object, node *n)
 static void read_extras(gltf_reader *r, json_t *object, node *n)
 {
     const char *key;
-    json_t *value;
-    json_t *extras = json_object_get(object, "extras");
+    json_t     *value;
+    json_t     *extras = json_object_get(object, "extras");
     if (!json_is_object(extras))
         return;
-    json_object_foreach(extras, key, value) {
-        char *dumped = json_is_string(value) ? NULL : json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
+    json_object_foreach(extras, key, value)
+    {
+        char *dumped =
+            json_is_string(value) ? NULL : json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
         const char *text = json_is_string(value) ? json_string_value(value) : dumped;
-        bool good = !text || build_attribute(n, key, text);
+        bool        good = !text || build_attribute(n, key, text);
         free(dumped);
         if (!good) {
             gltf_out_of_memory(r);
@@ -46,7 +48,7 @@ static void read_extras(gltf_reader *r, json_t *object, node *n)
 
 static float *read_instance_values(gltf_reader *r, json_t *attributes, const char *name, int components, size_t *count)
 {
-    size_t index;
+    size_t        index;
     gltf_accessor a;
     if (!gltf_index(r, attributes, name, gltf_count(r, "accessors"), "accessors", "EXT_mesh_gpu_instancing", &index) ||
         !gltf_open_accessor(r, index, name, &a))
@@ -66,7 +68,7 @@ static float *read_instance_values(gltf_reader *r, json_t *attributes, const cha
 static void read_instances(gltf_reader *r, json_t *object, node *n)
 {
     json_t *attributes = json_object_get(gltf_extension(object, "EXT_mesh_gpu_instancing"), "attributes");
-    size_t count = SIZE_MAX;
+    size_t  count = SIZE_MAX;
     if (!attributes)
         return;
     float *t = read_instance_values(r, attributes, "TRANSLATION", 3, &count);
@@ -99,7 +101,7 @@ static void read_instances(gltf_reader *r, json_t *object, node *n)
 static void read_weights(gltf_reader *r, json_t *object, node *n)
 {
     json_t *weights = json_object_get(object, "weights");
-    size_t count = json_array_size(weights);
+    size_t  count = json_array_size(weights);
     if (count == 0)
         return;
     n->morph_weights = gltf_alloc(r, count, sizeof *n->morph_weights);
@@ -111,8 +113,8 @@ static void read_weights(gltf_reader *r, json_t *object, node *n)
 /* Everything of node `index` but its place in the tree. `drawn`: it belongs to the scene and is not hidden. */
 static void fill_node(gltf_reader *r, json_t *object, size_t index, int32_t at, bool drawn)
 {
-    char where[GLTF_WHERE];
-    size_t value;
+    char    where[GLTF_WHERE];
+    size_t  value;
     int32_t mesh_index = NONE;
     snprintf(where, sizeof where, "nodes[%zu]", index);
     node *n = &r->scene->nodes[at];
@@ -138,7 +140,7 @@ static void fill_node(gltf_reader *r, json_t *object, size_t index, int32_t at, 
     read_instances(r, object, n);
 }
 
-/* --- the tree ---------------------------------------------------------------------------------------------------- */
+/* --- the tree ------------------------------------------------------------------------------------------- */
 
 /* A node to visit, and below which one of the scene's it goes. */
 typedef struct visit {
@@ -169,9 +171,10 @@ static void push_children(gltf_reader *r, visits *stack, json_t *object, const v
     json_t *children = gltf_member(r, object, "children", JSON_ARRAY, where);
     for (size_t i = json_array_size(children); i-- > 0 && r->status == LMN_OK;) {
         json_t *child = json_array_get(children, i);
-        double number = json_is_number(child) ? json_number_value(child) : -1;
+        double  number = json_is_number(child) ? json_number_value(child) : -1;
         if (!(number >= 0 && number < (double)r->node_count)) {
-            gltf_fail(r, LMN_FORMAT, "%s.children[%zu]: there is no such node, the file has %zu", where, i, r->node_count);
+            gltf_fail(r, LMN_FORMAT, "%s.children[%zu]: there is no such node, the file has %zu", where, i,
+                      r->node_count);
             return;
         }
         push(r, stack, (visit){(size_t)number, parent, v->depth + 1, drawn});
@@ -199,7 +202,7 @@ static void visit_node(gltf_reader *r, visits *stack, visit v)
     r->node_map[v.index] = at;
     scene_link_child(r->scene, v.parent, at);
     json_t *visible = json_object_get(gltf_extension(object, "KHR_node_visibility"), "visible");
-    bool drawn = v.drawn && !json_is_false(visible);
+    bool    drawn = v.drawn && !json_is_false(visible);
     fill_node(r, object, v.index, at, drawn);
     push_children(r, stack, object, &v, at, drawn);
 }
@@ -244,9 +247,11 @@ static void visit_rest(gltf_reader *r, bool drawn)
 static bool skins_are_complete(gltf_reader *r)
 {
     json_t *item, *joint;
-    size_t i, k;
-    json_array_foreach(json_object_get(r->root, "skins"), i, item) {
-        json_array_foreach(json_object_get(item, "joints"), k, joint) {
+    size_t  i, k;
+    json_array_foreach(json_object_get(r->root, "skins"), i, item)
+    {
+        json_array_foreach(json_object_get(item, "joints"), k, joint)
+        {
             double number = json_number_value(joint);
             if (number >= 0 && number < (double)r->node_count && r->node_map[(size_t)number] == NONE)
                 return false;
@@ -257,13 +262,13 @@ static bool skins_are_complete(gltf_reader *r)
 
 static void visit_scene(gltf_reader *r, size_t index)
 {
-    char where[GLTF_WHERE];
+    char    where[GLTF_WHERE];
     json_t *object = gltf_item(r, "scenes", index);
     snprintf(where, sizeof where, "scenes[%zu]", index);
     json_t *roots = object ? gltf_member(r, object, "nodes", JSON_ARRAY, where) : NULL;
     for (size_t i = 0; i < json_array_size(roots) && r->status == LMN_OK; i++) {
         json_t *root = json_array_get(roots, i);
-        double number = json_is_number(root) ? json_number_value(root) : -1;
+        double  number = json_is_number(root) ? json_number_value(root) : -1;
         if (!(number >= 0 && number < (double)r->node_count))
             gltf_fail(r, LMN_FORMAT, "%s.nodes[%zu]: there is no such node, the file has %zu", where, i, r->node_count);
         else
@@ -289,7 +294,7 @@ void gltf_read_nodes(gltf_reader *r)
         visit_rest(r, false);
 }
 
-/* --- cameras, lights, skins -------------------------------------------------------------------------------------- */
+/* --- cameras, lights, skins ----------------------------------------------------------------------------- */
 
 static void read_camera(gltf_reader *r, size_t index)
 {
@@ -321,8 +326,9 @@ void gltf_read_cameras(gltf_reader *r)
 void gltf_read_lights(gltf_reader *r)
 {
     json_t *object;
-    size_t i;
-    json_array_foreach(json_object_get(gltf_extension(r->root, "KHR_lights_punctual"), "lights"), i, object) {
+    size_t  i;
+    json_array_foreach(json_object_get(gltf_extension(r->root, "KHR_lights_punctual"), "lights"), i, object)
+    {
         light *l = scene_append_light(r->scene);
         double colour[3];
         if (!l) {
@@ -347,7 +353,7 @@ void gltf_read_lights(gltf_reader *r)
 
 static void read_bind_matrices(gltf_reader *r, json_t *object, const char *where, skin *s)
 {
-    size_t index;
+    size_t        index;
     gltf_accessor a;
     for (size_t i = 0; i < s->joint_count; i++)
         s->inverse_binds[i] = mat4_identity();
@@ -366,11 +372,11 @@ static void read_bind_matrices(gltf_reader *r, json_t *object, const char *where
 
 static void read_skin(gltf_reader *r, size_t index)
 {
-    char where[GLTF_WHERE];
+    char    where[GLTF_WHERE];
     json_t *object = gltf_item(r, "skins", index);
     snprintf(where, sizeof where, "skins[%zu]", index);
     json_t *joints = object ? gltf_member(r, object, "joints", JSON_ARRAY, where) : NULL;
-    size_t count = json_array_size(joints);
+    size_t  count = json_array_size(joints);
     if (count == 0)
         gltf_fail(r, LMN_FORMAT, "%s: no joints", where);
     skin *s = r->status == LMN_OK ? scene_append_skin(r->scene) : NULL;
@@ -386,10 +392,11 @@ static void read_skin(gltf_reader *r, size_t index)
     s->joint_count = count;
     for (size_t i = 0; i < count; i++) {
         double number = json_is_number(json_array_get(joints, i)) ? json_number_value(json_array_get(joints, i)) : -1;
-        bool good = number >= 0 && number < (double)r->node_count;
+        bool   good = number >= 0 && number < (double)r->node_count;
         s->joints[i] = good ? r->node_map[(size_t)number] : NONE;
         if (s->joints[i] == NONE) {
-            gltf_fail(r, LMN_FORMAT, "%s.joints[%zu]: there is no such node, the file has %zu", where, i, r->node_count);
+            gltf_fail(r, LMN_FORMAT, "%s.joints[%zu]: there is no such node, the file has %zu", where, i,
+                      r->node_count);
             return;
         }
     }

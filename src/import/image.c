@@ -13,12 +13,13 @@
 
 static const char stroke_ending[] = ".stx";
 
-/* Freudenberg 2003, section 5.3.2: strokes lie beside the picture that showed where they go, under its name. *out stays NULL when there are none. */
+/* Freudenberg 2003, section 5.3.2: strokes lie beside the picture that showed where they go, under its name. *out
+ * stays NULL when there are none. */
 static lmn_status find_strokes(const import_job *job, const char *name, char **out, lmn_error *error)
 {
     const char *slash = strrchr(name, '/'), *dot = strrchr(name, '.');
-    size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - name) : strlen(name);
-    text beside = {0};
+    size_t      stem = dot && (!slash || dot > slash) ? (size_t)(dot - name) : strlen(name);
+    text        beside = {0};
     text_append_bytes(&beside, name, stem);
     text_append(&beside, "%s", stroke_ending);
     char *own = text_take(&beside), *path = own ? file_beside(job->path, own) : NULL;
@@ -35,7 +36,11 @@ static lmn_status find_strokes(const import_job *job, const char *name, char **o
 /* A material whose picture was replaced by its strokes: white where these are not drawn. */
 static lmn_status build_strokes(const import_job *job, const char *name, int32_t *out, lmn_error *error)
 {
-    image white = {.width = 1, .height = 1, .pixels = mem_copy("\xff\xff\xff\xff", 4), .name = mem_copy_text(name), .strokes = file_beside(job->path, name)};
+    image  white = {.width = 1,
+                    .height = 1,
+                    .pixels = mem_copy("\xff\xff\xff\xff", 4),
+                    .name = mem_copy_text(name),
+                    .strokes = file_beside(job->path, name)};
     image *added = white.pixels && white.name && white.strokes ? scene_append_image(job->scene) : NULL;
     if (!added) {
         mem_free(white.pixels);
@@ -50,8 +55,9 @@ static lmn_status build_strokes(const import_job *job, const char *name, int32_t
 
 static void note_halved(const import_job *job, const char *name, const image *i, int times)
 {
-    warnings_add(&job->scene->warnings, WARNING_REDUCED, "texture \"%s\" was made smaller, to %u x %u (1/%d): the limit for textures is %.0f MiB", name, i->width, i->height,
-                 1 << times, (double)work_limits().textures / (1 << 20));
+    warnings_add(&job->scene->warnings, WARNING_REDUCED,
+                 "texture \"%s\" was made smaller, to %u x %u (1/%d): the limit for textures is %.0f MiB", name,
+                 i->width, i->height, 1 << times, (double)work_limits().textures / (1 << 20));
 }
 
 static size_t bytes_of(const image *i)
@@ -91,10 +97,10 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
     file_ending(name, ending, sizeof ending);
     if (strcmp(ending, stroke_ending) == 0)
         return build_strokes(job, name, out, error);
-    lmn_error problem;
+    lmn_error    problem;
     image_pixels pixels;
-    size_t room = (size_t)work_limits().textures;
-    lmn_status status = image_read(&pixels, bytes, size, room, &problem);
+    size_t       room = (size_t)work_limits().textures;
+    lmn_status   status = image_read(&pixels, bytes, size, room, &problem);
     if (status == LMN_MEMORY)
         return error_set(error, status, "texture \"%s\": %s", name, problem.message);
     if (status == LMN_CANCELLED || work_stopped())
@@ -127,7 +133,7 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
 lmn_status build_image_file(const import_job *job, const char *name, int32_t *out, lmn_error *error)
 {
     *out = NONE;
-    file_data file;
+    file_data  file;
     lmn_status status = build_side_file(job, "texture", name, &file, error);
     if (status != LMN_OK || !file.data)
         return status;

@@ -10,8 +10,8 @@
 #include "import/access.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl, &import_obj, &import_csg, &import_scad,
-                                              &import_assimp};
+static const import_format *const formats[] = {&import_gltf, &import_ply,  &import_stl,   &import_obj,
+                                               &import_csg,  &import_scad, &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
@@ -77,7 +77,8 @@ static lmn_status choose(const import_format **out, const char *path, const file
 static lmn_status name_single_node(lmn_scene *scene, const char *path, lmn_error *error)
 {
     if (scene_plain_node_count(scene) != 1 || scene->nodes[0].name ||
-        (scene->nodes[0].mesh == NONE ? scene->nodes[0].solid == NONE : scene->meshes[scene->nodes[0].mesh].name != NULL))
+        (scene->nodes[0].mesh == NONE ? scene->nodes[0].solid == NONE
+                                      : scene->meshes[scene->nodes[0].mesh].name != NULL))
         return LMN_OK;
     scene->nodes[0].name = scene_name_of_file(path);
     return scene->nodes[0].name ? LMN_OK : error_memory(error);
@@ -86,12 +87,13 @@ static lmn_status name_single_node(lmn_scene *scene, const char *path, lmn_error
 static lmn_status check_triangles(const import_job *job, lmn_error *error)
 {
     const lmn_scene *s = job->scene;
-    uint64_t total = 0, most = work_limits().triangles;
+    uint64_t         total = 0, most = work_limits().triangles;
     for (size_t i = 0; i < s->part_count; i++)
         total += s->parts[i].triangles * node_draw_count(&s->nodes[s->parts[i].node]);
     if (!most || total <= most)
         return LMN_OK;
-    work_exceeded(error, "triangles", "the model has %llu triangles, instances counted; allowed are %llu", (unsigned long long)total, (unsigned long long)most);
+    work_exceeded(error, "triangles", "the model has %llu triangles, instances counted; allowed are %llu",
+                  (unsigned long long)total, (unsigned long long)most);
     error_file(error, job->path);
     return LMN_LIMIT;
 }
@@ -114,29 +116,33 @@ static lmn_status read_into(const import_job *job, const import_format *format, 
 }
 
 /* What is asked of programs must not be left out in silence where there is none. */
-static lmn_status check_options(const import_format *format, const char *path, const lmn_load_desc *desc, lmn_error *error)
+static lmn_status check_options(const import_format *format, const char *path, const lmn_load_desc *desc,
+                                lmn_error *error)
 {
     const lmn_task_desc *conditions = work_conditions();
     if (format == &import_scad && conditions && (conditions->files == LMN_FILES_FOLDER || conditions->read_file)) {
-        error_in_file(error, LMN_UNSUPPORTED, path, 0, "this is a program, which openscad runs, and which may read any file");
+        error_in_file(error, LMN_UNSUPPORTED, path, 0,
+                      "this is a program, which openscad runs, and which may read any file");
         error_hint(error, "--safe refuses programs; evaluate it where it may run: openscad -o model.csg model.scad");
         return LMN_UNSUPPORTED;
     }
     if (format == &import_scad || (!desc->define_count && !desc->strict))
         return LMN_OK;
-    return error_in_file(error, LMN_USAGE, path, 0, "%s for OpenSCAD programs (.scad), and this is %s", desc->define_count ? "definitions are" : "being strict is", format->name);
+    return error_in_file(error, LMN_USAGE, path, 0, "%s for OpenSCAD programs (.scad), and this is %s",
+                         desc->define_count ? "definitions are" : "being strict is", format->name);
 }
 
-static lmn_status load(lmn_scene **out, const import_job *by, const char *path, const lmn_load_desc *desc, lmn_error *error)
+static lmn_status load(lmn_scene **out, const import_job *by, const char *path, const lmn_load_desc *desc,
+                       lmn_error *error)
 {
     *out = NULL;
-    double start = clock_ms();
-    file_data file;
+    double     start = clock_ms();
+    file_data  file;
     lmn_status status = access_read(by, by ? "file" : "model", path, &file, NULL, error);
     if (status != LMN_OK)
         return status;
     const import_format *format = NULL;
-    lmn_scene *scene = scene_new();
+    lmn_scene           *scene = scene_new();
     status = scene ? choose(&format, path, &file, error) : error_memory(error);
     if (status == LMN_OK)
         status = check_options(format, path, desc, error);

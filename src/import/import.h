@@ -7,25 +7,25 @@
 
 /* What a reader gets: the file's bytes, its path for side files and messages, and an empty scene to fill. */
 typedef struct import_job {
-    const char     *path;
-    const char     *model; /* the path that the caller gave; another one in files that it imports */
-    const file_data *file;
-    lmn_scene      *scene;
+    const char          *path;
+    const char          *model; /* the path that the caller gave; another one in files that it imports */
+    const file_data     *file;
+    lmn_scene           *scene;
     const lmn_load_desc *desc; /* what only one format has; NULL: nothing */
 } import_job;
 
 typedef struct import_format {
-    const char *name;       /* "glTF" */
-    const char *endings;    /* ".gltf .glb" */
-    char        up;         /* the format's convention: 'y' or 'z' */
-    bool (*recognises)(const file_data *file);                       /* by content; NULL: by ending only */
+    const char *name;                          /* "glTF" */
+    const char *endings;                       /* ".gltf .glb" */
+    char        up;                            /* the format's convention: 'y' or 'z' */
+    bool (*recognises)(const file_data *file); /* by content; NULL: by ending only */
     lmn_status (*read)(const import_job *job, lmn_error *error);
 } import_format;
 
 extern const import_format import_gltf, import_stl, import_ply, import_obj, import_csg, import_scad, import_assimp;
 
-/* Reads a file into a new finished scene (owned by the caller). The description is complete; LMN_UP_AUTO takes the format's convention.
- * Content decides the format first, the ending second; a mismatch is an error that says so. */
+/* Reads a file into a new finished scene (owned by the caller). The description is complete; LMN_UP_AUTO takes the
+ * format's convention. Content decides the format first, the ending second; a mismatch is an error that says so. */
 lmn_status import_file(lmn_scene **out, const char *path, const lmn_load_desc *desc, lmn_error *error);
 /* The same of a file that the job's model names; `path` is relative to the working directory. */
 lmn_status import_named_file(lmn_scene **out, const import_job *job, const char *path, lmn_error *error);

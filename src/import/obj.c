@@ -1,5 +1,6 @@
-/* OBJ: polygons with separate indices for positions, texture coordinates and normals. A part is an object ("o"), in files
- * without objects a group ("g"). Corners that agree in all three indices are one vertex, so sharing stays as the file has it. */
+/* OBJ: polygons with separate indices for positions, texture coordinates and normals. A part is an object ("o"), in
+ * files without objects a group ("g"). Corners that agree in all three indices are one vertex, so sharing stays as
+ * the file has it. */
 #include "import/obj.h"
 
 #include <string.h>
@@ -54,22 +55,22 @@ typedef struct obj_reader {
     vec3             *positions, *normals;
     vec4             *colours; /* as many as positions, once a vertex has one */
     vec2             *uvs;
-    size_t            position_count, position_room, colour_count, colour_room, normal_count, normal_room, uv_count, uv_room;
-    object           *objects;
-    size_t            object_count, object_room, current;
-    name_table        object_names, material_names;
-    int32_t           material;
-    piece_place      *places; /* by material + 1 */
-    size_t            place_room, switches;
-    size_t            triangles;
-    corner           *polygon;
-    vec3             *polygon_positions;
-    uint32_t         *polygon_order, *polygon_triangles;
-    size_t            polygon_room, polygon_position_room, polygon_order_room, polygon_triangle_room;
-    bool              has_objects;
+    size_t       position_count, position_room, colour_count, colour_room, normal_count, normal_room, uv_count, uv_room;
+    object      *objects;
+    size_t       object_count, object_room, current;
+    name_table   object_names, material_names;
+    int32_t      material;
+    piece_place *places; /* by material + 1 */
+    size_t       place_room, switches;
+    size_t       triangles;
+    corner      *polygon;
+    vec3        *polygon_positions;
+    uint32_t    *polygon_order, *polygon_triangles;
+    size_t       polygon_room, polygon_position_room, polygon_order_room, polygon_triangle_room;
+    bool         has_objects;
 } obj_reader;
 
-/* --- vertices ---------------------------------------------------------------------------------------------------- */
+/* --- vertices ------------------------------------------------------------------------------------------- */
 
 static lmn_status wrong(const obj_reader *r, const char *what)
 {
@@ -103,7 +104,7 @@ static lmn_status add_colour(obj_reader *r, const double *rgb)
 static lmn_status read_position(obj_reader *r)
 {
     double v[6];
-    int count = 0;
+    int    count = 0;
     while (count < 6 && obj_number(&r->text, &v[count]))
         count++;
     if (count < 3)
@@ -145,7 +146,7 @@ static lmn_status read_uv(obj_reader *r)
     return LMN_OK;
 }
 
-/* --- objects ------------------------------------------------------------------------------------------------------ */
+/* --- objects -------------------------------------------------------------------------------------------- */
 
 static uint64_t hash_name(const char *name)
 {
@@ -225,7 +226,7 @@ static lmn_status read_object(obj_reader *r)
 static lmn_status read_use(obj_reader *r)
 {
     lmn_scene *s = r->job->scene;
-    char *name = obj_rest(&r->text);
+    char      *name = obj_rest(&r->text);
     if (!name || !grow_names(&r->material_names)) {
         mem_free(name);
         return error_memory(r->error);
@@ -253,7 +254,7 @@ static lmn_status read_libraries(obj_reader *r)
     if (!name)
         return error_memory(r->error);
     lmn_scene *s = r->job->scene;
-    size_t first = s->material_count;
+    size_t     first = s->material_count;
     obj_slash_path(name);
     lmn_status status = obj_read_library(r->job, name, r->error);
     mem_free(name);
@@ -265,12 +266,12 @@ static lmn_status read_libraries(obj_reader *r)
     return status;
 }
 
-/* --- faces -------------------------------------------------------------------------------------------------------- */
+/* --- faces ---------------------------------------------------------------------------------------------- */
 
 /* One index of a corner: from 1, or negative from the end of what was read so far. False when it names nothing. */
 static bool read_index(obj_text *t, size_t count, int32_t *out)
 {
-    long long value;
+    long long   value;
     const char *next = text_parse_int(t->at, t->end, &value);
     if (!next)
         return false;
@@ -306,7 +307,7 @@ static bool read_corner(obj_reader *r, corner *out)
 static piece *current_piece(obj_reader *r)
 {
     object *o = &r->objects[r->current];
-    size_t slot = (size_t)(r->material + 1), had = r->place_room;
+    size_t  slot = (size_t)(r->material + 1), had = r->place_room;
     if (!mem_grow((void **)&r->places, &r->place_room, slot + 1, sizeof *r->places))
         return NULL;
     memset(r->places + had, 0, (r->place_room - had) * sizeof *r->places);
@@ -339,7 +340,8 @@ static lmn_status cut_polygon(obj_reader *r, size_t count)
 {
     if (!mem_grow((void **)&r->polygon_positions, &r->polygon_position_room, count, sizeof *r->polygon_positions) ||
         !mem_grow((void **)&r->polygon_order, &r->polygon_order_room, count, sizeof *r->polygon_order) ||
-        !mem_grow((void **)&r->polygon_triangles, &r->polygon_triangle_room, (count - 2) * 3, sizeof *r->polygon_triangles))
+        !mem_grow((void **)&r->polygon_triangles, &r->polygon_triangle_room, (count - 2) * 3,
+                  sizeof *r->polygon_triangles))
         return error_memory(r->error);
     for (size_t i = 0; i < count; i++) {
         r->polygon_positions[i] = r->positions[r->polygon[i].position];
@@ -351,12 +353,13 @@ static lmn_status cut_polygon(obj_reader *r, size_t count)
 
 static lmn_status read_face(obj_reader *r)
 {
-    size_t count;
+    size_t     count;
     lmn_status status = read_polygon(r, &count);
     if (status != LMN_OK)
         return status;
     if (count < 3) {
-        warnings_add(&r->job->scene->warnings, WARNING_BAD_GEOMETRY, "faces with fewer than three corners were left out");
+        warnings_add(&r->job->scene->warnings, WARNING_BAD_GEOMETRY,
+                     "faces with fewer than three corners were left out");
         return LMN_OK;
     }
     r->triangles += count - 2;
@@ -379,12 +382,12 @@ static lmn_status read_face(obj_reader *r)
     return status;
 }
 
-/* --- lines -------------------------------------------------------------------------------------------------------- */
+/* --- lines ---------------------------------------------------------------------------------------------- */
 
 static lmn_status read_line(obj_reader *r)
 {
     const char *word;
-    size_t length;
+    size_t      length;
     if (!obj_word(&r->text, &word, &length))
         return LMN_OK;
     if (obj_is(word, length, "v"))
@@ -424,15 +427,17 @@ static lmn_status read_lines(obj_reader *r)
         status = read_line(r);
         obj_next_line(&r->text);
         if (status == LMN_OK && line % LINES_PER_STEP == LINES_PER_STEP - 1)
-            status = import_progress(r->job, 0.7 * (double)(r->text.at - r->text.begin) / (double)(r->text.end - r->text.begin),
+            status = import_progress(r->job,
+                                     0.7 * (double)(r->text.at - r->text.begin) / (double)(r->text.end - r->text.begin),
                                      "reading", r->error);
     }
     return status;
 }
 
-/* --- to primitives ------------------------------------------------------------------------------------------------ */
+/* --- to primitives -------------------------------------------------------------------------------------- */
 
-/* For each of the file's positions the newest vertex made from it, valid when `stamp` is the current piece's number. */
+/* For each of the file's positions the newest vertex made from it, valid when `stamp` is the current piece's
+ * number. */
 typedef struct joiner {
     uint32_t *newest, *stamp, *older;
     corner   *made;
@@ -501,7 +506,7 @@ static bool make_primitive(const obj_reader *r, joiner *j, const piece *from, pr
 static lmn_status make_part(const obj_reader *r, joiner *j, const object *o)
 {
     lmn_scene *s = r->job->scene;
-    mesh *m = scene_append_mesh(s);
+    mesh      *m = scene_append_mesh(s);
     if (!m || !(m->primitives = mem_calloc(o->count, sizeof *m->primitives)))
         return error_memory(r->error);
     for (size_t i = 0; i < o->count; i++) {
@@ -521,10 +526,10 @@ static lmn_status make_part(const obj_reader *r, joiner *j, const object *o)
 
 static lmn_status make_parts(obj_reader *r)
 {
-    joiner j = {.newest = mem_alloc(r->position_count * sizeof *j.newest),
-                .stamp = mem_calloc(r->position_count, sizeof *j.stamp)};
+    joiner     j = {.newest = mem_alloc(r->position_count * sizeof *j.newest),
+                    .stamp = mem_calloc(r->position_count, sizeof *j.stamp)};
     lmn_status status = j.newest && j.stamp ? LMN_OK : error_memory(r->error);
-    int32_t plain = NONE;
+    int32_t    plain = NONE;
     for (size_t i = 0; i < r->object_count && status == LMN_OK; i++) {
         object *o = &r->objects[i];
         for (size_t k = 0; k < o->count && status == LMN_OK; k++) {
@@ -570,7 +575,7 @@ static void release(obj_reader *r)
 static lmn_status read_obj(const import_job *job, lmn_error *error)
 {
     const char *begin = (const char *)job->file->data, *end = begin + job->file->size;
-    obj_reader r = {.job = job, .error = error, .text = {begin, begin, end}, .material = NONE};
+    obj_reader  r = {.job = job, .error = error, .text = {begin, begin, end}, .material = NONE};
     if (job->file->size >= 3 && memcmp(begin, "\xEF\xBB\xBF", 3) == 0)
         r.text.at += 3;
     r.has_objects = find_objects(r.text);

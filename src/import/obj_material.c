@@ -49,7 +49,7 @@ static lmn_status read_texture(const import_job *job, obj_text *t, size_t materi
         name = blank ? blank + 1 : rest;
     }
     obj_slash_path(name);
-    int32_t found = NONE;
+    int32_t    found = NONE;
     lmn_status status = LMN_OK;
     if (name[0] && !find_loaded(job->scene, name, &found))
         status = build_image_file(job, name, &found, error);
@@ -71,8 +71,8 @@ static lmn_status read_property(const import_job *job, obj_text *t, const char *
                                 lmn_error *error)
 {
     material *m = &job->scene->materials[index];
-    float rgb[3];
-    double value;
+    float     rgb[3];
+    double    value;
     if (obj_is(word, length, "Kd")) {
         if (read_colour(t, rgb))
             m->base_colour = (vec4){rgb[0], rgb[1], rgb[2], m->base_colour.w};
@@ -106,10 +106,10 @@ static void brighten_textured(lmn_scene *s, size_t from)
 
 static lmn_status read_lines(const import_job *job, obj_text *t, lmn_error *error)
 {
-    size_t first = job->scene->material_count;
+    size_t      first = job->scene->material_count;
     const char *word;
-    size_t length;
-    lmn_status status = LMN_OK;
+    size_t      length;
+    lmn_status  status = LMN_OK;
     for (; t->at < t->end && status == LMN_OK; obj_next_line(t)) {
         if (!obj_word(t, &word, &length))
             continue;
@@ -129,12 +129,12 @@ static lmn_status read_lines(const import_job *job, obj_text *t, lmn_error *erro
 
 lmn_status obj_read_library(const import_job *job, const char *name, lmn_error *error)
 {
-    file_data file;
+    file_data  file;
     lmn_status status = build_side_file(job, "material library", name, &file, error);
     if (status != LMN_OK || !file.data)
         return status;
     const char *begin = (const char *)file.data;
-    obj_text t = {begin, begin, begin + file.size};
+    obj_text    t = {begin, begin, begin + file.size};
     status = read_lines(job, &t, error);
     file_data_release(&file);
     return status;

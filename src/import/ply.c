@@ -12,8 +12,20 @@
 
 /* Where a vertex property goes. */
 typedef enum ply_slot {
-    SLOT_X, SLOT_Y, SLOT_Z, SLOT_NX, SLOT_NY, SLOT_NZ, SLOT_RED, SLOT_GREEN, SLOT_BLUE, SLOT_ALPHA, SLOT_U, SLOT_V,
-    SLOT_COUNT, SLOT_NONE = SLOT_COUNT
+    SLOT_X,
+    SLOT_Y,
+    SLOT_Z,
+    SLOT_NX,
+    SLOT_NY,
+    SLOT_NZ,
+    SLOT_RED,
+    SLOT_GREEN,
+    SLOT_BLUE,
+    SLOT_ALPHA,
+    SLOT_U,
+    SLOT_V,
+    SLOT_COUNT,
+    SLOT_NONE = SLOT_COUNT
 } ply_slot;
 
 typedef struct model {
@@ -27,8 +39,8 @@ typedef struct model {
 
 static bool recognises(const file_data *file)
 {
-    return file->size >= 4 && memcmp(file->data, "ply", 3) == 0 && (file->data[3] == '\n' || file->data[3] == '\r' ||
-                                                                    file->data[3] == ' ');
+    return file->size >= 4 && memcmp(file->data, "ply", 3) == 0 &&
+           (file->data[3] == '\n' || file->data[3] == '\r' || file->data[3] == ' ');
 }
 
 static bool is_blank(char c)
@@ -47,8 +59,8 @@ static uint64_t load_bytes(const char *at, size_t size, bool big)
 static double decode(ply_type type, uint64_t bits)
 {
     uint32_t low = (uint32_t)bits;
-    float single;
-    double whole;
+    float    single;
+    double   whole;
     switch (type) {
     case PLY_INT8: return (int8_t)bits;
     case PLY_UINT8: return (uint8_t)bits;
@@ -84,11 +96,11 @@ bool ply_read_value(ply_reader *r, ply_type type, double *out)
 
 lmn_status ply_bad_row(const ply_reader *r, const ply_element *e, uint64_t row, const char *what)
 {
-    int line = r->encoding == PLY_ASCII ? build_line(r->begin, r->at) : 0;
+    int        line = r->encoding == PLY_ASCII ? build_line(r->begin, r->at) : 0;
     lmn_status status;
     if (r->encoding == PLY_ASCII)
-        status = error_in_file(r->error, LMN_FORMAT, r->job->path, line, "%s %llu: %s", e->name, (unsigned long long)row,
-                               what);
+        status = error_in_file(r->error, LMN_FORMAT, r->job->path, line, "%s %llu: %s", e->name,
+                               (unsigned long long)row, what);
     else
         status = error_in_file(r->error, LMN_FORMAT, r->job->path, 0, "%s %llu (byte %zu): %s", e->name,
                                (unsigned long long)row, (size_t)(r->at - r->begin), what);
@@ -97,7 +109,7 @@ lmn_status ply_bad_row(const ply_reader *r, const ply_element *e, uint64_t row, 
 
 static lmn_status bad_value(const ply_reader *r, const ply_element *e, uint64_t row)
 {
-    bool ended = r->encoding != PLY_ASCII || r->at >= r->end;
+    bool       ended = r->encoding != PLY_ASCII || r->at >= r->end;
     lmn_status status = ply_bad_row(r, e, row, ended ? "the file is cut off here" : "expected a number");
     if (ended)
         error_hint(r->error, "the header promises %llu of them; copy or export the file again",
@@ -145,20 +157,39 @@ static lmn_status check_count(const ply_reader *r, const ply_element *e, uint64_
     return LMN_OK;
 }
 
-/* --- vertices ---------------------------------------------------------------------------------------------------- */
+/* --- vertices ------------------------------------------------------------------------------------------- */
 
 static ply_slot slot_of(const char *name)
 {
     static const struct {
         const char *name;
         ply_slot    slot;
-    } names[] = {{"x", SLOT_X},          {"y", SLOT_Y},           {"z", SLOT_Z},         {"nx", SLOT_NX},
-                 {"ny", SLOT_NY},        {"nz", SLOT_NZ},         {"red", SLOT_RED},     {"green", SLOT_GREEN},
-                 {"blue", SLOT_BLUE},    {"alpha", SLOT_ALPHA},   {"r", SLOT_RED},       {"g", SLOT_GREEN},
-                 {"b", SLOT_BLUE},       {"a", SLOT_ALPHA},       {"s", SLOT_U},         {"t", SLOT_V},
-                 {"u", SLOT_U},          {"v", SLOT_V},           {"texture_u", SLOT_U}, {"texture_v", SLOT_V},
-                 {"texture_s", SLOT_U},  {"texture_t", SLOT_V},   {"diffuse_red", SLOT_RED},
-                 {"diffuse_green", SLOT_GREEN}, {"diffuse_blue", SLOT_BLUE}, {"diffuse_alpha", SLOT_ALPHA}};
+    } names[] = {{"x", SLOT_X},
+                 {"y", SLOT_Y},
+                 {"z", SLOT_Z},
+                 {"nx", SLOT_NX},
+                 {"ny", SLOT_NY},
+                 {"nz", SLOT_NZ},
+                 {"red", SLOT_RED},
+                 {"green", SLOT_GREEN},
+                 {"blue", SLOT_BLUE},
+                 {"alpha", SLOT_ALPHA},
+                 {"r", SLOT_RED},
+                 {"g", SLOT_GREEN},
+                 {"b", SLOT_BLUE},
+                 {"a", SLOT_ALPHA},
+                 {"s", SLOT_U},
+                 {"t", SLOT_V},
+                 {"u", SLOT_U},
+                 {"v", SLOT_V},
+                 {"texture_u", SLOT_U},
+                 {"texture_v", SLOT_V},
+                 {"texture_s", SLOT_U},
+                 {"texture_t", SLOT_V},
+                 {"diffuse_red", SLOT_RED},
+                 {"diffuse_green", SLOT_GREEN},
+                 {"diffuse_blue", SLOT_BLUE},
+                 {"diffuse_alpha", SLOT_ALPHA}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i].name) == 0)
             return names[i].slot;
@@ -240,7 +271,7 @@ static void make_layout(const ply_reader *r, const ply_element *e, layout *l)
     memset(l->has, 0, sizeof l->has);
     for (size_t i = 0; i < e->property_count; i++) {
         const ply_property *p = &e->properties[i];
-        ply_slot slot = p->count_type ? SLOT_NONE : slot_of(p->name);
+        ply_slot            slot = p->count_type ? SLOT_NONE : slot_of(p->name);
         if (slot != SLOT_NONE && l->has[slot])
             slot = SLOT_NONE;
         l->slots[i] = slot;
@@ -259,7 +290,7 @@ static lmn_status read_vertex_rows(ply_reader *r, const ply_element *e, model *m
     for (uint64_t row = 0; row < e->count; row++) {
         for (size_t i = 0; i < e->property_count; i++) {
             const ply_property *p = &e->properties[i];
-            double value;
+            double              value;
             if (p->count_type) {
                 lmn_status status = skip_list(r, e, p, row);
                 if (status != LMN_OK)
@@ -294,7 +325,7 @@ static lmn_status read_vertices(ply_reader *r, const ply_element *e, model *m)
     return read_vertex_rows(r, e, m, &l);
 }
 
-/* --- faces and strips -------------------------------------------------------------------------------------------- */
+/* --- faces and strips ----------------------------------------------------------------------------------- */
 
 static lmn_status grow_indices(const ply_reader *r, model *m, size_t more)
 {
@@ -302,13 +333,14 @@ static lmn_status grow_indices(const ply_reader *r, model *m, size_t more)
     if (wanted / 3 > LIMIT_TRIANGLES)
         return error_in_file(r->error, LMN_LIMIT, r->job->path, 0, "more than %zu triangles", LIMIT_TRIANGLES);
     return mem_grow((void **)&m->p.indices, &m->index_room, wanted, sizeof *m->p.indices) ? LMN_OK
-                                                                                         : error_memory(r->error);
+                                                                                          : error_memory(r->error);
 }
 
 static lmn_status add_polygon(const ply_reader *r, const ply_element *e, model *m, uint32_t count, uint64_t row)
 {
     if (count < 3) {
-        warnings_add(&r->job->scene->warnings, WARNING_BAD_GEOMETRY, "faces with fewer than three corners were left out");
+        warnings_add(&r->job->scene->warnings, WARNING_BAD_GEOMETRY,
+                     "faces with fewer than three corners were left out");
         return LMN_OK;
     }
     for (uint32_t i = 0; i < count; i++)
@@ -338,7 +370,7 @@ static lmn_status add_strip(const ply_reader *r, const ply_element *e, model *m,
         lmn_status status = grow_indices(r, m, 3);
         if (status != LMN_OK)
             return status;
-        bool odd = (i - begin) & 1;
+        bool      odd = (i - begin) & 1;
         uint32_t *out = m->p.indices + m->p.index_count;
         out[0] = m->corners[odd ? i - 1 : i - 2];
         out[1] = m->corners[odd ? i - 2 : i - 1];
@@ -358,8 +390,9 @@ static lmn_status read_corners(ply_reader *r, const ply_element *e, const ply_pr
     if (!(count >= 0) || count > ((double)(r->end - r->at) + 1) / (double)bytes)
         return ply_bad_row(r, e, row, "its list is longer than the rest of the file");
     if (count > (double)limit)
-        return error_in_file(r->error, LMN_LIMIT, r->job->path, 0, "%s %llu has %.0f corners, more than the limit of %zu",
-                             e->name, (unsigned long long)row, count, limit);
+        return error_in_file(r->error, LMN_LIMIT, r->job->path, 0,
+                             "%s %llu has %.0f corners, more than the limit of %zu", e->name, (unsigned long long)row,
+                             count, limit);
     *out_count = (uint32_t)count;
     if (!mem_grow((void **)&m->corners, &m->corner_room, *out_count, sizeof *m->corners))
         return error_memory(r->error);
@@ -382,9 +415,9 @@ static lmn_status read_face(ply_reader *r, const ply_element *e, model *m, uint6
     bool done = false;
     for (size_t i = 0; i < e->property_count; i++) {
         const ply_property *p = &e->properties[i];
-        lmn_status status = LMN_OK;
-        double value;
-        uint32_t count = 0;
+        lmn_status          status = LMN_OK;
+        double              value;
+        uint32_t            count = 0;
         if (!done && is_corner_list(p)) {
             done = true;
             status = read_corners(r, e, p, row, strips ? LIMIT_VERTICES : LIMIT_POLYGON_CORNERS, m, &count);
@@ -435,7 +468,7 @@ static lmn_status skip_element(ply_reader *r, const ply_element *e)
     for (uint64_t row = 0; e->property_count && row < e->count && status == LMN_OK; row++) {
         for (size_t i = 0; i < e->property_count && status == LMN_OK; i++) {
             const ply_property *p = &e->properties[i];
-            double value;
+            double              value;
             if (p->count_type)
                 status = skip_list(r, e, p, row);
             else if (!ply_read_value(r, p->type, &value))
@@ -475,7 +508,7 @@ static lmn_status use_texture(const ply_reader *r, model *m)
     if (!name)
         return error_memory(r->error);
     lmn_scene *s = r->job->scene;
-    int32_t index = NONE;
+    int32_t    index = NONE;
     lmn_status status = build_image_file(r->job, name, &index, r->error);
     mem_free(name);
     if (status == LMN_OK && index != NONE) {
@@ -489,8 +522,8 @@ static lmn_status use_texture(const ply_reader *r, model *m)
 static lmn_status read_ply(const import_job *job, lmn_error *error)
 {
     const char *begin = (const char *)job->file->data;
-    ply_reader r = {.job = job, .error = error, .begin = begin, .at = begin, .end = begin + job->file->size};
-    model m = {.p = {.material = NONE}};
+    ply_reader  r = {.job = job, .error = error, .begin = begin, .at = begin, .end = begin + job->file->size};
+    model       m = {.p = {.material = NONE}};
     for (int i = 0; i < 256; i++)
         m.to_linear[i] = colour_to_linear((float)i / 255.0f);
     lmn_status status = ply_read_header(&r);

@@ -31,10 +31,10 @@ static ply_type type_of(const words *w, int i)
     static const struct {
         const char *name;
         ply_type    type;
-    } names[] = {{"char", PLY_INT8},      {"int8", PLY_INT8},     {"uchar", PLY_UINT8},   {"uint8", PLY_UINT8},
-                 {"short", PLY_INT16},    {"int16", PLY_INT16},   {"ushort", PLY_UINT16}, {"uint16", PLY_UINT16},
-                 {"int", PLY_INT32},      {"int32", PLY_INT32},   {"uint", PLY_UINT32},   {"uint32", PLY_UINT32},
-                 {"float", PLY_FLOAT32},  {"float32", PLY_FLOAT32}, {"double", PLY_FLOAT64}, {"float64", PLY_FLOAT64}};
+    } names[] = {{"char", PLY_INT8},     {"int8", PLY_INT8},       {"uchar", PLY_UINT8},    {"uint8", PLY_UINT8},
+                 {"short", PLY_INT16},   {"int16", PLY_INT16},     {"ushort", PLY_UINT16},  {"uint16", PLY_UINT16},
+                 {"int", PLY_INT32},     {"int32", PLY_INT32},     {"uint", PLY_UINT32},    {"uint32", PLY_UINT32},
+                 {"float", PLY_FLOAT32}, {"float32", PLY_FLOAT32}, {"double", PLY_FLOAT64}, {"float64", PLY_FLOAT64}};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
         if (is_word(w, i, names[k].name))
             return names[k].type;
@@ -99,7 +99,7 @@ static lmn_status read_format(ply_reader *r, const words *w)
 static lmn_status read_element(ply_reader *r, const words *w)
 {
     ply_element e = {.count = 0};
-    long long count = -1;
+    long long   count = -1;
     if (w->count < 3 || !copy_word(w, 1, e.name) ||
         text_parse_int(w->at[2], w->at[2] + w->length[2], &count) != w->at[2] + w->length[2] || count < 0)
         return wrong(r, w, "expected \"element NAME COUNT\" with a count from 0");
@@ -118,7 +118,7 @@ static lmn_status read_property(ply_reader *r, const words *w)
         return wrong(r, w, "a property before the first element");
     ply_element *e = &r->elements[r->element_count - 1];
     ply_property p = {.type = PLY_NONE};
-    bool list = is_word(w, 1, "list");
+    bool         list = is_word(w, 1, "list");
     p.type = type_of(w, list ? 3 : 1);
     p.count_type = list ? type_of(w, 2) : PLY_NONE;
     if (p.type == PLY_NONE || (list && p.count_type == PLY_NONE))
@@ -149,7 +149,7 @@ static void read_comment(ply_reader *r, const words *w)
 lmn_status ply_read_header(ply_reader *r)
 {
     words w;
-    bool have_format = false;
+    bool  have_format = false;
     if (!next_line(r, &w) || !is_word(&w, 0, "ply"))
         return wrong(r, &w, "the first line is not \"ply\"");
     while (next_line(r, &w)) {

@@ -38,11 +38,13 @@ static void flatten(const vec3 *positions, const uint32_t *corners, uint32_t cou
     double n[3];
     polygon_normal(positions, corners, count, n);
     double ax = fabs(n[0]), ay = fabs(n[1]), az = fabs(n[2]);
-    int axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
+    int    axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
     double flip = n[axis] < 0 ? -1 : 1;
     for (uint32_t i = 0; i < count; i++) {
         vec3 p = positions[corners[i]];
-        out[i] = axis == 0 ? (point2){p.y * flip, p.z} : axis == 1 ? (point2){p.z * flip, p.x} : (point2){p.x * flip, p.y};
+        out[i] = axis == 0   ? (point2){p.y * flip, p.z}
+                 : axis == 1 ? (point2){p.z * flip, p.x}
+                             : (point2){p.x * flip, p.y};
     }
 }
 
@@ -85,7 +87,7 @@ static bool is_convex(const point2 *flat, uint32_t count)
 
 void build_triangulate(const vec3 *positions, const uint32_t *corners, uint32_t count, uint32_t *out)
 {
-    point2 flat[CLIP_MAX];
+    point2   flat[CLIP_MAX];
     uint32_t ring[CLIP_MAX];
     if (count <= 3 || count > CLIP_MAX) {
         make_fan(corners, count, out);

@@ -1,5 +1,5 @@
-/* OpenSCAD programs (.scad): the program `openscad`, when it is on the PATH, evaluates them to .csg in a process group of its own, with
- * a limit on time; a .scad file is a program, and only OpenSCAD knows its language. */
+/* OpenSCAD programs (.scad): the program `openscad`, when it is on the PATH, evaluates them to .csg in a process
+ * group of its own, with a limit on time; a .scad file is a program, and only OpenSCAD knows its language. */
 #define _GNU_SOURCE
 #include <ctype.h>
 #include <errno.h>
@@ -43,10 +43,11 @@ static bool find_program(char out[PATH_ROOM])
 {
     const char *at = getenv("PATH");
     while (at && *at) {
-        size_t length = strcspn(at, ":");
+        size_t      length = strcspn(at, ":");
         struct stat facts;
-        int size = snprintf(out, PATH_ROOM, "%.*s/openscad", (int)length, at);
-        if (length > 0 && size < PATH_ROOM && *at == '/' && access(out, X_OK) == 0 && stat(out, &facts) == 0 && S_ISREG(facts.st_mode))
+        int         size = snprintf(out, PATH_ROOM, "%.*s/openscad", (int)length, at);
+        if (length > 0 && size < PATH_ROOM && *at == '/' && access(out, X_OK) == 0 && stat(out, &facts) == 0 &&
+            S_ISREG(facts.st_mode))
             return true;
         at += length + (at[length] == ':');
     }
@@ -56,12 +57,13 @@ static bool find_program(char out[PATH_ROOM])
 static lmn_status make_folder(evaluation *e)
 {
     if (!temporary_folder_make(e->folder, sizeof e->folder))
-        return error_in_file(e->error, LMN_WRITE, e->job->path, 0, "no temporary folder can be made: %s", strerror(errno));
+        return error_in_file(e->error, LMN_WRITE, e->job->path, 0, "no temporary folder can be made: %s",
+                             strerror(errno));
     snprintf(e->output, sizeof e->output, "%s/model.csg", e->folder);
     return LMN_OK;
 }
 
-/* --- what the program is given ------------------------------------------------------------------------------------------- */
+/* --- what the program is given -------------------------------------------------------------------------- */
 
 static size_t define_count(const evaluation *e)
 {
@@ -98,12 +100,16 @@ static lmn_status check_defines(evaluation *e)
         const char *define = e->job->desc->defines[i];
         size_t      length = define ? name_length(define) : 0;
         if (!length) {
-            error_in_file(e->error, LMN_USAGE, e->job->path, 0, "the definition is '%.80s'; allowed is NAME=VALUE, where the name has letters, digits and '_'", define ? define : "");
+            error_in_file(
+                e->error, LMN_USAGE, e->job->path, 0,
+                "the definition is '%.80s'; allowed is NAME=VALUE, where the name has letters, digits and '_'",
+                define ? define : "");
             error_hint(e->error, "for example -D width=20 or -D 'name=\"lid\"'");
             return LMN_USAGE;
         }
         if (alone && define[0] != '$' && !has_word(file, define, length))
-            warnings_add(&e->job->scene->warnings, WARNING_NO_MATCH, "the program has no variable '%.*s' that the definition could change", (int)length, define);
+            warnings_add(&e->job->scene->warnings, WARNING_NO_MATCH,
+                         "the program has no variable '%.*s' that the definition could change", (int)length, define);
     }
     return LMN_OK;
 }
@@ -126,7 +132,7 @@ static char **make_arguments(const evaluation *e, const char *input)
     return (char **)arguments;
 }
 
-/* --- the process --------------------------------------------------------------------------------------------------------- */
+/* --- the process ---------------------------------------------------------------------------------------- */
 
 static void limit(__rlimit_resource_t what, size_t value)
 {
@@ -160,8 +166,8 @@ static void run_child(const evaluation *e, char *const *arguments, int pipe_end)
 static lmn_status start(evaluation *e)
 {
     /* A name must not be taken for an option. */
-    char input[PATH_ROOM];
-    int ends[2], size = snprintf(input, sizeof input, "%s%s", e->job->path[0] == '-' ? "./" : "", e->job->path);
+    char   input[PATH_ROOM];
+    int    ends[2], size = snprintf(input, sizeof input, "%s%s", e->job->path[0] == '-' ? "./" : "", e->job->path);
     char **arguments = make_arguments(e, input);
     if (!arguments)
         return error_memory(e->error);
@@ -186,7 +192,7 @@ static lmn_status start(evaluation *e)
 /* Text beyond the room is read and forgotten. True at the end. */
 static bool read_some(evaluation *e)
 {
-    char bytes[4096];
+    char    bytes[4096];
     ssize_t got = read(e->pipe, bytes, sizeof bytes);
     if (got < 0)
         return errno != EINTR && errno != EAGAIN;
@@ -198,8 +204,8 @@ static bool read_some(evaluation *e)
 
 static lmn_status wait_for(evaluation *e)
 {
-    double end = clock_ms() + 1000.0 * LIMIT_SCAD_SECONDS;
-    bool ended = false;
+    double     end = clock_ms() + 1000.0 * LIMIT_SCAD_SECONDS;
+    bool       ended = false;
     lmn_status status = LMN_OK;
     while (status == LMN_OK && !ended && !e->timed_out) {
         struct pollfd wait = {.fd = e->pipe, .events = POLLIN};
@@ -227,7 +233,7 @@ static lmn_status wait_for(evaluation *e)
     return status;
 }
 
-/* --- what it says ------------------------------------------------------------------------------------------------------ */
+/* --- what it says --------------------------------------------------------------------------------------- */
 
 /* Hands each line that begins with the word to the function. */
 static void each_line(const evaluation *e, const char *word, void (*use)(const evaluation *e, const char *line))
@@ -250,7 +256,8 @@ static void pass_warning(const evaluation *e, const char *line)
     warnings_add(&e->job->scene->warnings, WARNING_BAD_VALUE, "openscad: %s", line);
 }
 
-/* The program's line, where the message tells one: "… in file model.scad, line 3". What it includes has lines of its own. */
+/* The program's line, where the message tells one: "… in file model.scad, line 3". What it includes has lines of
+ * its own. */
 static int line_of(const evaluation *e, const char *message)
 {
     const char *own = strrchr(e->job->path, '/'), *at = NULL;
@@ -276,7 +283,8 @@ static void pass_error(const evaluation *e, const char *line)
 static lmn_status explain(evaluation *e)
 {
     if (e->timed_out || (WIFSIGNALED(e->status) && WTERMSIG(e->status) == SIGXCPU)) {
-        error_in_file(e->error, LMN_LIMIT, e->job->path, 0, "openscad took longer than %d s and was stopped", LIMIT_SCAD_SECONDS);
+        error_in_file(e->error, LMN_LIMIT, e->job->path, 0, "openscad took longer than %d s and was stopped",
+                      LIMIT_SCAD_SECONDS);
         error_hint(e->error, "evaluate it yourself: openscad -o model.csg model.scad");
         return LMN_LIMIT;
     }
@@ -289,14 +297,15 @@ static lmn_status explain(evaluation *e)
         return LMN_FORMAT;
     if (WIFEXITED(e->status) && WEXITSTATUS(e->status) == 0)
         return LMN_OK;
-    return error_in_file(e->error, LMN_FORMAT, e->job->path, 0, "openscad failed%s%.300s", e->said[0] ? ": " : "", e->said);
+    return error_in_file(e->error, LMN_FORMAT, e->job->path, 0, "openscad failed%s%.300s", e->said[0] ? ": " : "",
+                         e->said);
 }
 
-/* --- the format -------------------------------------------------------------------------------------------------------- */
+/* --- the format ----------------------------------------------------------------------------------------- */
 
 static lmn_status read_output(evaluation *e)
 {
-    file_data file;
+    file_data  file;
     lmn_status status = file_load(&file, e->output, e->error);
     if (status != LMN_OK)
         return error_in_file(e->error, LMN_FORMAT, e->job->path, 0, "openscad wrote no model");
@@ -310,7 +319,7 @@ static lmn_status read_output(evaluation *e)
 
 static lmn_status read_scad(const import_job *job, lmn_error *error)
 {
-    lmn_error own = {0};
+    lmn_error   own = {0};
     evaluation *e = mem_calloc(1, sizeof *e);
     if (!e)
         return error_memory(error);
@@ -318,7 +327,8 @@ static lmn_status read_scad(const import_job *job, lmn_error *error)
     e->error = &own;
     lmn_status status;
     if (!find_program(e->program)) {
-        status = error_in_file(&own, LMN_UNSUPPORTED, job->path, 0, "a .scad file is a program that openscad must evaluate, and it is not on the PATH");
+        status = error_in_file(&own, LMN_UNSUPPORTED, job->path, 0,
+                               "a .scad file is a program that openscad must evaluate, and it is not on the PATH");
         error_hint(&own, "install OpenSCAD, or where it is: openscad -o model.csg model.scad");
     } else {
         status = check_defines(e);

@@ -1,5 +1,5 @@
-/* STL, binary and text. Facet normals are not used: they split shared edges, and many files have wrong ones. Corners are
- * welded by position instead, so that edges are found. */
+/* STL, binary and text. Facet normals are not used: they split shared edges, and many files have wrong ones.
+ * Corners are welded by position instead, so that edges are found. */
 #include <string.h>
 
 #include "base/error.h"
@@ -76,7 +76,7 @@ static bool recognises(const file_data *file)
     return has_binary_size(file) || is_text(file);
 }
 
-/* --- binary ------------------------------------------------------------------------------------------------------ */
+/* --- binary --------------------------------------------------------------------------------------------- */
 
 typedef struct copy_job {
     const unsigned char *facets;
@@ -94,12 +94,12 @@ static void copy_facets(size_t begin, size_t end, void *user)
 static lmn_status use_header(const import_job *job, lmn_error *error)
 {
     const char *header = (const char *)job->file->data;
-    size_t length = 0;
+    size_t      length = 0;
     while (length < NAME_BYTES && header[length])
         length++;
     while (length > 0 && is_blank(header[length - 1]))
         length--;
-    bool named = length > 6 && is_word(header, header + length, "solid");
+    bool   named = length > 6 && is_word(header, header + length, "solid");
     size_t skip = named ? 6 : 0;
     if (length == 0)
         return LMN_OK;
@@ -131,13 +131,14 @@ static lmn_status add_welded(const import_job *job, primitive *p, const char *na
 static lmn_status read_binary(const import_job *job, lmn_error *error)
 {
     const file_data *file = job->file;
-    size_t count = read_u32(file->data + NAME_BYTES);
-    uint64_t wanted = HEADER_BYTES + (uint64_t)count * FACET_BYTES;
+    size_t           count = read_u32(file->data + NAME_BYTES);
+    uint64_t         wanted = HEADER_BYTES + (uint64_t)count * FACET_BYTES;
     if (wanted > file->size) {
-        error_in_file(error, LMN_FORMAT, job->path, 0,
-                      "the file is cut off: its header (byte 80) promises %zu triangles, which take %llu bytes; the file "
-                      "has %zu",
-                      count, (unsigned long long)wanted, file->size);
+        error_in_file(
+            error, LMN_FORMAT, job->path, 0,
+            "the file is cut off: its header (byte 80) promises %zu triangles, which take %llu bytes; the file "
+            "has %zu",
+            count, (unsigned long long)wanted, file->size);
         error_hint(error, "copy or export the file again");
         return LMN_FORMAT;
     }
@@ -145,8 +146,8 @@ static lmn_status read_binary(const import_job *job, lmn_error *error)
         warnings_add(&job->scene->warnings, WARNING_IGNORED, "%llu bytes behind the last triangle",
                      (unsigned long long)(file->size - wanted));
     if (count > LIMIT_TRIANGLES || count > LIMIT_VERTICES / 3)
-        return error_in_file(error, LMN_LIMIT, job->path, 0, "%zu triangles are more than the %zu that are read from STL",
-                             count, LIMIT_VERTICES / 3);
+        return error_in_file(error, LMN_LIMIT, job->path, 0,
+                             "%zu triangles are more than the %zu that are read from STL", count, LIMIT_VERTICES / 3);
     primitive p = {.vertex_count = (uint32_t)(count * 3)};
     p.positions = mem_alloc(count * CORNER_BYTES);
     if (!p.positions)
@@ -162,7 +163,7 @@ static lmn_status read_binary(const import_job *job, lmn_error *error)
     return status == LMN_OK ? use_header(job, error) : status;
 }
 
-/* --- text -------------------------------------------------------------------------------------------------------- */
+/* --- text ----------------------------------------------------------------------------------------------- */
 
 typedef struct text_reader {
     const import_job *job;
@@ -224,8 +225,8 @@ static bool take_numbers(text_reader *r, vec3 *out)
 static lmn_status add_corner(text_reader *r, vec3 p)
 {
     if (r->total >= LIMIT_VERTICES)
-        return error_in_file(r->error, LMN_LIMIT, r->job->path, build_line(r->begin, r->at),
-                             "more than %zu corners", LIMIT_VERTICES);
+        return error_in_file(r->error, LMN_LIMIT, r->job->path, build_line(r->begin, r->at), "more than %zu corners",
+                             LIMIT_VERTICES);
     if (!mem_grow((void **)&r->positions, &r->room, r->count + 1, sizeof *r->positions))
         return error_memory(r->error);
     r->positions[r->count++] = p;
@@ -313,7 +314,7 @@ static lmn_status read_name(text_reader *r)
 static lmn_status read_solid(text_reader *r)
 {
     lmn_status status = read_name(r);
-    size_t facets = 0;
+    size_t     facets = 0;
     while (status == LMN_OK && take(r, "facet")) {
         status = read_facet(r);
         if (status == LMN_OK && (++facets & 0xFFFF) == 0)
@@ -358,11 +359,13 @@ static lmn_status read_stl(const import_job *job, lmn_error *error)
     if (job->file->size >= HEADER_BYTES && !looks_like_words(job->file))
         return read_binary(job, error);
     if (job->file->size >= 5 && is_word(bytes, bytes + job->file->size, "solid"))
-        error_in_file(error, LMN_FORMAT, job->path, 0, "the file is cut off: text STL without \"facet\" or \"endsolid\"");
+        error_in_file(error, LMN_FORMAT, job->path, 0,
+                      "the file is cut off: text STL without \"facet\" or \"endsolid\"");
     else if (job->file->size >= HEADER_BYTES)
         error_in_file(error, LMN_FORMAT, job->path, 1, "this is not STL: text that does not begin with \"solid\"");
     else
-        error_in_file(error, LMN_FORMAT, job->path, 0, "the file has only %zu bytes, no STL is that short", job->file->size);
+        error_in_file(error, LMN_FORMAT, job->path, 0, "the file has only %zu bytes, no STL is that short",
+                      job->file->size);
     error_hint(error, "check the ending, or copy or export the file again");
     return LMN_FORMAT;
 }

@@ -12,11 +12,14 @@ static const char *const shading_names[] = {"forward", "deferred", NULL};
 
 static const param params[] = {
     PARAM_BOOL_ROW(front_values, complement, .def = 1, .cpu_only = true,
-                   .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they meet this rule's parts."),
+                   .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they "
+                          "meet this rule's parts."),
     PARAM_ENUM_ROW(front_values, shading, .names = shading_names, .cpu_only = true,
-                   .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless the surface technique needs its geometry."),
+                   .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless "
+                          "the surface technique needs its geometry."),
     PARAM_ENUM_ROW(front_values, evaluation, .names = layer_evaluations, .cpu_only = true,
-                   .doc = "Solids: lists sort every fragment of their operands, needs OpenGL 4.3; products work with their normal form, a union of "
+                   .doc = "Solids: lists sort every fragment of their operands, needs OpenGL 4.3; products work with "
+                          "their normal form, a union of "
                           "intersections and differences; auto takes what is faster. The surfaces are the same."),
 };
 
@@ -29,6 +32,11 @@ static void front_layering(layering *out, const void *values)
 }
 
 const technique layers_front = {
-    .name = "front", .doc = "The visible surface.", .example = "{\"layers\": \"front\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(front_values),
+    .name = "front",
+    .doc = "The visible surface.",
+    .example = "{\"layers\": \"front\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(front_values),
     .layers = &(const layers_row){.layering = front_layering},
 };

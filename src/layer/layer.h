@@ -25,7 +25,8 @@ enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = 
 #define SURFACE_BACK       0x10000000u /* back-facing by winding */
 #define SURFACE_OPERAND    0x00080000u /* of a solid: what is below this bit is the operand's number */
 
-/* What a technique says of a figure's surfaces; those of figures that are not composed layer by layer are asked for the first line alone. */
+/* What a technique says of a figure's surfaces; those of figures that are not composed layer by layer are asked for
+ * the first line alone. */
 typedef struct layering {
     bool        deferred, complement; /* shaded from the G-buffer; other figures' parts take part in edge detection */
     int32_t     evaluation;           /* of solids: layer_evaluation */

@@ -12,16 +12,16 @@ typedef enum light_source { LIGHTS_STUDIO, LIGHTS_FILE } light_source;
 
 /* The parameters, read by src/plan and src/frame when it sets the scene up. */
 typedef struct scene_values {
-    direction light_direction;
-    float     fill, crease_angle;
-    int32_t   lights;
-    float     light_scale;
-    bool      shadows;
+    direction   light_direction;
+    float       fill, crease_angle;
+    int32_t     lights;
+    float       light_scale;
+    bool        shadows;
     float       shadow_softness, occlusion, occlusion_radius;
     float       focus, focus_at, focus_depth;
     param_words cut, cut_keep;
-    float     cut_hatch, cut_angle, cut_width;
-    colour    cut_colour, cut_fill;
+    float       cut_hatch, cut_angle, cut_width;
+    colour      cut_colour, cut_fill;
 } scene_values;
 
 #endif

@@ -1,4 +1,5 @@
-/* studio: a key light that goes with the viewer and a weaker fill light from the other side, or the file's own lights. */
+/* studio: a key light that goes with the viewer and a weaker fill light from the other side, or the file's own
+ * lights. */
 #include "light/light.h"
 #include "scene/cut.h"
 
@@ -12,7 +13,8 @@ static lmn_status check_cut(const char *text, lmn_error *error)
 }
 
 static const param params[] = {
-    PARAM_DIRECTION_ROW(scene_values, light_direction, .def_direction = {-0.45f, 0.75f, 0.85f}, .min = -1e6, .max = 1e6, .cpu_only = true,
+    PARAM_DIRECTION_ROW(scene_values, light_direction, .def_direction = {-0.45f, 0.75f, 0.85f}, .min = -1e6, .max = 1e6,
+                        .cpu_only = true,
                         .doc = "Direction towards the key light as the viewer sees it: right, up, to the viewer."),
     PARAM_FLOAT_ROW(scene_values, fill, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
                     .doc = "Strength of a fill light from the other side."),
@@ -22,45 +24,68 @@ static const param params[] = {
                    .doc = "studio: the two lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,
                     .doc = "Multiplies all lights."),
-    PARAM_BOOL_ROW(scene_values, shadows, .def = 0, .cpu_only = true,
-                   .doc = "The first light throws shadows, if it shines from one direction; with halftones they are denser strokes."),
-    PARAM_FLOAT_ROW(scene_values, shadow_softness, .def = 0, .min = 0, .max = 60, .soft_max = 20, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "shadows",
-                    .doc = "How wide the light is as the model sees it: the farther a shadow falls, the softer its border; 0 is hard, the sun has 0.5."),
+    PARAM_BOOL_ROW(
+        scene_values, shadows, .def = 0, .cpu_only = true,
+        .doc =
+            "The first light throws shadows, if it shines from one direction; with halftones they are denser strokes."),
+    PARAM_FLOAT_ROW(scene_values, shadow_softness, .def = 0, .min = 0, .max = 60, .soft_max = 20, .unit = UNIT_DEGREES,
+                    .cpu_only = true, .only_if = "shadows",
+                    .doc = "How wide the light is as the model sees it: the farther a shadow falls, the softer its "
+                           "border; 0 is hard, the sun has 0.5."),
     PARAM_FLOAT_ROW(scene_values, occlusion, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
-                    .doc = "How much darker corners and clefts get, which see little of the sky: ambient occlusion; with halftones denser strokes."),
-    PARAM_FLOAT_ROW(scene_values, occlusion_radius, .def = 0.1, .min = 0.001, .max = 1, .soft_min = 0.02, .soft_max = 0.4, .unit = UNIT_SHARE, .logarithmic = true,
-                    .cpu_only = true, .only_if = "occlusion", .doc = "How far off something may stand to keep the sky from a place, share of the model's diagonal."),
+                    .doc = "How much darker corners and clefts get, which see little of the sky: ambient occlusion; "
+                           "with halftones denser strokes."),
+    PARAM_FLOAT_ROW(scene_values, occlusion_radius, .def = 0.1, .min = 0.001, .max = 1, .soft_min = 0.02,
+                    .soft_max = 0.4, .unit = UNIT_SHARE, .logarithmic = true, .cpu_only = true, .only_if = "occlusion",
+                    .doc =
+                        "How far off something may stand to keep the sky from a place, share of the model's diagonal."),
     PARAM_FLOAT_ROW(scene_values, focus, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
-                    .doc = "Depth focus: share of the ink that lines and strokes lose away from the depth that is looked at; the paper stays what it is."),
-    PARAM_FLOAT_ROW(scene_values, focus_at, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "focus",
-                    .doc = "The depth with all its ink, share of the model's depth: 0 is the nearest place, 1 the farthest."),
-    PARAM_FLOAT_ROW(scene_values, focus_depth, .def = 0.8, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "focus",
+                    .doc = "Depth focus: share of the ink that lines and strokes lose away from the depth that is "
+                           "looked at; the paper stays what it is."),
+    PARAM_FLOAT_ROW(
+        scene_values, focus_at, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "focus",
+        .doc = "The depth with all its ink, share of the model's depth: 0 is the nearest place, 1 the farthest."),
+    PARAM_FLOAT_ROW(scene_values, focus_depth, .def = 0.8, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_SHARE,
+                    .cpu_only = true, .only_if = "focus",
                     .doc = "How far away from there the most ink is lost, share of the model's depth."),
     PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%", .check = check_cut,
-                   .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or box=50%,0%,50%:100%,100%,100%; see draw.md."),
+                   .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or "
+                          "box=50%,0%,50%:100%,100%,100%; see draw.md."),
     PARAM_TEXT_ROW(scene_values, cut_keep, .example = "ball", .is_selector = true, .only_if = "cut",
                    .doc = "Selector of parts that are not cut through, as draughtsmen leave shafts and bolts whole."),
-    PARAM_FLOAT_ROW(scene_values, cut_hatch, .def = 9, .min = 0, .max = 200, .soft_max = 30, .unit = UNIT_PX, .cpu_only = true, .only_if = "cut",
-                    .doc = "Distance of the lines that hatch cut faces; 0 draws none. Neighbouring parts differ a little."),
-    PARAM_FLOAT_ROW(scene_values, cut_angle, .def = 45, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "cut",
+    PARAM_FLOAT_ROW(
+        scene_values, cut_hatch, .def = 9, .min = 0, .max = 200, .soft_max = 30, .unit = UNIT_PX, .cpu_only = true,
+        .only_if = "cut",
+        .doc = "Distance of the lines that hatch cut faces; 0 draws none. Neighbouring parts differ a little."),
+    PARAM_FLOAT_ROW(scene_values, cut_angle, .def = 45, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true,
+                    .only_if = "cut",
                     .doc = "Angle of these lines; each part turns it further, so that neighbours differ."),
-    PARAM_FLOAT_ROW(scene_values, cut_width, .def = 1, .min = 0.1, .max = 64, .soft_max = 6, .unit = UNIT_PX, .cpu_only = true, .only_if = "cut",
-                    .doc = "Width of these lines."),
-    PARAM_COLOUR_ROW(scene_values, cut_colour, .def_colour = {0.13f, 0.13f, 0.15f, 1}, .cpu_only = true, .only_if = "cut",
-                     .doc = "Colour of these lines."),
+    PARAM_FLOAT_ROW(scene_values, cut_width, .def = 1, .min = 0.1, .max = 64, .soft_max = 6, .unit = UNIT_PX,
+                    .cpu_only = true, .only_if = "cut", .doc = "Width of these lines."),
+    PARAM_COLOUR_ROW(scene_values, cut_colour, .def_colour = {0.13f, 0.13f, 0.15f, 1}, .cpu_only = true,
+                     .only_if = "cut", .doc = "Colour of these lines."),
     PARAM_COLOUR_ROW(scene_values, cut_fill, .can_auto = true, .def_auto = true, .cpu_only = true, .only_if = "cut",
                      .doc = "Colour of cut faces; auto takes the part's own, nearly white, none leaves them white."),
 };
 
 static const technique studio = {
-    .name = "studio", .doc = "Light and geometry preparation.", .example = "{\"surface\": \"lit\", \"lines\": \"discontinuity\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(scene_values),
+    .name = "studio",
+    .doc = "Light and geometry preparation.",
+    .example = "{\"surface\": \"lit\", \"lines\": \"discontinuity\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(scene_values),
 };
 
 static const technique *const techniques[] = {&studio};
 
 const kind kind_scene = {
-    .id = KIND_SCENE, .name = "scene", .doc = "Light and geometry preparation, for the whole look.",
-    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = &studio,
-    .selector_key = "technique", .look_wide = true,
+    .id = KIND_SCENE,
+    .name = "scene",
+    .doc = "Light and geometry preparation, for the whole look.",
+    .techniques = techniques,
+    .technique_count = PARAM_COUNT(techniques),
+    .standard = &studio,
+    .selector_key = "technique",
+    .look_wide = true,
 };

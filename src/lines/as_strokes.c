@@ -14,7 +14,7 @@ static bool is_class_inner(int kind)
 void lines_as_strokes(stroke_options *options, stroke_style *style, const void *values)
 {
     const lines_common *lines = values;
-    colour inner = isnan(lines->inner_colour.r) ? lines->colour : lines->inner_colour;
+    colour              inner = isnan(lines->inner_colour.r) ? lines->colour : lines->inner_colour;
     for (int i = 0; i < STROKE_CLASS_COUNT; i++)
         style->colours[i] = is_class_inner(i) ? inner : lines->colour;
     style->width = lines->width;

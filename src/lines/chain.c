@@ -1,5 +1,6 @@
-/* Tracing: thinned ink is followed from node to node, then closed loops; chains part at corners; points are moved into the middle
- * of the ink and smoothed before they are measured, since steps from pixel to pixel overrate slanted lines by up to 8 %. */
+/* Tracing: thinned ink is followed from node to node, then closed loops; chains part at corners; points are moved
+ * into the middle of the ink and smoothed before they are measured, since steps from pixel to pixel overrate
+ * slanted lines by up to 8 %. */
 #include "lines/chain.h"
 
 #include <math.h>
@@ -9,13 +10,13 @@
 #include "lines/thin.h"
 
 enum {
-    CELL_NODE    = 8,  /* an end, a junction, or a pixel alone */
-    CELL_TRACED  = 16,
-    CORNER_REACH = 6,  /* points on either side between which a corner is looked for … */
-    CORNER_LEAST = 4,  /* … and at least, near ends */
+    CELL_NODE = 8, /* an end, a junction, or a pixel alone */
+    CELL_TRACED = 16,
+    CORNER_REACH = 6, /* points on either side between which a corner is looked for … */
+    CORNER_LEAST = 4, /* … and at least, near ends */
     SMOOTH_REACH = 5,
-    SPUR_ROUNDS  = 2,
-    BROAD        = 4   /* ink this far on all sides is no line */
+    SPUR_ROUNDS = 2,
+    BROAD = 4 /* ink this far on all sides is no line */
 };
 
 /* A turn of 50 degrees is a corner. */
@@ -156,7 +157,7 @@ static float steps_length(const tracing *t, const raw_line *line)
     float length = 0;
     for (size_t i = 1; i < line->count; i++) {
         int64_t step = (int64_t)t->cells[line->first + i] - (int64_t)t->cells[line->first + i - 1];
-        bool straight = step == 1 || step == -1 || step == t->grid.stride || step == -t->grid.stride;
+        bool    straight = step == 1 || step == -1 || step == t->grid.stride || step == -t->grid.stride;
         length += straight ? 1.0f : 1.41421356f;
     }
     return length;
@@ -181,13 +182,13 @@ static bool remove_spurs(tracing *t, float spur)
     return removed;
 }
 
-/* --- points ----------------------------------------------------------------------------------------------------- */
+/* --- points --------------------------------------------------------------------------------------------- */
 
 /* The middle of the ink around a pixel: thin lines of an even width have theirs between two. */
 static trace_point point_of(const tracing *t, uint32_t cell)
 {
     const thin_grid *g = &t->grid;
-    int sum_x = 0, sum_y = 0, count = 0;
+    int              sum_x = 0, sum_y = 0, count = 0;
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {
             int ink = g->cells[(int64_t)cell + y * g->stride + x] & CELL_INK;
@@ -195,7 +196,7 @@ static trace_point point_of(const tracing *t, uint32_t cell)
             sum_y += ink * y;
             count += ink;
         }
-    int column = (int)(cell % (uint32_t)g->stride) - 1, row = (int)(cell / (uint32_t)g->stride) - 1;
+    int   column = (int)(cell % (uint32_t)g->stride) - 1, row = (int)(cell / (uint32_t)g->stride) - 1;
     float share = 1 / (float)(count ? count : 1);
     return (trace_point){(float)column + (float)sum_x * share, (float)row + (float)sum_y * share, 0,
                          (uint32_t)row * (uint32_t)g->width + (uint32_t)column};
@@ -213,7 +214,7 @@ static size_t reach_at(size_t n, size_t i, bool closed, size_t reach)
 static float turn_at(const trace_point *p, size_t n, size_t i, size_t reach)
 {
     const trace_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
-    float ux = b->x - a->x, uy = b->y - a->y, vx = c->x - b->x, vy = c->y - b->y;
+    float              ux = b->x - a->x, uy = b->y - a->y, vx = c->x - b->x, vy = c->y - b->y;
     return fabsf(atan2f(ux * vy - uy * vx, ux * vx + uy * vy));
 }
 
@@ -236,16 +237,17 @@ static size_t corner_reach_at(const trace_point *p, size_t n, size_t i, bool clo
     return 0;
 }
 
-/* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the chord between
- * its neighbours, as a share of their distance along the line; greatest at the very corner. */
+/* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the
+ * chord between its neighbours, as a share of their distance along the line; greatest at the very corner. */
 static float sharpness_at(const trace_point *p, size_t n, size_t i, bool closed)
 {
     size_t reach = corner_reach_at(p, n, i, closed);
     if (reach == 0)
         return 0;
     const trace_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
-    float dx = c->x - a->x, dy = c->y - a->y, chord = hypotf(dx, dy);
-    float height = chord > 0 ? fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) / chord : hypotf(b->x - a->x, b->y - a->y);
+    float              dx = c->x - a->x, dy = c->y - a->y, chord = hypotf(dx, dy);
+    float              height =
+        chord > 0 ? fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) / chord : hypotf(b->x - a->x, b->y - a->y);
     return height / (float)reach;
 }
 
@@ -263,15 +265,15 @@ static bool is_corner(const float *sharpness, size_t n, size_t i, bool closed)
     return true;
 }
 
-/* The point `k` places from `i`. Beyond an open end the line goes on as its mirror image in the end point, which keeps ends in
- * their place and straight lines straight. */
+/* The point `k` places from `i`. Beyond an open end the line goes on as its mirror image in the end point, which
+ * keeps ends in their place and straight lines straight. */
 static void place_at(const trace_point *p, long n, long i, bool closed, float out[2])
 {
     if (closed)
         i = ((i % n) + n) % n;
-    long inside = i < 0 ? -i : i >= n ? 2 * (n - 1) - i : i;
+    long               inside = i < 0 ? -i : i >= n ? 2 * (n - 1) - i : i;
     const trace_point *end = i < 0 ? &p[0] : &p[n - 1];
-    bool mirrored = inside != i;
+    bool               mirrored = inside != i;
     inside = inside < 0 ? 0 : inside >= n ? n - 1 : inside;
     out[0] = mirrored ? 2 * end->x - p[inside].x : p[inside].x;
     out[1] = mirrored ? 2 * end->y - p[inside].y : p[inside].y;
@@ -280,7 +282,7 @@ static void place_at(const trace_point *p, long n, long i, bool closed, float ou
 static void smooth_point(trace_point *to, const trace_point *from, long n, long i, bool closed)
 {
     static const float weights[SMOOTH_REACH + 1] = {0.2016f, 0.1774f, 0.1208f, 0.0637f, 0.0260f, 0.0113f};
-    float x = weights[0] * from[i].x, y = weights[0] * from[i].y;
+    float              x = weights[0] * from[i].x, y = weights[0] * from[i].y;
     for (long k = 1; k <= SMOOTH_REACH; k++) {
         float before[2], behind[2];
         if (i >= k && i + k < n) {
@@ -300,7 +302,8 @@ static void smooth_point(trace_point *to, const trace_point *from, long n, long 
     to->y = y;
 }
 
-/* Adds points first … first + count - 1 of `p` (around its end where it is closed) as a chain, smoothed and measured. */
+/* Adds points first … first + count - 1 of `p` (around its end where it is closed) as a chain, smoothed and
+ * measured. */
 static bool add_chain(chain_set *out, trace_point *p, size_t n, size_t first, chain c)
 {
     if (!mem_grow((void **)&out->points, &out->point_room, out->point_count + 2 * c.count, sizeof *out->points) ||
@@ -326,7 +329,7 @@ static bool add_chain(chain_set *out, trace_point *p, size_t n, size_t first, ch
 static bool add_parted(chain_set *out, const raw_line *line, trace_point *p, float *sharpness)
 {
     size_t n = line->count, start = 0, first_corner = n;
-    bool joined = line->joined[0], good = true;
+    bool   joined = line->joined[0], good = true;
     for (size_t i = 0; i < n; i++)
         sharpness[i] = sharpness_at(p, n, i, line->closed);
     for (size_t i = 0; i < n && good; i++) {
@@ -354,8 +357,8 @@ static bool make_chains(chain_set *out, const tracing *t)
     for (size_t i = 0; i < t->line_count; i++)
         longest = t->lines[i].count > longest ? t->lines[i].count : longest;
     trace_point *points = mem_alloc(longest * sizeof *points);
-    float *sharpness = mem_alloc(longest * sizeof *sharpness);
-    bool good = points && sharpness;
+    float       *sharpness = mem_alloc(longest * sizeof *sharpness);
+    bool         good = points && sharpness;
     for (size_t i = 0; i < t->line_count && good; i++) {
         const raw_line *line = &t->lines[i];
         for (size_t k = 0; k < line->count; k++)

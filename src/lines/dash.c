@@ -1,5 +1,6 @@
-/* Dashes as a draughtsman places them: ink where lines meet, at corners and at ends, and between them equal dashes. Goes past
- * Nienhaus 2005, section 5.7, which has no dashed lines because edges of pictures have no identity; tracing gives them one. */
+/* Dashes as a draughtsman places them: ink where lines meet, at corners and at ends, and between them equal dashes.
+ * Goes past Nienhaus 2005, section 5.7, which has no dashed lines because edges of pictures have no identity;
+ * tracing gives them one. */
 #include "lines/dash.h"
 
 #include <math.h>
@@ -8,7 +9,8 @@
 #include "base/memory.h"
 #include "lines/lines.h"
 
-/* The detected map's lines reach this far from their middle; and chains of less than this share of a period stay whole. */
+/* The detected map's lines reach this far from their middle; and chains of less than this share of a period stay
+ * whole. */
 static const float DETECTED_REACH = 3.5f, LEAST_PERIOD = 0.75f, LEAST_DASHES = 1.5f;
 /* Half of the widest lines, with eight samples a side. */
 enum { REACH_MAX = 140 };
@@ -34,7 +36,7 @@ dash_pattern dash_pattern_of(const chain *c, const dash_style *style)
     /* As many gaps as need the least stretching, or squeezing, by factors. */
     int gaps = (int)floorf(periods);
     gaps += gaps < 1 || periods > sqrtf((float)gaps * (float)(gaps + 1));
-    float stretch = c->length / ((float)gaps * period + ends);
+    float        stretch = c->length / ((float)gaps * period + ends);
     dash_pattern out = {.gaps = gaps, .stretch = stretch, .dash = dash * stretch, .period = period * stretch};
     out.lead = c->closed || c->joined[0] ? 0.5f * out.dash : 0;
     return out;
@@ -42,7 +44,8 @@ dash_pattern dash_pattern_of(const chain *c, const dash_style *style)
 
 float dash_from_middle(const dash_pattern *p, const chain *c, float along)
 {
-    float at = along + p->lead - 0.5f * p->dash, index = (float)(int)(at / p->period + 0.5f); /* at is never far below 0 */
+    float at = along + p->lead - 0.5f * p->dash,
+          index = (float)(int)(at / p->period + 0.5f); /* at is never far below 0 */
     if (!c->closed && index > (float)p->gaps)
         index = (float)p->gaps;
     return fabsf(at - index * p->period);
@@ -56,7 +59,7 @@ float dash_inside(const dash_pattern *p, const chain *c, float along)
     return p->gaps == 0 ? p->period : 0.5f * p->dash - (outermost ? 0 : dash_from_middle(p, c, along));
 }
 
-/* --- painting ---------------------------------------------------------------------------------------------------- */
+/* --- painting ------------------------------------------------------------------------------------------- */
 
 /* A chain's point as pixels around it see it. */
 typedef struct source {
@@ -66,13 +69,13 @@ typedef struct source {
 } source;
 
 typedef struct painting {
-    int                 width, height;
-    const chain_set    *set;
-    const dash_style   *style;
-    dash_pattern       *patterns;
-    source             *sources;
-    uint32_t           *nearest;  /* source of each pixel */
-    uint16_t           *distance; /* to it, squared, + 1; 0 = out of reach of all */
+    int               width, height;
+    const chain_set  *set;
+    const dash_style *style;
+    dash_pattern     *patterns;
+    source           *sources;
+    uint32_t         *nearest;  /* source of each pixel */
+    uint16_t         *distance; /* to it, squared, + 1; 0 = out of reach of all */
 } painting;
 
 /* The chain's direction at a point: between its neighbours. */
@@ -80,7 +83,7 @@ static void set_direction(source *s, const chain *c, const trace_point *points, 
 {
     const trace_point *before = i ? &points[i - 1] : c->closed ? &points[c->count - 1] : &points[0];
     const trace_point *behind = i + 1 < c->count ? &points[i + 1] : c->closed ? &points[0] : &points[i];
-    float tx = behind->x - before->x, ty = behind->y - before->y, size = sqrtf(tx * tx + ty * ty);
+    float              tx = behind->x - before->x, ty = behind->y - before->y, size = sqrtf(tx * tx + ty * ty);
     s->tx = size > 0 ? tx / size : 0;
     s->ty = size > 0 ? ty / size : 0;
 }
@@ -91,9 +94,9 @@ static void claim(painting *p, uint32_t label, uint32_t pixel, int reach, const 
     int x = (int)(pixel % (uint32_t)p->width), y = (int)(pixel / (uint32_t)p->width);
     int top = y > reach ? -reach : -y, bottom = y + reach < p->height ? reach : p->height - 1 - y;
     for (int dy = top; dy <= bottom; dy++) {
-        int span = spans[dy < 0 ? -dy : dy];
-        int left = x > span ? -span : -x, right = x + span < p->width ? span : p->width - 1 - x;
-        size_t row = (size_t)(y + dy) * (size_t)p->width + (size_t)x;
+        int       span = spans[dy < 0 ? -dy : dy];
+        int       left = x > span ? -span : -x, right = x + span < p->width ? span : p->width - 1 - x;
+        size_t    row = (size_t)(y + dy) * (size_t)p->width + (size_t)x;
         uint16_t *distance = &p->distance[row];
         for (int dx = left; dx <= right; dx++) {
             int d = dx * dx + dy * dy + 1;
@@ -107,14 +110,14 @@ static void claim(painting *p, uint32_t label, uint32_t pixel, int reach, const 
 
 static void place_sources(painting *p)
 {
-    int spans[REACH_MAX + 1];
+    int   spans[REACH_MAX + 1];
     float reach = DETECTED_REACH + 0.5f * (p->style->width > 2 ? p->style->width - 2 : 0);
     reach = reach > REACH_MAX ? REACH_MAX : reach;
     for (int i = 0; i <= (int)reach; i++)
         spans[i] = (int)sqrtf(reach * reach - (float)(i * i));
     uint32_t count = 0;
     for (size_t i = 0; i < p->set->chain_count; i++) {
-        const chain *c = &p->set->chains[i];
+        const chain       *c = &p->set->chains[i];
         const trace_point *points = &p->set->points[c->first];
         p->patterns[i] = dash_pattern_of(c, p->style);
         for (size_t k = 0; k < c->count; k++, count++) {
@@ -129,7 +132,7 @@ static void place_sources(painting *p)
 /* Share of ink at a pixel, by its place beside the nearest chain. */
 static uint8_t share_at(const painting *p, const source *s, int x, int y)
 {
-    const chain *c = &p->set->chains[s->chain];
+    const chain        *c = &p->set->chains[s->chain];
     const dash_pattern *pattern = &p->patterns[s->chain];
     if (pattern->gaps == 0)
         return 255;
@@ -158,11 +161,16 @@ static void paint_row(const painting *p, uint8_t *out, int y)
 
 bool dash_paint(uint8_t *out, int width, int height, const chain_set *set, const dash_style *style)
 {
-    size_t pixels = (size_t)width * (size_t)height;
-    painting p = {.width = width, .height = height, .set = set, .style = style,
-                  .patterns = mem_alloc(set->chain_count * sizeof *p.patterns), .sources = mem_alloc(set->point_count * sizeof *p.sources),
-                  .nearest = mem_alloc(pixels * sizeof *p.nearest), .distance = mem_calloc(pixels, sizeof *p.distance)};
-    bool good = p.patterns && p.sources && p.nearest && p.distance;
+    size_t   pixels = (size_t)width * (size_t)height;
+    painting p = {.width = width,
+                  .height = height,
+                  .set = set,
+                  .style = style,
+                  .patterns = mem_alloc(set->chain_count * sizeof *p.patterns),
+                  .sources = mem_alloc(set->point_count * sizeof *p.sources),
+                  .nearest = mem_alloc(pixels * sizeof *p.nearest),
+                  .distance = mem_calloc(pixels, sizeof *p.distance)};
+    bool     good = p.patterns && p.sources && p.nearest && p.distance;
     if (good) {
         place_sources(&p);
         memset(out, 255, pixels);
@@ -176,19 +184,20 @@ bool dash_paint(uint8_t *out, int width, int height, const chain_set *set, const
     return good;
 }
 
-/* --- the pass ----------------------------------------------------------------------------------------------------- */
+/* --- the pass ------------------------------------------------------------------------------------------- */
 
 bool dash_process(const pass_pixels *in, void *out, const void *values)
 {
     const lines_common *lines = values;
-    dash_style style = {lines->dash, lines->gap, lines->width};
-    chain_set set = {0};
-    size_t count = (size_t)in->width * (size_t)in->height;
-    uint8_t *ink = mem_alloc(count);
-    bool good = ink != NULL;
+    dash_style          style = {lines->dash, lines->gap, lines->width};
+    chain_set           set = {0};
+    size_t              count = (size_t)in->width * (size_t)in->height;
+    uint8_t            *ink = mem_alloc(count);
+    bool                good = ink != NULL;
     if (good) {
         lines_find_ink(ink, in->values[0], count, lines);
-        good = chains_trace(&set, ink, in->width, in->height, LINES_SPUR) && dash_paint(out, in->width, in->height, &set, &style);
+        good = chains_trace(&set, ink, in->width, in->height, LINES_SPUR) &&
+               dash_paint(out, in->width, in->height, &set, &style);
     }
     chains_release(&set);
     mem_free(ink);

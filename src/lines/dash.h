@@ -9,8 +9,9 @@ typedef struct dash_style {
     float width;     /* of the finished line */
 } dash_style;
 
-/* A chain's pattern: `gaps` gaps, dash and gap stretched by `stretch` so that it begins and ends with ink: half a dash where it
- * meets other lines, which have the other half, a whole one where it just stops. No gaps: the chain is too short or no line, it stays whole. */
+/* A chain's pattern: `gaps` gaps, dash and gap stretched by `stretch` so that it begins and ends with ink: half a
+ * dash where it meets other lines, which have the other half, a whole one where it just stops. No gaps: the chain
+ * is too short or no line, it stays whole. */
 typedef struct dash_pattern {
     int   gaps;
     float stretch;
@@ -25,8 +26,8 @@ float dash_from_middle(const dash_pattern *p, const chain *c, float along);
 /* How far inside a dash (negative: inside a gap) it is. */
 float dash_inside(const dash_pattern *p, const chain *c, float along);
 
-/* The share of ink that stays at each pixel, 255 = all: one byte a pixel, everything within the line's reach belongs to the
- * nearest chain. False when memory is gone. */
+/* The share of ink that stays at each pixel, 255 = all: one byte a pixel, everything within the line's reach
+ * belongs to the nearest chain. False when memory is gone. */
 bool dash_paint(uint8_t *out, int width, int height, const chain_set *set, const dash_style *style);
 
 #endif

@@ -22,33 +22,41 @@ static const param common[] = {
                     .doc = "Strength of inner lines; 0 hides them."),
     PARAM_FLOAT_ROW(lines_common, id_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
                     .doc = "Strength of lines between parts; 0 hides them."),
-    PARAM_FLOAT_ROW(lines_common, gain, .def = 1, .min = 0, .max = 1000, .soft_min = 0.5, .soft_max = 50, .logarithmic = true,
-                    .doc = "Multiplies the detected ink; 1 keeps the operator's formula."),
+    PARAM_FLOAT_ROW(lines_common, gain, .def = 1, .min = 0, .max = 1000, .soft_min = 0.5, .soft_max = 50,
+                    .logarithmic = true, .doc = "Multiplies the detected ink; 1 keeps the operator's formula."),
     PARAM_FLOAT_ROW(lines_common, threshold, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
                     .doc = "Ink below this share is paper; taken off before the gain."),
     PARAM_FLOAT_ROW(lines_common, sharpen, .def = 0, .min = -0.12, .max = 1, .soft_min = -0.12, .soft_max = 0.5,
-                    .doc = "Sharpening of the normal-depth buffer before detection; 0.1 gives wider and stronger lines, negative values blur."),
-    PARAM_ENUM_ROW(lines_common, contrast, .names = contrasts, .variant = true,
-                   .doc = "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
-                          "the dark colour by the ground; directed puts the second line towards the outside."),
+                    .doc = "Sharpening of the normal-depth buffer before detection; 0.1 gives wider and stronger "
+                           "lines, negative values blur."),
+    PARAM_ENUM_ROW(
+        lines_common, contrast, .names = contrasts, .variant = true,
+        .doc = "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
+               "the dark colour by the ground; directed puts the second line towards the outside."),
     PARAM_COLOUR_ROW(lines_common, light_colour, .def_colour = {1, 1, 1, 1}, .only_if = "contrast",
                      .doc = "The second or the light colour of contrast-aware lines."),
-    PARAM_FLOAT_ROW(lines_common, offset_x, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4, .unit = UNIT_PX,
-                    .only_if = "contrast=double", .doc = "How far the second line lies to the right."),
-    PARAM_FLOAT_ROW(lines_common, offset_y, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4, .unit = UNIT_PX,
-                    .only_if = "contrast=double", .doc = "How far the second line lies down."),
-    PARAM_FLOAT_ROW(lines_common, suppress, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "contrast=adaptive",
-                    .doc = "Luminance step across a line above which the picture shows the edge by itself and the line is left out; "
-                           "0 keeps all lines."),
+    PARAM_FLOAT_ROW(lines_common, offset_x, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4,
+                    .unit = UNIT_PX, .only_if = "contrast=double", .doc = "How far the second line lies to the right."),
+    PARAM_FLOAT_ROW(lines_common, offset_y, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4,
+                    .unit = UNIT_PX, .only_if = "contrast=double", .doc = "How far the second line lies down."),
+    PARAM_FLOAT_ROW(
+        lines_common, suppress, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "contrast=adaptive",
+        .doc =
+            "Luminance step across a line above which the picture shows the edge by itself and the line is left out; "
+            "0 keeps all lines."),
     PARAM_FLOAT_ROW(lines_common, blur, .def = 6, .min = 1, .max = 32, .unit = UNIT_PX, .only_if = "contrast=adaptive",
                     .doc = "Radius in which the ground's brightness is averaged."),
-    PARAM_FLOAT_ROW(lines_common, dash, .def = 0, .min = 0, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,
-                    .doc = "Length of dashes along the lines, stretched so that lines begin, end and meet with ink; 0 leaves them "
-                           "unbroken, and a dash no longer than the line is wide becomes a dot."),
-    PARAM_FLOAT_ROW(lines_common, gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .cpu_only = true,
-                    .only_if = "dash", .doc = "Length of the gaps between dashes."),
-    PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 64, .soft_max = 32, .unit = UNIT_PX, .reach = OVERSHOOT_MOST, .cpu_only = true,
-                    .doc = "How far straight lines run on past corners and junctions, as in architects' drafts; it varies from line to line, "
+    PARAM_FLOAT_ROW(
+        lines_common, dash, .def = 0, .min = 0, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true,
+        .cpu_only = true,
+        .doc = "Length of dashes along the lines, stretched so that lines begin, end and meet with ink; 0 leaves them "
+               "unbroken, and a dash no longer than the line is wide becomes a dot."),
+    PARAM_FLOAT_ROW(lines_common, gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true,
+                    .cpu_only = true, .only_if = "dash", .doc = "Length of the gaps between dashes."),
+    PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 64, .soft_max = 32, .unit = UNIT_PX,
+                    .reach = OVERSHOOT_MOST, .cpu_only = true,
+                    .doc = "How far straight lines run on past corners and junctions, as in architects' drafts; it "
+                           "varies from line to line, "
                            "and short lines run on less. 0 ends them where they meet."),
     PARAM_FLOAT_ROW(lines_common, halo, .def = 0, .min = 0, .max = 32, .soft_max = 12, .unit = UNIT_PX,
                     .doc = "Gap in lines behind an outline, beside it, so that objects separate; 0 leaves none."),
@@ -70,7 +78,8 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
     float id = weight_of(lines->id_weight, lines->id_colour, lines->colour);
     for (size_t i = 0; i < count; i++) {
         const float *edge = &edges[4 * i];
-        ink[i] = (1 - edge[0]) * profile >= line_ink || (1 - edge[1]) * inner >= line_ink || (1 - edge[3]) * id >= line_ink;
+        ink[i] =
+            (1 - edge[0]) * profile >= line_ink || (1 - edge[1]) * inner >= line_ink || (1 - edge[3]) * id >= line_ink;
     }
 }
 
@@ -82,15 +91,26 @@ const target_row lines_targets[LINES_TARGET_COUNT] = {
 };
 
 static const technique *const techniques[] = {
-    &lines_discontinuity, &lines_four_tap, &lines_sobel, &lines_saito, &lines_saito_normalised, &lines_denormal,
-    &lines_id,            &lines_colour,   &lines_shadow, &lines_shell, &lines_strokes,
+    &lines_discontinuity,    &lines_four_tap, &lines_sobel,   &lines_saito,
+    &lines_saito_normalised, &lines_denormal, &lines_id,      &lines_colour,
+    &lines_shadow,           &lines_shell,    &lines_strokes,
 };
 
-static const pass ink = {.name = "ink", .shader = "lines/ink.frag", .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_DASH, TARGET_GROUND, TARGET_DEPTH},
+static const pass ink = {.name = "ink",
+                         .shader = "lines/ink.frag",
+                         .reads = {TARGET_SHADE, TARGET_EDGE, TARGET_DASH, TARGET_GROUND, TARGET_DEPTH},
                          .writes = TARGET_SHADE};
 
 const kind kind_lines = {
-    .id = KIND_LINES, .name = "lines", .doc = "Where lines are, and how they are inked.",
-    .techniques = techniques, .technique_count = PARAM_COUNT(techniques), .standard = NULL,
-    .selector_key = "operator", .array = true, .common = common, .common_count = PARAM_COUNT(common), .fold = &ink,
+    .id = KIND_LINES,
+    .name = "lines",
+    .doc = "Where lines are, and how they are inked.",
+    .techniques = techniques,
+    .technique_count = PARAM_COUNT(techniques),
+    .standard = NULL,
+    .selector_key = "operator",
+    .array = true,
+    .common = common,
+    .common_count = PARAM_COUNT(common),
+    .fold = &ink,
 };

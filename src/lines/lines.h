@@ -23,56 +23,92 @@ typedef struct lines_common {
 /* Side branches shorter than this come from thinning, pixels. */
 #define LINES_SPUR 3.5f
 
-/* Pixels of lines (not 0): the strongest class of ink of an edge map, as the ink shader weighs them. Ink of less than a line's weight is
- * shading; lines that are translucent are lines all the same. */
+/* Pixels of lines (not 0): the strongest class of ink of an edge map, as the ink shader weighs them. Ink of less
+ * than a line's weight is shading; lines that are translucent are lines all the same. */
 void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_common *lines);
 
 /* Lines wider than this, in pixels, are grown from the detected map. */
 enum { LINES_GROW_FROM = 2 };
 
 /* What contrast-aware lines look at. */
-#define LINES_PASSES_CONTRAST                                                                                         \
-    {.name = "ground", .shader = "lines/ground.frag", .reads = {TARGET_SHADE, TARGET_PAGE},                           \
-     .writes = TARGET_GROUND, .when = "contrast=adaptive,directed"},                                                  \
-    {.name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,           \
-     .repeat = 2, .when = "contrast=adaptive,directed"}
+#define LINES_PASSES_CONTRAST                                                                                          \
+    {.name = "ground",                                                                                                 \
+     .shader = "lines/ground.frag",                                                                                    \
+     .reads = {TARGET_SHADE, TARGET_PAGE},                                                                             \
+     .writes = TARGET_GROUND,                                                                                          \
+     .when = "contrast=adaptive,directed"},                                                                            \
+    {                                                                                                                  \
+        .name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,         \
+        .repeat = 2, .when = "contrast=adaptive,directed"                                                              \
+    }
 
 /* Pictures that line techniques keep for themselves, rows of lines_targets. */
-#define LINES_OUTLINES TARGET_OWN(0)   /* r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
+#define LINES_OUTLINES                                                                                                 \
+    TARGET_OWN(0) /* r = 1 − window depth where lines are outlines that something is behind, 0 elsewhere */
 #define LINES_NEARER_ROW TARGET_OWN(1) /* how near the nearest outline is across */
-#define LINES_FILTERED TARGET_OWN(2)   /* normal and normalised depth, which may be sampled with a filter */
-#define LINES_GRADIENT TARGET_OWN(3)   /* r = first-order, g = second-order difference of depth */
-#define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT
+#define LINES_FILTERED   TARGET_OWN(2) /* normal and normalised depth, which may be sampled with a filter */
+#define LINES_GRADIENT   TARGET_OWN(3) /* r = first-order, g = second-order difference of depth */
+#define LINES_TARGETS    .targets = lines_targets, .target_count = LINES_TARGET_COUNT
 enum { LINES_TARGET_COUNT = 4 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
 
-/* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they grow: thin ones are
- * traced best, and dashes know where lines end. */
-#define LINES_PASSES_BEFORE                                                                                           \
-    {.name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                      \
-     .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"}
-#define LINES_PASSES_BEHIND                                                                                           \
-    {.name = "overshoot", .process = overshoot_process, .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH},                  \
-     .writes = TARGET_OVERSHOOT, .when = "overshoot", .stylised = true},                                              \
-    {.name = "overshoot ink", .shader = "lines/edge/overshoot.frag", .reads = {TARGET_EDGE, TARGET_OVERSHOOT},        \
-     .writes = TARGET_EDGE, .when = "overshoot", .stylised = true},                                                   \
-    {.name = "halo outlines", .shader = "lines/halo_outline.frag", .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH}, \
-     .writes = LINES_OUTLINES, .when = "halo", .stylised = true},                                                   \
-    {.name = "halo across", .shader = "lines/halo_row.frag", .reads = {LINES_OUTLINES}, .writes = LINES_NEARER_ROW, \
-     .when = "halo", .stylised = true},                                                                              \
-    {.name = "halo", .shader = "lines/halo.frag",                                                                     \
-     .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW, TARGET_OVERSHOOT}, \
-     .writes = TARGET_EDGE, .when = "halo", .stylised = true},                                                        \
-    {.name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",        \
-     .stylised = true},                                                                                               \
-    {.name = "grow", .shader = "lines/edge/grow.frag", .reads = {TARGET_EDGE}, .writes = TARGET_EDGE,                 \
-     .when = "width>2"},                                                                                              \
-    LINES_PASSES_CONTRAST
+/* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they
+ * grow: thin ones are traced best, and dashes know where lines end. */
+#define LINES_PASSES_BEFORE                                                                                            \
+    {                                                                                                                  \
+        .name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                    \
+        .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"                                                               \
+    }
+#define LINES_PASSES_BEHIND                                                                                            \
+    {.name = "overshoot",                                                                                              \
+     .process = overshoot_process,                                                                                     \
+     .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH},                                                                      \
+     .writes = TARGET_OVERSHOOT,                                                                                       \
+     .when = "overshoot",                                                                                              \
+     .stylised = true},                                                                                                \
+        {.name = "overshoot ink",                                                                                      \
+         .shader = "lines/edge/overshoot.frag",                                                                        \
+         .reads = {TARGET_EDGE, TARGET_OVERSHOOT},                                                                     \
+         .writes = TARGET_EDGE,                                                                                        \
+         .when = "overshoot",                                                                                          \
+         .stylised = true},                                                                                            \
+        {.name = "halo outlines",                                                                                      \
+         .shader = "lines/halo_outline.frag",                                                                          \
+         .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH},                                                    \
+         .writes = LINES_OUTLINES,                                                                                     \
+         .when = "halo",                                                                                               \
+         .stylised = true},                                                                                            \
+        {.name = "halo across",                                                                                        \
+         .shader = "lines/halo_row.frag",                                                                              \
+         .reads = {LINES_OUTLINES},                                                                                    \
+         .writes = LINES_NEARER_ROW,                                                                                   \
+         .when = "halo",                                                                                               \
+         .stylised = true},                                                                                            \
+        {.name = "halo",                                                                                               \
+         .shader = "lines/halo.frag",                                                                                  \
+         .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW,                   \
+                   TARGET_OVERSHOOT},                                                                                  \
+         .writes = TARGET_EDGE,                                                                                        \
+         .when = "halo",                                                                                               \
+         .stylised = true},                                                                                            \
+        {.name = "dashes",                                                                                             \
+         .process = dash_process,                                                                                      \
+         .reads = {TARGET_EDGE},                                                                                       \
+         .writes = TARGET_DASH,                                                                                        \
+         .when = "dash",                                                                                               \
+         .stylised = true},                                                                                            \
+        {.name = "grow",                                                                                               \
+         .shader = "lines/edge/grow.frag",                                                                             \
+         .reads = {TARGET_EDGE},                                                                                       \
+         .writes = TARGET_EDGE,                                                                                        \
+         .when = "width>2"},                                                                                           \
+        LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
     lines_denormal, lines_id, lines_colour, lines_shadow, lines_shell, lines_strokes;
 
-/* As strokes of a mesh: outlines, borders and creases as wide, as coloured and as dashed as the technique's lines. `values` begin with lines_common. */
+/* As strokes of a mesh: outlines, borders and creases as wide, as coloured and as dashed as the technique's lines.
+ * `values` begin with lines_common. */
 void lines_as_strokes(struct stroke_options *options, struct stroke_style *style, const void *values);
 
 #endif

@@ -1,7 +1,8 @@
-/* Lines that run on, as a draughtsman's do who lifts the pencil behind the corner and not before it. A chain that is straight for long
- * enough before it meets others goes on in its own direction, and in space: where a surface lies in front of the line's course it stays
- * hidden, and outside the figure it has the depth that the edge itself would have there. Goes past Nienhaus 2005, section 6, which
- * perturbs lines but cannot lengthen them: edges of pictures have no ends. */
+/* Lines that run on, as a draughtsman's do who lifts the pencil behind the corner and not before it. A chain that
+ * is straight for long enough before it meets others goes on in its own direction, and in space: where a surface
+ * lies in front of the line's course it stays hidden, and outside the figure it has the depth that the edge itself
+ * would have there. Goes past Nienhaus 2005, section 6, which perturbs lines but cannot lengthen them: edges of
+ * pictures have no ends. */
 #include "lines/overshoot.h"
 
 #include <math.h>
@@ -13,31 +14,34 @@
 
 enum { WINDOW_MAX = 192, SIDES = 2 };
 
-/* Lines shorter than this, in pixels as they are seen, are detail and end where they end; a line runs on by a share of its length at
- * most, and not by less than a dot. */
+/* Lines shorter than this, in pixels as they are seen, are detail and end where they end; a line runs on by a share
+ * of its length at most, and not by less than a dot. */
 static const float LEAST_LINE = 20, OWN_SHARE = 0.3f, LEAST_STROKE = 3;
 
-/* The part of a chain that tells its direction, and how far it may bow: long ones first, then shorter ones that must be straighter,
- * so that arcs do not pass by their short pieces. */
+/* The part of a chain that tells its direction, and how far it may bow: long ones first, then shorter ones that
+ * must be straighter, so that arcs do not pass by their short pieces. */
 static const struct {
     float span, bow;
 } windows[] = {{150, 0.5f}, {90, 0.45f}, {40, 0.25f}};
 
-/* Pixels at a chain's ends that other lines' ink has moved; of pointed junctions more. A chain needs this much between its ends. */
+/* Pixels at a chain's ends that other lines' ink has moved; of pointed junctions more. A chain needs this much
+ * between its ends. */
 static const float skips[] = {3, 6, 10};
 static const float LEAST_SPAN = 12, MOST_OFF = 0.8f, LEAST_BOW = 0.25f, LEAST_RADIUS = 560;
 
-/* What leaves within the first angle is the same line, and what leaves within the second is a bend of it, unless its halves differ by the
- * third. */
+/* What leaves within the first angle is the same line, and what leaves within the second is a bend of it, unless
+ * its halves differ by the third. */
 static const float SAME_TURN = 0.14f, BEND_TURN = 0.37f, ARC_TURN = 0.12f;
 /* Ends this near to each other meet; and a point this far beside a line is not on it. */
-static const int MEETING = 3;
+static const int   MEETING = 3;
 static const float OFF_LINE = 1.2f;
 
-/* Lines that an arc touches must be this long, also in lengths of their extensions, since arcs look straight for a while. */
+/* Lines that an arc touches must be this long, also in lengths of their extensions, since arcs look straight for a
+ * while. */
 static const float LEAST_TANGENT = 48, TANGENT_TIMES = 4, MOST_TANGENT = 128, TANGENT_BOW = 0.3f;
 
-/* A extension that leaves other ink later than this leaves it at a small angle. Until shortly before it is not drawn. */
+/* A extension that leaves other ink later than this leaves it at a small angle. Until shortly before it is not
+ * drawn. */
 static const float LEAVING = 8, LEAVING_SHARE = 1.5f, BEFORE_LEAVING = 6, BEFORE_END = 2.5f;
 
 typedef struct chain_end {
@@ -53,7 +57,7 @@ typedef struct finding {
     const overshoot_style *style;
     chain_end             *ends; /* joined ones, by pixel */
     size_t                 end_count;
-    extension_set            *found;
+    extension_set         *found;
 } finding;
 
 /* The k-th point from one side of a chain. */
@@ -68,7 +72,7 @@ static float way_from(const chain *c, const trace_point *p, int side)
     return side ? c->length - p->along : p->along;
 }
 
-/* --- the direction of a chain's end ------------------------------------------------------------------------------- */
+/* --- the direction of a chain's end --------------------------------------------------------------------- */
 
 /* Points of a chain near its end. */
 typedef struct window {
@@ -82,7 +86,7 @@ static void gather(window *w, const finding *f, const chain *c, int side, float 
     w->count = 0;
     for (size_t k = 0; k < c->count && w->count < WINDOW_MAX; k++) {
         const trace_point *p = point_from(f, c, side, k);
-        float way = way_from(c, p, side);
+        float              way = way_from(c, p, side);
         if (way > to)
             break;
         if (way >= from)
@@ -115,8 +119,8 @@ static void fit(window *w)
     }
 }
 
-/* How far the middle of the points stands out from a straight line, by the parabola that suits them best; infinite when some point is
- * off the line. */
+/* How far the middle of the points stands out from a straight line, by the parabola that suits them best; infinite
+ * when some point is off the line. */
 static float bow_of(const window *w)
 {
     float half = 0, sum = 0, square = 0, mean = 0, n = (float)w->count;
@@ -126,7 +130,8 @@ static float bow_of(const window *w)
         mean += along * along / n;
     }
     for (size_t i = 0; i < w->count; i++) {
-        float x = w->points[i]->x - w->x, y = w->points[i]->y - w->y, along = x * w->dx + y * w->dy, off = y * w->dx - x * w->dy;
+        float x = w->points[i]->x - w->x, y = w->points[i]->y - w->y, along = x * w->dx + y * w->dy,
+              off = y * w->dx - x * w->dy;
         if (fabsf(off) > MOST_OFF)
             return INFINITY;
         float bent = along * along - mean;
@@ -164,7 +169,7 @@ static float beside(const window *w, const trace_point *p)
     return fabsf((p->y - w->y) * w->dx - (p->x - w->x) * w->dy);
 }
 
-/* --- what is around a chain's end --------------------------------------------------------------------------------- */
+/* --- what is around a chain's end ----------------------------------------------------------------------- */
 
 static int by_pixel(const void *a, const void *b)
 {
@@ -212,7 +217,8 @@ static float turn_between(float dx, float dy, const trace_point *a, const trace_
     return atan2f(dx * y - dy * x, x * dx + y * dy);
 }
 
-/* Does this chain, from this point on, carry the extension's line on, or bend it a little? An arc that touches the line does not. */
+/* Does this chain, from this point on, carry the extension's line on, or bend it a little? An arc that touches the
+ * line does not. */
 static bool carries_on(const finding *f, const chain *c, int side, size_t first, const extension *s)
 {
     const trace_point *start = point_from(f, c, side, first), *middle = NULL, *end = start;
@@ -236,8 +242,10 @@ static bool is_carried_on(const finding *f, const chain_end *own, const extensio
     for (int row = y > MEETING ? y - MEETING : 0; row <= y + MEETING && row < f->in->height; row++) {
         int left = x > MEETING ? x - MEETING : 0, right = x + MEETING < f->in->width ? x + MEETING : f->in->width - 1;
         uint32_t last = (uint32_t)row * (uint32_t)f->in->width + (uint32_t)right;
-        for (size_t i = first_end(f, last - (uint32_t)(right - left)); i < f->end_count && f->ends[i].pixel <= last; i++)
-            if ((f->ends[i].chain != own->chain || f->ends[i].side != own->side) && carries_on(f, &f->set->chains[f->ends[i].chain], f->ends[i].side, 0, s))
+        for (size_t i = first_end(f, last - (uint32_t)(right - left)); i < f->end_count && f->ends[i].pixel <= last;
+             i++)
+            if ((f->ends[i].chain != own->chain || f->ends[i].side != own->side) &&
+                carries_on(f, &f->set->chains[f->ends[i].chain], f->ends[i].side, 0, s))
                 return true;
     }
     return false;
@@ -249,13 +257,15 @@ static bool has_ink(const finding *f, const extension *s, float along)
     int x = (int)lroundf(s->x + along * s->dx), y = (int)lroundf(s->y + along * s->dy);
     for (int k = 0; k < 9; k++) {
         int column = x + k % 3 - 1, row = y + k / 3 - 1;
-        if (column >= 0 && row >= 0 && column < f->in->width && row < f->in->height && f->ink[(size_t)row * (size_t)f->in->width + (size_t)column])
+        if (column >= 0 && row >= 0 && column < f->in->width && row < f->in->height &&
+            f->ink[(size_t)row * (size_t)f->in->width + (size_t)column])
             return true;
     }
     return false;
 }
 
-/* Lets the extension begin where it leaves the ink that is there; false when that goes on, or its outer part would lie on other ink. */
+/* Lets the extension begin where it leaves the ink that is there; false when that goes on, or its outer part would
+ * lie on other ink. */
 static bool leave_ink(const finding *f, extension *s)
 {
     float most = LEAVING_SHARE * s->length + LEAVING;
@@ -282,7 +292,7 @@ static float length_before(const finding *f, const extension *s, float most)
     return last;
 }
 
-/* --- length --------------------------------------------------------------------------------------------------------- */
+/* --- length --------------------------------------------------------------------------------------------- */
 
 static float hash_of(int x, int y)
 {
@@ -295,13 +305,13 @@ static float hash_of(int x, int y)
     return (float)(h >> 8) / 16777216.0f;
 }
 
-/* What a extension's length is multiplied by: it goes with place and direction and changes slowly with both, so that lines which move do
- * not flicker, and with the length asked for, so that it is the same at every resolution. */
+/* What a extension's length is multiplied by: it goes with place and direction and changes slowly with both, so
+ * that lines which move do not flicker, and with the length asked for, so that it is the same at every resolution. */
 static float variation_at(const finding *f, const extension *s)
 {
     float cell = 2 * f->style->length + 1;
     float x = (s->x + (float)f->in->x) / cell + 5 * s->dx, y = (s->y + (float)f->in->y) / cell + 5 * s->dy;
-    int column = (int)floorf(x), row = (int)floorf(y);
+    int   column = (int)floorf(x), row = (int)floorf(y);
     float fx = x - (float)column, fy = y - (float)row;
     float low = hash_of(column, row) * (1 - fx) + hash_of(column + 1, row) * fx;
     float high = hash_of(column, row + 1) * (1 - fx) + hash_of(column + 1, row + 1) * fx;
@@ -309,7 +319,7 @@ static float variation_at(const finding *f, const extension *s)
     return 1 + OVERSHOOT_VARIATION * fminf(1, fmaxf(-1, mean));
 }
 
-/* --- depth ---------------------------------------------------------------------------------------------------------- */
+/* --- depth ---------------------------------------------------------------------------------------------- */
 
 /* Eye depth of the nearest surface within a pixel of this one, or of the pixel alone; 0 where there is none. */
 static float surface_at(const finding *f, int x, int y, int reach)
@@ -344,15 +354,15 @@ static float depth_along(const finding *f, const extension *s, float along)
     return f->in->perspective ? value > 0 ? 1 / value : INFINITY : value;
 }
 
-/* The line's depth, which is straight in space and so (in perspective its inverse) on the picture. Medians: other lines' surfaces come
- * near some of its points. */
+/* The line's depth, which is straight in space and so (in perspective its inverse) on the picture. Medians: other
+ * lines' surfaces come near some of its points. */
 static void find_depth(const finding *f, const window *w, extension *s)
 {
-    float along[WINDOW_MAX], depth[WINDOW_MAX], values[WINDOW_MAX];
+    float  along[WINDOW_MAX], depth[WINDOW_MAX], values[WINDOW_MAX];
     size_t n = 0;
     for (size_t i = 0; i < w->count && f->in->values[1]; i++) {
         const trace_point *p = w->points[i];
-        float surface = surface_at(f, (int)lroundf(p->x), (int)lroundf(p->y), 1);
+        float              surface = surface_at(f, (int)lroundf(p->x), (int)lroundf(p->y), 1);
         if (surface <= 0)
             continue;
         along[n] = (p->x - s->x) * s->dx + (p->y - s->y) * s->dy;
@@ -369,12 +379,12 @@ static void find_depth(const finding *f, const window *w, extension *s)
     s->depth = median_of(values, n);
 }
 
-/* Ends the extension where a surface of its figure is in front of it: a line that is hidden does not come out again. Surfaces that it touches,
- * or hardly dives into, as it does in a concave corner, do not count. */
+/* Ends the extension where a surface of its figure is in front of it: a line that is hidden does not come out
+ * again. Surfaces that it touches, or hardly dives into, as it does in a concave corner, do not count. */
 static void end_where_hidden(const finding *f, extension *s)
 {
     for (float along = 2; along <= s->length && s->depth > 0; along += 1) {
-        int x = (int)lroundf(s->x + along * s->dx), y = (int)lroundf(s->y + along * s->dy);
+        int   x = (int)lroundf(s->x + along * s->dx), y = (int)lroundf(s->y + along * s->dy);
         float surface = surface_at(f, x, y, 0), depth = depth_along(f, s, along);
         float pixel = f->in->pixel * (f->in->perspective ? surface : 1);
         if (surface > 0 && surface < depth - pixel * (3 + 2 * along))
@@ -382,7 +392,7 @@ static void end_where_hidden(const finding *f, extension *s)
     }
 }
 
-/* --- extensions -------------------------------------------------------------------------------------------------------- */
+/* --- extensions ----------------------------------------------------------------------------------------- */
 
 /* The line's ink: its classes, each as strong as it is on average. */
 static void find_classes(const finding *f, const window *w, extension *s)
@@ -390,7 +400,8 @@ static void find_classes(const finding *f, const window *w, extension *s)
     static const int channels[OVERSHOOT_CLASSES] = {0, 1, 3};
     for (int k = 0; k < OVERSHOOT_CLASSES; k++) {
         for (size_t i = 0; i < w->count; i++)
-            s->ink[k] += 1 - fminf(1, fmaxf(0, f->in->values[0][4 * (size_t)w->points[i]->pixel + (size_t)channels[k]]));
+            s->ink[k] +=
+                1 - fminf(1, fmaxf(0, f->in->values[0][4 * (size_t)w->points[i]->pixel + (size_t)channels[k]]));
         s->ink[k] /= (float)w->count;
         if (s->ink[k] < 0.1f) /* what other lines left */
             s->ink[k] = 0;
@@ -412,7 +423,8 @@ static bool is_own(const finding *f, const window *w)
     return !f->in->own || 2 * count > w->count;
 }
 
-/* A point of a chain where a line ends that runs on: what lies before it, the way that `side` looks, goes elsewhere. */
+/* A point of a chain where a line ends that runs on: what lies before it, the way that `side` looks, goes
+ * elsewhere. */
 typedef struct line_end {
     const chain     *chain;
     int              side;
@@ -424,7 +436,8 @@ static bool is_needed(const finding *f, const line_end *e, extension *s)
 {
     if (s->length < LEAST_STROKE * f->in->scale)
         return false;
-    bool carried = e->meets ? is_carried_on(f, e->meets, s) : carries_on(f, e->chain, !e->side, e->chain->count - 1 - e->place, s);
+    bool carried =
+        e->meets ? is_carried_on(f, e->meets, s) : carries_on(f, e->chain, !e->side, e->chain->count - 1 - e->place, s);
     if (carried || !leave_ink(f, s))
         return false;
     if (e->meets && s->start <= LEAVING) /* what leaves at once is measured from the corner */
@@ -436,8 +449,9 @@ static bool is_needed(const finding *f, const line_end *e, extension *s)
 static bool add_stroke(const finding *f, const window *w, const line_end *e)
 {
     const trace_point *end = point_from(f, e->chain, e->side, e->place);
-    float along = (end->x - w->x) * w->dx + (end->y - w->y) * w->dy;
-    extension s = {.x = w->x + along * w->dx, .y = w->y + along * w->dy, .dx = w->dx, .dy = w->dy, .length = f->style->length};
+    float              along = (end->x - w->x) * w->dx + (end->y - w->y) * w->dy;
+    extension          s = {
+                 .x = w->x + along * w->dx, .y = w->y + along * w->dy, .dx = w->dx, .dy = w->dy, .length = f->style->length};
     s.length *= variation_at(f, &s);
     float line = length_before(f, &s, s.length / OWN_SHARE);
     s.length = fminf(s.length, OWN_SHARE * fmaxf(e->meets ? e->chain->length : 0, line));
@@ -469,22 +483,23 @@ static size_t place_on_line(const finding *f, const window *w, const chain *c, i
 static bool add_at_end(const finding *f, const chain_end *e)
 {
     const chain *c = &f->set->chains[e->chain];
-    window w;
+    window       w;
     if (c->broad || c->length < LEAST_LINE * f->in->scale || !find_line(&w, f, c, e->side))
         return true;
     return add_stroke(f, &w, &(line_end){c, e->side, place_on_line(f, &w, c, e->side, 0, false), e});
 }
 
-/* Is the chain straight from this point, which lies at this way, to `span` behind it? Asks its middle first, which is quick. */
+/* Is the chain straight from this point, which lies at this way, to `span` behind it? Asks its middle first, which
+ * is quick. */
 static bool is_straight(window *w, const finding *f, const chain *c, int side, size_t place, float span)
 {
     const trace_point *a = point_from(f, c, side, place);
-    float way = way_from(c, a, side);
-    size_t last = place + (size_t)(0.7f * span); /* at least as many points on any slope */
+    float              way = way_from(c, a, side);
+    size_t             last = place + (size_t)(0.7f * span); /* at least as many points on any slope */
     if (last >= c->count)
         return false;
     const trace_point *b = point_from(f, c, side, (place + last) / 2), *d = point_from(f, c, side, last);
-    float dx = d->x - a->x, dy = d->y - a->y;
+    float              dx = d->x - a->x, dy = d->y - a->y;
     if (fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) > 1.2f * hypotf(dx, dy))
         return false;
     gather(w, f, c, side, way, way + span);
@@ -496,16 +511,17 @@ static bool is_straight(window *w, const finding *f, const chain *c, int side, s
 static bool add_tangents(const finding *f, const chain *c, int side)
 {
     float span = fminf(fmaxf(LEAST_TANGENT, TANGENT_TIMES * f->style->length), MOST_TANGENT);
-    bool was_straight = false, good = true;
+    bool  was_straight = false, good = true;
     for (size_t k = 0; k < c->count && good && !c->broad;) {
         const trace_point *p = point_from(f, c, side, k);
         if (way_from(c, p, side) + span > c->length)
             break;
         window w;
-        bool straight = is_straight(&w, f, c, side, k, span);
+        bool   straight = is_straight(&w, f, c, side, k, span);
         if (straight && !was_straight) {
             size_t place = place_on_line(f, &w, c, side, k, true);
-            if (way_from(c, point_from(f, c, side, place), side) > skips[2]) /* lines at the chain's end have been seen to */
+            if (way_from(c, point_from(f, c, side, place), side) >
+                skips[2]) /* lines at the chain's end have been seen to */
                 good = add_stroke(f, &w, &(line_end){c, side, place, NULL});
         }
         was_straight = straight;
@@ -514,7 +530,8 @@ static bool add_tangents(const finding *f, const chain *c, int side)
     return good;
 }
 
-bool overshoot_find(extension_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink, const overshoot_style *style)
+bool overshoot_find(extension_set *out, const chain_set *set, const pass_pixels *in, const uint8_t *ink,
+                    const overshoot_style *style)
 {
     finding f = {.set = set, .in = in, .ink = ink, .style = style, .found = out};
     *out = (extension_set){0};
@@ -535,7 +552,7 @@ void overshoot_release(extension_set *s)
     *s = (extension_set){0};
 }
 
-/* --- painting ------------------------------------------------------------------------------------------------------- */
+/* --- painting ------------------------------------------------------------------------------------------- */
 
 /* The pencil's pressure along a extension: it is lifted towards the tip. Broad pens end bluntly. */
 static float pressure_at(const extension *s, const overshoot_style *style, float along)
@@ -560,11 +577,13 @@ static uint32_t with_depth(uint32_t before, float depth)
 {
     uint32_t bits;
     memcpy(&bits, &depth, sizeof bits);
-    return depth > 0 && isfinite(depth) && (before == 0 || bits < before) ? bits : before; /* floats above 0 are ordered as their bits */
+    return depth > 0 && isfinite(depth) && (before == 0 || bits < before)
+               ? bits
+               : before; /* floats above 0 are ordered as their bits */
 }
 
 typedef struct painter {
-    const extension          *extension;
+    const extension       *extension;
     const overshoot_style *style;
     bool                   perspective;
 } painter;
@@ -603,8 +622,9 @@ void overshoot_paint(uint32_t *out, const pass_pixels *in, const extension_set *
 {
     for (size_t i = 0; i < set->count; i++) {
         const extension *s = &set->extensions[i];
-        painter p = {s, style, in->perspective};
-        float low = s->y + fminf(0, s->length * s->dy) - style->spread, high = s->y + fmaxf(0, s->length * s->dy) + style->spread;
+        painter          p = {s, style, in->perspective};
+        float            low = s->y + fminf(0, s->length * s->dy) - style->spread,
+              high = s->y + fmaxf(0, s->length * s->dy) + style->spread;
         for (int y = low > 0 ? (int)low : 0; y <= (int)high && y < in->height; y++) {
             float span[2];
             span_of(s, style->spread, (float)y, span);
@@ -614,9 +634,10 @@ void overshoot_paint(uint32_t *out, const pass_pixels *in, const extension_set *
     }
 }
 
-/* --- the pass ------------------------------------------------------------------------------------------------------- */
+/* --- the pass ------------------------------------------------------------------------------------------- */
 
-/* How far beside the detected line its ink may come to lie once it has grown and been moved, and what is added to be safe. */
+/* How far beside the detected line its ink may come to lie once it has grown and been moved, and what is added to
+ * be safe. */
 static float spread_of(const lines_common *lines)
 {
     float moved = fmaxf(fabsf(lines->offset_x), fabsf(lines->offset_y));
@@ -626,17 +647,20 @@ static float spread_of(const lines_common *lines)
 bool overshoot_process(const pass_pixels *in, void *out, const void *values)
 {
     const lines_common *lines = values;
-    overshoot_style style = {lines->overshoot, fminf(fmaxf(lines->width, 1), 2), spread_of(lines), 0.75f * fminf(1, 2.5f * in->scale / lines->width)};
-    size_t count = (size_t)in->width * (size_t)in->height;
-    uint32_t *words = out;
-    for (size_t i = 0; i < count; i++) /* other techniques' ink is drawn already; how deep it lies must be known to the end */
+    overshoot_style     style = {lines->overshoot, fminf(fmaxf(lines->width, 1), 2), spread_of(lines),
+                                 0.75f * fminf(1, 2.5f * in->scale / lines->width)};
+    size_t              count = (size_t)in->width * (size_t)in->height;
+    uint32_t           *words = out;
+    for (size_t i = 0; i < count;
+         i++) /* other techniques' ink is drawn already; how deep it lies must be known to the end */
         words[2 * i] = 0;
-    chain_set chains = {0};
+    chain_set     chains = {0};
     extension_set extensions = {0};
-    uint8_t *ink = mem_alloc(count);
+    uint8_t      *ink = mem_alloc(count);
     if (ink)
         lines_find_ink(ink, in->values[0], count, lines);
-    bool good = ink && chains_trace(&chains, ink, in->width, in->height, LINES_SPUR) && overshoot_find(&extensions, &chains, in, ink, &style);
+    bool good = ink && chains_trace(&chains, ink, in->width, in->height, LINES_SPUR) &&
+                overshoot_find(&extensions, &chains, in, ink, &style);
     if (good)
         overshoot_paint(words, in, &extensions, &style);
     overshoot_release(&extensions);

@@ -1,6 +1,6 @@
-/* Sequential thinning by simple points: a cell goes when its neighbours stay connected without it. Each round peels the four
- * sides one after another, so that what stays lies in the middle, and looks only at cells beside the last round's, so that the
- * work is that of the ink's area. */
+/* Sequential thinning by simple points: a cell goes when its neighbours stay connected without it. Each round peels
+ * the four sides one after another, so that what stays lies in the middle, and looks only at cells beside the last
+ * round's, so that the work is that of the ink's area. */
 #include "lines/thin.h"
 
 #include <string.h>
@@ -53,11 +53,12 @@ static void add_row(thin_grid *g, const uint8_t *ink, int y)
 bool thin_create(thin_grid *out, const uint8_t *ink, int width, int height)
 {
     *out = (thin_grid){.width = width, .height = height, .stride = width + 2};
-    const int around[8] = {1, 1 + out->stride, out->stride, out->stride - 1, -1, -1 - out->stride, -out->stride, 1 - out->stride};
+    const int around[8] = {1,  1 + out->stride,  out->stride,  out->stride - 1,
+                           -1, -1 - out->stride, -out->stride, 1 - out->stride};
     memcpy(out->around, around, sizeof around);
     out->cells = mem_calloc((size_t)(height + 2), (size_t)out->stride);
     size_t capacity = 0;
-    bool good = out->cells != NULL;
+    bool   good = out->cells != NULL;
     for (int y = 0; good && y < height; y++) {
         good = mem_grow((void **)&out->pixels, &capacity, out->count + (size_t)width, sizeof *out->pixels);
         if (good)
@@ -133,10 +134,11 @@ static void queue_neighbours(thin_grid *g, peel_lists *l, const int around[8])
 bool thin_run(thin_grid *g)
 {
     static const int order[SIDES] = {2, 6, 0, 4};
-    bool table[256];
-    const int *around = g->around;
-    peel_lists l = {mem_alloc(g->count * sizeof(uint32_t)), mem_alloc(g->count * sizeof(uint32_t)), mem_alloc(g->count * sizeof(uint32_t)), 0, 0};
-    bool good = l.active && l.bare && l.gone;
+    bool             table[256];
+    const int       *around = g->around;
+    peel_lists       l = {mem_alloc(g->count * sizeof(uint32_t)), mem_alloc(g->count * sizeof(uint32_t)),
+                          mem_alloc(g->count * sizeof(uint32_t)), 0, 0};
+    bool             good = l.active && l.bare && l.gone;
     make_table(table);
     for (size_t i = 0; good && i < g->count; i++)
         if (g->cells[g->pixels[i]] & CELL_THIN)

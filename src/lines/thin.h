@@ -24,8 +24,8 @@ int thin_degree(const thin_grid *g, uint32_t cell);
 bool thin_create(thin_grid *out, const uint8_t *ink, int width, int height);
 void thin_release(thin_grid *g);
 
-/* Removes cells from the outside in, as long as no line breaks and no end gets shorter. May be called again after cells have
- * been removed by hand. False when memory is gone. */
+/* Removes cells from the outside in, as long as no line breaks and no end gets shorter. May be called again after
+ * cells have been removed by hand. False when memory is gone. */
 bool thin_run(thin_grid *g);
 
 #endif

@@ -70,11 +70,11 @@ void kind_hint_techniques(const kind *k, lmn_error *error)
 lmn_status kind_unknown_technique(const kind *k, const char *name, lmn_error *error)
 {
     const char *names[64];
-    size_t count = 0;
+    size_t      count = 0;
     for (; count < k->technique_count && count < PARAM_COUNT(names); count++)
         names[count] = k->techniques[count]->name;
     const char *near = text_nearest(name, names, count);
-    lmn_status status = error_set(error, LMN_USAGE, "there is no %s technique '%.60s'", k->name, name);
+    lmn_status  status = error_set(error, LMN_USAGE, "there is no %s technique '%.60s'", k->name, name);
     if (near)
         error_hint(error, "did you mean '%s'?", near);
     else
@@ -84,18 +84,19 @@ lmn_status kind_unknown_technique(const kind *k, const char *name, lmn_error *er
 
 lmn_status kind_missing_param(const kind *k, const technique *t, const char *key, lmn_error *error)
 {
-    text having = {0};
+    text       having = {0};
     lmn_status status;
     if (list_techniques(&having, k, key)) {
-        status = error_set(error, LMN_USAGE, "%s technique '%s' has no parameter '%.60s'; these have it: %.200s", k->name,
-                           t->name, key, having.data ? having.data : "others");
-        error_hint(error, "set %s.%s first, or see `limner looks` for what '%s' has", k->name, k->selector_key, t->name);
+        status = error_set(error, LMN_USAGE, "%s technique '%s' has no parameter '%.60s'; these have it: %.200s",
+                           k->name, t->name, key, having.data ? having.data : "others");
+        error_hint(error, "set %s.%s first, or see `limner looks` for what '%s' has", k->name, k->selector_key,
+                   t->name);
         text_release(&having);
         return status;
     }
     text_release(&having);
     const char *names[256];
-    size_t count = 0;
+    size_t      count = 0;
     for (size_t i = 0; i < kind_param_count(k, t) && count < PARAM_COUNT(names); i++)
         names[count++] = kind_param_at(k, t, i)->key;
     if (count < PARAM_COUNT(names))

@@ -10,5 +10,6 @@
 
 const kind *const kinds[KIND_COUNT] = {
     [KIND_SCENE] = &kind_scene,     [KIND_LAYERS] = &kind_layers,   [KIND_LINES] = &kind_lines,
-    [KIND_SURFACE] = &kind_surface, [KIND_PERTURB] = &kind_perturb, [KIND_COMPOSE] = &kind_compose, [KIND_FINISH] = &kind_finish,
+    [KIND_SURFACE] = &kind_surface, [KIND_PERTURB] = &kind_perturb, [KIND_COMPOSE] = &kind_compose,
+    [KIND_FINISH] = &kind_finish,
 };

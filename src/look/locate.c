@@ -55,7 +55,7 @@ static const char *follow(const char *at, const char *end, const locate_step *st
     at++;
     for (size_t index = 0; (at = skip_blanks(at, end)) < end && *at != '}' && *at != ']'; index++) {
         const char *start = at;
-        bool here = index == step->index;
+        bool        here = index == step->index;
         if (step->key) {
             at = skip_string(at, end);
             size_t length = strlen(step->key);

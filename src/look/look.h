@@ -24,8 +24,8 @@ struct lmn_look {
 /* All kinds in drawing order, KIND_COUNT of them, index = kind_id. */
 extern const kind *const kinds[KIND_COUNT];
 
-/* The parameter with this key (or the key it had before) of a technique of a kind, its own or a common one; NULL when there
- * is none. */
+/* The parameter with this key (or the key it had before) of a technique of a kind, its own or a common one; NULL
+ * when there is none. */
 const param     *kind_find_param(const kind *k, const technique *t, const char *key);
 const technique *kind_find_technique(const kind *k, const char *name);
 const kind      *kind_find(const char *name);
@@ -37,8 +37,8 @@ bool kind_may_be_none(const kind *k);
 size_t       kind_param_count(const kind *k, const technique *t);
 const param *kind_param_at(const kind *k, const technique *t, size_t index);
 
-/* Errors with a helpful text, all LMN_USAGE: a technique or a parameter that does not exist. The latter names the techniques
- * of the kind that have it. */
+/* Errors with a helpful text, all LMN_USAGE: a technique or a parameter that does not exist. The latter names the
+ * techniques of the kind that have it. */
 lmn_status kind_unknown_technique(const kind *k, const char *name, lmn_error *error);
 lmn_status kind_missing_param(const kind *k, const technique *t, const char *key, lmn_error *error);
 /* Hints at the names of the kind's techniques. */

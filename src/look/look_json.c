@@ -26,7 +26,8 @@ static bool put_changed(json_t *object, const kind *k, const technique_use *use)
 static json_t *use_json(const kind *k, const technique_use *use)
 {
     json_t *object = json_object();
-    bool done = object && (use->technique == k->standard || put(object, k->selector_key, json_string(use->technique->name))) &&
+    bool    done = object &&
+                (use->technique == k->standard || put(object, k->selector_key, json_string(use->technique->name))) &&
                 put_changed(object, k, use);
     if (!done) {
         json_decref(object);
@@ -71,7 +72,8 @@ static bool is_standard(const kind *k, const technique_use *uses, size_t count)
 static json_t *rule_json(const rule *r)
 {
     json_t *object = json_object();
-    bool done = object && (!r->name || put(object, "name", json_string(r->name))) && put(object, "select", json_string(r->select));
+    bool    done = object && (!r->name || put(object, "name", json_string(r->name))) &&
+                put(object, "select", json_string(r->select));
     for (size_t i = 0; i < KIND_COUNT && done; i++) {
         const kind *k = kinds[i];
         if (!k->look_wide && !is_standard(k, r->uses[i], r->use_counts[i]))
@@ -97,8 +99,8 @@ static bool put_rules(json_t *root, const lmn_look *look)
 char *look_json(const lmn_look *look)
 {
     json_t *root = json_object();
-    bool done = root && put(root, "version", json_integer(LOOK_VERSION)) && put(root, "name", json_string(look->name)) &&
-                (!look->doc || put(root, "doc", json_string(look->doc)));
+    bool    done = root && put(root, "version", json_integer(LOOK_VERSION)) &&
+                put(root, "name", json_string(look->name)) && (!look->doc || put(root, "doc", json_string(look->doc)));
     for (size_t i = 0; i < KIND_COUNT && done; i++) {
         const kind *k = kinds[i];
         if (k->look_wide && look->wide[i].technique && !is_standard(k, &look->wide[i], 1))

@@ -37,14 +37,16 @@ static lmn_status unknown_name(const char *name, lmn_error *error)
         return error_memory(error);
     for (size_t i = 0; i < embedded_looks_count; i++)
         names[i] = embedded_looks[i].path;
-    lmn_status status = error_set(error, LMN_USAGE, "there is no look '%.80s'", name);
+    lmn_status  status = error_set(error, LMN_USAGE, "there is no look '%.80s'", name);
     const char *near = text_nearest(name, names, embedded_looks_count);
     const kind *known = kind_with(name);
     if (known)
-        error_hint(error, "it is a technique, not a look: --set %s.%s=%s; its parameters are in `limner looks --markdown`", known->name,
-                   known->selector_key, name);
+        error_hint(error,
+                   "it is a technique, not a look: --set %s.%s=%s; its parameters are in `limner looks --markdown`",
+                   known->name, known->selector_key, name);
     else if (near)
-        error_hint(error, "did you mean '%s'? `limner looks` lists all; a file's path contains '/' or ends in .json", near);
+        error_hint(error, "did you mean '%s'? `limner looks` lists all; a file's path contains '/' or ends in .json",
+                   near);
     else
         error_hint(error, "`limner looks` lists all; a file's path contains '/' or ends in .json");
     mem_free(names);
@@ -53,7 +55,7 @@ static lmn_status unknown_name(const char *name, lmn_error *error)
 
 static lmn_status load_file(lmn_look **out, const char *path, lmn_error *error)
 {
-    file_data data;
+    file_data  data;
     lmn_status status = file_load(&data, path, error);
     if (status != LMN_OK)
         return status;

@@ -58,7 +58,7 @@ static void print_place(const reader *r, char *out, size_t size)
 static lmn_status fail(reader *r, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
 static lmn_status fail(reader *r, const char *key, const char *format, ...)
 {
-    char message[400], place[200];
+    char    message[400], place[200];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
@@ -70,7 +70,8 @@ static lmn_status fail(reader *r, const char *key, const char *format, ...)
     locate(r->text, r->size, r->steps, r->depth, &line, &column);
     if (key)
         leave(r);
-    lmn_status status = error_in_file(r->error, LMN_FORMAT, r->file, line, "%s%s%.400s", place, *place ? ": " : "", message);
+    lmn_status status =
+        error_in_file(r->error, LMN_FORMAT, r->file, line, "%s%s%.400s", place, *place ? ": " : "", message);
     if (r->error)
         r->error->column = column;
     return status;
@@ -130,7 +131,7 @@ static lmn_status read_technique(reader *r, const kind *k, const json_t *json, c
 /* The technique that an object names, or the kind's standard one. */
 static lmn_status find_technique_of(reader *r, const kind *k, const json_t *object, const technique **out)
 {
-    const char *key = k->selector_key;
+    const char   *key = k->selector_key;
     const json_t *named = json_object_get(object, key);
     if (!named)
         named = json_object_get(object, key = "technique");
@@ -152,7 +153,7 @@ static lmn_status read_path(const reader *r, const param *p, void *values, const
     const char *given = json_string_value(json);
     if (!given || (!strchr(given, '.') && !strchr(given, '/')))
         return value_set_json(p, values, json, error);
-    char *path = file_beside(r->file, given);
+    char      *path = file_beside(r->file, given);
     lmn_status status = path ? value_set_text(p, values, path, error) : error_memory(error);
     mem_free(path);
     return status;
@@ -162,7 +163,7 @@ static lmn_status read_path(const reader *r, const param *p, void *values, const
 static lmn_status read_use(reader *r, const kind *k, json_t *json, technique_use *out)
 {
     const technique *t;
-    lmn_status status;
+    lmn_status       status;
     if (!json_is_object(json) && !json_is_string(json))
         return fail(r, NULL, "must be a technique's name or an object");
     if (json_is_string(json))
@@ -174,14 +175,16 @@ static lmn_status read_use(reader *r, const kind *k, json_t *json, technique_use
     if (!use_create(out, k, t))
         return error_memory(r->error);
     const char *key;
-    json_t *value;
-    json_object_foreach (json, key, value) {
+    json_t     *value;
+    json_object_foreach(json, key, value)
+    {
         lmn_error inner = {0};
         if (is_foreign(key) || is_selector_key(k, key))
             continue;
         const param *p = kind_find_param(k, t, key);
         if (p)
-            status = p->is_file ? read_path(r, p, out->values, value, &inner) : value_set_json(p, out->values, value, &inner);
+            status = p->is_file ? read_path(r, p, out->values, value, &inner)
+                                : value_set_json(p, out->values, value, &inner);
         else
             status = kind_missing_param(k, t, key, &inner);
         if (status != LMN_OK)
@@ -192,8 +195,8 @@ static lmn_status read_use(reader *r, const kind *k, json_t *json, technique_use
 
 static bool is_none(const kind *k, const json_t *json)
 {
-    return json_is_null(json) || (json_is_string(json) && strcmp(json_string_value(json), "none") == 0 &&
-                                  !kind_find_technique(k, "none"));
+    return json_is_null(json) ||
+           (json_is_string(json) && strcmp(json_string_value(json), "none") == 0 && !kind_find_technique(k, "none"));
 }
 
 /* A rule's value for a kind: one technique, several, or none. */
@@ -226,17 +229,18 @@ static lmn_status read_uses(reader *r, const kind *k, json_t *json, technique_us
 static lmn_status unknown_key(reader *r, const char *key, const char *const *words, size_t word_count, bool look_wide)
 {
     const char *allowed[KIND_COUNT + 8];
-    size_t count = 0;
+    size_t      count = 0;
     for (; count < word_count; count++)
         allowed[count] = words[count];
     for (size_t i = 0; i < KIND_COUNT; i++)
         if (kinds[i]->look_wide == look_wide)
             allowed[count++] = kinds[i]->name;
-    lmn_status status = fail(r, key, "unknown key '%.60s'", key);
+    lmn_status  status = fail(r, key, "unknown key '%.60s'", key);
     const kind *elsewhere = kind_find(key);
     const char *near = text_nearest(key, allowed, count);
     if (elsewhere)
-        error_hint(r->error, look_wide ? "'%s' belongs into a rule" : "'%s' holds for the whole look: write it beside 'rules'",
+        error_hint(r->error,
+                   look_wide ? "'%s' belongs into a rule" : "'%s' holds for the whole look: write it beside 'rules'",
                    key);
     else if (near)
         error_hint(r->error, "did you mean '%s'?", near);
@@ -245,7 +249,7 @@ static lmn_status unknown_key(reader *r, const char *key, const char *const *wor
 
 static lmn_status read_select(reader *r, rule *out)
 {
-    lmn_error inner = {0};
+    lmn_error  inner = {0};
     lmn_status status = selector_parse(&out->selector, out->select, &inner);
     return status == LMN_OK ? LMN_OK : fail_with(r, "select", &inner);
 }
@@ -284,10 +288,11 @@ static lmn_status read_rule_member(reader *r, const char *key, json_t *value, ru
 static lmn_status read_rule(reader *r, json_t *json, rule *out)
 {
     const char *key;
-    json_t *value;
+    json_t     *value;
     if (!json_is_object(json))
         return fail(r, NULL, "must be an object");
-    json_object_foreach (json, key, value) {
+    json_object_foreach(json, key, value)
+    {
         lmn_status status = is_foreign(key) ? LMN_OK : read_rule_member(r, key, value, out);
         if (status != LMN_OK)
             return status;
@@ -328,7 +333,7 @@ static lmn_status read_wide(reader *r, const kind *k, json_t *value, technique_u
 static lmn_status read_root_member(reader *r, const char *key, json_t *value, lmn_look *look)
 {
     static const char *const words[] = {"version", "name", "doc", "rules"};
-    lmn_status status;
+    lmn_status               status;
     if (strcmp(key, "version") == 0)
         return LMN_OK;
     if (strcmp(key, "name") == 0)
@@ -336,7 +341,7 @@ static lmn_status read_root_member(reader *r, const char *key, json_t *value, lm
     if (strcmp(key, "doc") == 0)
         return read_text(r, key, value, &look->doc);
     const kind *k = kind_find(key);
-    bool rules = strcmp(key, "rules") == 0;
+    bool        rules = strcmp(key, "rules") == 0;
     if (!rules && (!k || !k->look_wide))
         return unknown_key(r, key, words, PARAM_COUNT(words), true);
     enter_key(r, key);
@@ -357,8 +362,8 @@ static lmn_status read_version(reader *r, json_t *root)
     if (!json_is_integer(version) || number < 1)
         return fail(r, "version", "version must be a whole number from 1 to %d", LOOK_VERSION);
     if (number > LOOK_VERSION) {
-        lmn_status status = fail(r, "version", "version is %lld; this Limner reads versions up to %d", (long long)number,
-                                 LOOK_VERSION);
+        lmn_status status =
+            fail(r, "version", "version is %lld; this Limner reads versions up to %d", (long long)number, LOOK_VERSION);
         error_hint(r->error, "the look was made for a newer Limner");
         return status;
     }
@@ -377,10 +382,9 @@ static lmn_status read_root(reader *r, json_t *root, lmn_look *look)
         if (kinds[i]->look_wide && kinds[i]->standard && !use_create(&look->wide[i], kinds[i], kinds[i]->standard))
             status = error_memory(r->error);
     const char *key;
-    json_t *value;
-    json_object_foreach (root, key, value)
-        if (status == LMN_OK && !is_foreign(key))
-            status = read_root_member(r, key, value, look);
+    json_t     *value;
+    json_object_foreach(root, key, value) if (status == LMN_OK && !is_foreign(key)) status =
+        read_root_member(r, key, value, look);
     if (status == LMN_OK && look->rule_count == 0) {
         status = fail(r, NULL, "there is no rule, so nothing would be drawn");
         error_hint(r->error, "add \"rules\": [{\"select\": \"*\"}]");
@@ -392,8 +396,8 @@ static lmn_status read_root(reader *r, json_t *root, lmn_look *look)
 static char *stem_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    char *stem = mem_copy_text(slash ? slash + 1 : path);
-    char *dot = stem ? strrchr(stem, '.') : NULL;
+    char       *stem = mem_copy_text(slash ? slash + 1 : path);
+    char       *dot = stem ? strrchr(stem, '.') : NULL;
     if (dot && dot != stem)
         *dot = '\0';
     return stem;
@@ -430,16 +434,18 @@ static int depth_of(const char *at, const char *end)
 static lmn_status check_limits(const reader *r)
 {
     if (r->size > LIMIT_LOOK_BYTES)
-        return error_in_file(r->error, LMN_LIMIT, r->file, 0, "the look has %zu bytes; the limit is %zu", r->size, LIMIT_LOOK_BYTES);
+        return error_in_file(r->error, LMN_LIMIT, r->file, 0, "the look has %zu bytes; the limit is %zu", r->size,
+                             LIMIT_LOOK_BYTES);
     int depth = depth_of(r->text, r->text + r->size);
     if (depth > LIMIT_JSON_DEPTH)
-        return error_in_file(r->error, LMN_LIMIT, r->file, 0, "the look is nested %d deep; the limit is %d", depth, LIMIT_JSON_DEPTH);
+        return error_in_file(r->error, LMN_LIMIT, r->file, 0, "the look is nested %d deep; the limit is %d", depth,
+                             LIMIT_JSON_DEPTH);
     return LMN_OK;
 }
 
 lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_error *error)
 {
-    reader r = {.text = json, .file = name, .size = size, .error = error};
+    reader       r = {.text = json, .file = name, .size = size, .error = error};
     json_error_t wrong;
     *out = NULL;
     if (size >= 3 && memcmp(json, "\xEF\xBB\xBF", 3) == 0) { /* some editors put a byte order mark */

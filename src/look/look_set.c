@@ -11,11 +11,11 @@
 enum { WORD_SIZE = 128, ALL = -1 };
 
 typedef struct address {
-    const char *whole;            /* as given */
-    char        rule[WORD_SIZE];  /* empty: all rules */
+    const char *whole;           /* as given */
+    char        rule[WORD_SIZE]; /* empty: all rules */
     char        kind_name[WORD_SIZE], key[WORD_SIZE];
     const kind *kind;
-    long long   index;            /* ALL: every technique of the array */
+    long long   index; /* ALL: every technique of the array */
 } address;
 
 static bool copy_word(char out[WORD_SIZE], const char *from, size_t length)
@@ -42,7 +42,8 @@ static lmn_status parse_address(address *a, const char *given, lmn_error *error)
     if ((colon && !copy_word(a->rule, given, (size_t)(colon - given))) || !dot)
         return wrong_form(a, error);
     const char *bracket = memchr(at, '[', (size_t)(dot - at));
-    if (!copy_word(a->kind_name, at, (size_t)((bracket ? bracket : dot) - at)) || !copy_word(a->key, dot + 1, strlen(dot + 1)))
+    if (!copy_word(a->kind_name, at, (size_t)((bracket ? bracket : dot) - at)) ||
+        !copy_word(a->key, dot + 1, strlen(dot + 1)))
         return wrong_form(a, error);
     if (bracket && (dot[-1] != ']' || text_parse_int(bracket + 1, dot - 1, &a->index) != dot - 1 || a->index < 0))
         return wrong_form(a, error);
@@ -52,7 +53,7 @@ static lmn_status parse_address(address *a, const char *given, lmn_error *error)
     const char *names[KIND_COUNT];
     for (size_t i = 0; i < KIND_COUNT; i++)
         names[i] = kinds[i]->name;
-    lmn_status status = error_set(error, LMN_USAGE, "'%.120s': there is no kind '%.60s'", given, a->kind_name);
+    lmn_status  status = error_set(error, LMN_USAGE, "'%.120s': there is no kind '%.60s'", given, a->kind_name);
     const char *near = text_nearest(a->kind_name, names, KIND_COUNT);
     if (near)
         error_hint(error, "did you mean '%s.%s'?", near, a->key);
@@ -64,7 +65,7 @@ static lmn_status parse_address(address *a, const char *given, lmn_error *error)
 static bool rule_is_meant(const lmn_look *look, const address *a, size_t index)
 {
     long long number;
-    bool named = false;
+    bool      named = false;
     if (!a->rule[0])
         return true;
     for (size_t i = 0; i < look->rule_count; i++)
@@ -77,14 +78,14 @@ static bool rule_is_meant(const lmn_look *look, const address *a, size_t index)
 static lmn_status check_rule(const lmn_look *look, const address *a, lmn_error *error)
 {
     const char *names[LIMIT_LOOK_RULES];
-    size_t count = 0;
+    size_t      count = 0;
     for (size_t i = 0; i < look->rule_count; i++) {
         if (rule_is_meant(look, a, i))
             return LMN_OK;
         if (look->rules[i].name)
             names[count++] = look->rules[i].name;
     }
-    lmn_status status = error_set(error, LMN_USAGE, "look '%.60s' has no rule '%.60s'", look->name, a->rule);
+    lmn_status  status = error_set(error, LMN_USAGE, "look '%.60s' has no rule '%.60s'", look->name, a->rule);
     const char *near = text_nearest(a->rule, names, count);
     if (near)
         error_hint(error, "did you mean '%s'?", near);
@@ -93,7 +94,7 @@ static lmn_status check_rule(const lmn_look *look, const address *a, lmn_error *
     return status;
 }
 
-/* --- exchanging techniques ------------------------------------------------------------------------------------- */
+/* --- exchanging techniques ------------------------------------------------------------------------------ */
 
 /* Values that both techniques have in common keep their text. */
 static bool exchange(technique_use *use, const kind *k, const technique *t)
@@ -103,7 +104,7 @@ static bool exchange(technique_use *use, const kind *k, const technique *t)
         return false;
     for (size_t i = 0; use->technique && i < kind_param_count(k, t); i++) {
         const param *to = kind_param_at(k, t, i), *from = kind_find_param(k, use->technique, to->key);
-        char printed[PARAM_TEXT_MAX];
+        char         printed[PARAM_TEXT_MAX];
         if (!from || from->type != to->type || param_is_default(from, use->values))
             continue;
         param_print(from, use->values, printed, sizeof printed);
@@ -117,7 +118,7 @@ static bool exchange(technique_use *use, const kind *k, const technique *t)
 static void remove_uses(rule *r, const kind *k, long long index)
 {
     technique_use *uses = r->uses[k->id];
-    size_t kept = 0;
+    size_t         kept = 0;
     for (size_t i = 0; i < r->use_counts[k->id]; i++) {
         if (index == ALL || (long long)i == index)
             use_release(&uses[i]);
@@ -156,19 +157,20 @@ static lmn_status check_index(const lmn_look *look, const address *a, bool appen
     for (size_t i = 0; i < look->rule_count; i++)
         if (rule_is_meant(look, a, i) && look->rules[i].use_counts[a->kind->id] > most)
             most = look->rules[i].use_counts[a->kind->id];
-    if (a->index < (long long)most || (appending && a->kind->array && a->index == (long long)most && most < LIMIT_LOOK_TECHNIQUES))
+    if (a->index < (long long)most ||
+        (appending && a->kind->array && a->index == (long long)most && most < LIMIT_LOOK_TECHNIQUES))
         return LMN_OK;
     if (most == 0)
         return error_set(error, LMN_USAGE, "'%.120s': look '%.60s' has no %s", a->whole, look->name, a->kind->name);
-    return error_set(error, LMN_USAGE, "'%.120s': look '%.60s' has %s[0] to [%zu] only", a->whole, look->name, a->kind->name,
-                     most - 1);
+    return error_set(error, LMN_USAGE, "'%.120s': look '%.60s' has %s[0] to [%zu] only", a->whole, look->name,
+                     a->kind->name, most - 1);
 }
 
 static lmn_status set_technique(lmn_look *look, const address *a, const char *value, lmn_error *error)
 {
-    const kind *k = a->kind;
+    const kind      *k = a->kind;
     const technique *t = kind_find_technique(k, value);
-    bool none = !t && strcmp(value, "none") == 0 && kind_may_be_none(k), any = false;
+    bool             none = !t && strcmp(value, "none") == 0 && kind_may_be_none(k), any = false;
     if (!t && !none)
         return kind_unknown_technique(k, value, error);
     if (k->look_wide)
@@ -190,7 +192,7 @@ static lmn_status set_technique(lmn_look *look, const address *a, const char *va
     return status;
 }
 
-/* --- setting values -------------------------------------------------------------------------------------------- */
+/* --- setting values ------------------------------------------------------------------------------------- */
 
 /* What a walk over the uses that an address means has met. */
 typedef struct walk {
@@ -199,7 +201,8 @@ typedef struct walk {
 } walk;
 
 /* Sets the value in one use, on a copy when only trying. */
-static lmn_status set_in_use(const address *a, technique_use *use, const char *value, bool trying, walk *w, lmn_error *error)
+static lmn_status set_in_use(const address *a, technique_use *use, const char *value, bool trying, walk *w,
+                             lmn_error *error)
 {
     const param *p = kind_find_param(a->kind, use->technique, a->key);
     if (!p) {
@@ -217,10 +220,11 @@ static lmn_status set_in_use(const address *a, technique_use *use, const char *v
     return status;
 }
 
-static lmn_status set_in_all(lmn_look *look, const address *a, const char *value, bool trying, walk *w, lmn_error *error)
+static lmn_status set_in_all(lmn_look *look, const address *a, const char *value, bool trying, walk *w,
+                             lmn_error *error)
 {
     const kind *k = a->kind;
-    lmn_status status = LMN_OK;
+    lmn_status  status = LMN_OK;
     if (k->look_wide)
         return set_in_use(a, &look->wide[k->id], value, trying, w, error);
     for (size_t i = 0; i < look->rule_count; i++)
@@ -260,12 +264,13 @@ static lmn_status set_value(lmn_look *look, const address *a, const char *value,
 
 lmn_status look_set(lmn_look *look, const char *key, const char *value, lmn_error *error)
 {
-    address a;
+    address    a;
     lmn_status status = parse_address(&a, key, error);
     if (status != LMN_OK)
         return status;
     if (a.kind->look_wide && (a.rule[0] || a.index != ALL)) {
-        status = error_set(error, LMN_USAGE, "'%.120s': %s holds for the whole look, not for a rule", key, a.kind->name);
+        status =
+            error_set(error, LMN_USAGE, "'%.120s': %s holds for the whole look, not for a rule", key, a.kind->name);
         error_hint(error, "write %s.%s", a.kind->name, a.key);
         return status;
     }

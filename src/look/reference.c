@@ -54,7 +54,8 @@ static bool put_default(json_t *object, const kind *k, const technique *t, const
 static json_t *param_json(const kind *k, const technique *t, const param *p, const char *key, const technique_use *use)
 {
     json_t *object = json_object();
-    bool done = object && put(object, "name", json_string(key)) && put(object, "type", json_string(param_type_text(p->type)));
+    bool    done =
+        object && put(object, "name", json_string(key)) && put(object, "type", json_string(param_type_text(p->type)));
     if (done && (p->type == PARAM_INT || p->type == PARAM_FLOAT))
         done = put_range(object, p);
     if (done && p->type == PARAM_ENUM)
@@ -62,7 +63,8 @@ static json_t *param_json(const kind *k, const technique *t, const param *p, con
     if (done && p->unit != UNIT_NONE)
         done = put(object, "unit", json_string(param_unit_text(p->unit)));
     if (done && p->can_auto)
-        done = put(object, "auto", json_true()) && (!p->auto_from || put(object, "auto_from", json_string(p->auto_from)));
+        done =
+            put(object, "auto", json_true()) && (!p->auto_from || put(object, "auto_from", json_string(p->auto_from)));
     if (done && use)
         done = put(object, "value", value_json(p, use->values));
     done = done && put_default(object, k, t, p);
@@ -116,7 +118,8 @@ static json_t *kind_json(const kind *k)
         put(object, "key", json_string(k->selector_key)) && put(object, "look_wide", json_boolean(k->look_wide)) &&
         put(object, "array", json_boolean(k->array)) &&
         put(object, "standard", k->standard ? json_string(k->standard->name) : json_null()) &&
-        put(object, "common", params_json(k, k->techniques[0], k->common, k->common_count)) && put_techniques(object, k))
+        put(object, "common", params_json(k, k->techniques[0], k->common, k->common_count)) &&
+        put_techniques(object, k))
         return object;
     json_decref(object);
     return NULL;
@@ -129,12 +132,12 @@ static lmn_status put_looks(json_t *root, lmn_error *error)
     if (!put(root, "looks", array))
         return error_memory(error);
     for (size_t i = 0; i < embedded_looks_count; i++) {
-        lmn_look *look = NULL;
+        lmn_look  *look = NULL;
         lmn_status status = look_load(&look, look_name_at(i), error);
         if (status != LMN_OK)
             return status;
         json_t *object = json_object();
-        bool done = object && put(object, "name", json_string(look->name)) &&
+        bool    done = object && put(object, "name", json_string(look->name)) &&
                     put(object, "doc", json_string(look->doc ? look->doc : ""));
         look_destroy(&look);
         if (!done)
@@ -148,7 +151,7 @@ static lmn_status put_looks(json_t *root, lmn_error *error)
 static lmn_status reference_of_all(json_t *root, lmn_error *error)
 {
     lmn_status status = put_looks(root, error);
-    json_t *array = json_array();
+    json_t    *array = json_array();
     if (!put(root, "kinds", array))
         return status != LMN_OK ? status : error_memory(error);
     for (size_t i = 0; i < KIND_COUNT && status == LMN_OK; i++)
@@ -160,7 +163,7 @@ static lmn_status reference_of_all(json_t *root, lmn_error *error)
 /* "lines.width", with an index where there are several. */
 static bool append_use(json_t *array, const kind *k, const technique_use *use, size_t index, size_t count)
 {
-    char key[128];
+    char    key[128];
     json_t *object = json_object(), *parameters = json_array();
     if (!put(object, "parameters", parameters)) {
         json_decref(object);
@@ -190,7 +193,8 @@ static json_t *rule_json(const rule *r)
         json_decref(object);
         return NULL;
     }
-    bool done = (!r->name || put(object, "name", json_string(r->name))) && put(object, "select", json_string(r->select));
+    bool done =
+        (!r->name || put(object, "name", json_string(r->name))) && put(object, "select", json_string(r->select));
     for (size_t k = 0; k < KIND_COUNT; k++)
         for (size_t i = 0; i < r->use_counts[k] && done; i++)
             done = append_use(uses, kinds[k], &r->uses[k][i], i, r->use_counts[k]);
@@ -203,7 +207,7 @@ static json_t *rule_json(const rule *r)
 static bool put_look(json_t *root, const lmn_look *look)
 {
     json_t *wide = json_array(), *rules = json_array();
-    bool has_wide = put(root, "uses", wide), has_rules = put(root, "rules", rules);
+    bool    has_wide = put(root, "uses", wide), has_rules = put(root, "rules", rules);
     if (!has_wide || !has_rules || !put(root, "name", json_string(look->name)) ||
         !put(root, "doc", json_string(look->doc ? look->doc : "")))
         return false;
@@ -218,7 +222,7 @@ static bool put_look(json_t *root, const lmn_look *look)
 
 static lmn_status reference_of_look(json_t *root, const char *name_or_path, lmn_error *error)
 {
-    lmn_look *look = NULL;
+    lmn_look  *look = NULL;
     lmn_status status = look_load(&look, name_or_path, error);
     if (status == LMN_OK && !put_look(root, look))
         status = error_memory(error);

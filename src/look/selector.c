@@ -6,7 +6,13 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-typedef enum condition_type { CONDITION_NAME, CONDITION_PATH, CONDITION_ATTRIBUTE, CONDITION_REMOVED, CONDITION_SOLID } condition_type;
+typedef enum condition_type {
+    CONDITION_NAME,
+    CONDITION_PATH,
+    CONDITION_ATTRIBUTE,
+    CONDITION_REMOVED,
+    CONDITION_SOLID
+} condition_type;
 
 /* One condition. Those of one alternative follow each other; all of them must hold. */
 typedef struct condition {
@@ -93,7 +99,7 @@ static lmn_status read_condition(reader *r, condition *c)
     if (*r->at == ']')
         return wrong(r, "']' without '['");
     const char *start = r->at;
-    lmn_status status = read_word(r, " \t,[", &c->pattern);
+    lmn_status  status = read_word(r, " \t,[", &c->pattern);
     if (status == LMN_OK && r->at == start)
         return wrong(r, "a name, a path or [attribute] is missing");
     bool keyword = *start == '@'; /* in quotes it is a name */
@@ -103,7 +109,10 @@ static lmn_status read_condition(reader *r, condition *c)
         return wrong(r, "after '@' only 'removed' and 'solid' are known; put names that begin with '@' into quotes");
     }
     if (status == LMN_OK)
-        c->type = solid ? CONDITION_SOLID : keyword ? CONDITION_REMOVED : strchr(c->pattern, '/') ? CONDITION_PATH : CONDITION_NAME;
+        c->type = solid                     ? CONDITION_SOLID
+                  : keyword                 ? CONDITION_REMOVED
+                  : strchr(c->pattern, '/') ? CONDITION_PATH
+                                            : CONDITION_NAME;
     return status;
 }
 
@@ -176,8 +185,8 @@ static bool material_matches(const char *pattern, const lmn_scene *scene, const 
     return false;
 }
 
-/* The nearest node on the way to the root that states the key decides: what a file says about an assembly holds for its
- * parts. */
+/* The nearest node on the way to the root that states the key decides: what a file says about an assembly holds for
+ * its parts. */
 static bool attribute_matches(const condition *c, const lmn_scene *scene, int32_t at)
 {
     for (; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
@@ -192,7 +201,7 @@ static bool attribute_matches(const condition *c, const lmn_scene *scene, int32_
 static bool condition_holds(const condition *c, const lmn_scene *scene, size_t part_index)
 {
     const part *p = &scene->parts[part_index];
-    char id[24];
+    char        id[24];
     switch (c->type) {
     case CONDITION_NAME: return text_glob(c->pattern, p->name ? p->name : "");
     case CONDITION_PATH: return text_glob(c->pattern, p->path ? p->path : "");

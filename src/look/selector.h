@@ -20,6 +20,6 @@ lmn_status selector_parse(selector **out, const char *text, lmn_error *error);
 void       selector_destroy(selector **s);
 bool       selector_matches(const selector *s, const lmn_scene *scene, size_t part_index);
 /* May it match ghosts? */
-bool       selector_names_removed(const selector *s);
+bool selector_names_removed(const selector *s);
 
 #endif

@@ -96,8 +96,8 @@ static bool value_as_text(text *out, const param *p, const json_t *json)
 lmn_status value_set_text(const param *p, void *values, const char *given, lmn_error *error)
 {
     if (p->is_selector && given[0]) {
-        selector *tried = NULL;
-        lmn_error inner = {0};
+        selector  *tried = NULL;
+        lmn_error  inner = {0};
         lmn_status status = selector_parse(&tried, given, &inner);
         selector_destroy(&tried);
         if (status != LMN_OK) { /* messages begin with the parameter: callers put its kind before */
@@ -111,9 +111,9 @@ lmn_status value_set_text(const param *p, void *values, const char *given, lmn_e
 
 lmn_status value_set_json(const param *p, void *values, const json_t *json, lmn_error *error)
 {
-    text as_text = {0};
+    text       as_text = {0};
     lmn_status status;
-    bool typed = has_type(p, json) && value_as_text(&as_text, p, json);
+    bool       typed = has_type(p, json) && value_as_text(&as_text, p, json);
     if (as_text.failed)
         status = error_memory(error);
     else if (!typed)
@@ -143,7 +143,7 @@ static json_t *array_of_text(const char *printed, bool numbers)
 {
     json_t *array = json_array();
     for (const char *at = printed; array && *at;) {
-        char word[48];
+        char   word[48];
         size_t length = strcspn(at, ",");
         size_t kept = length < sizeof word ? length : sizeof word - 1;
         memcpy(word, at, kept);

@@ -1,4 +1,5 @@
-/* The kind "perturb": how exactly things are drawn. A technique moves the places where a figure's maps are looked up. */
+/* The kind "perturb": how exactly things are drawn. A technique moves the places where a figure's maps are looked
+ * up. */
 #ifndef LIMNER_PERTURB_PERTURB_H
 #define LIMNER_PERTURB_PERTURB_H
 

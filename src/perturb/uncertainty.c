@@ -1,13 +1,13 @@
-/* uncertainty: a continuous field of noise moves the places where lines, fill and depth of a figure are looked up, so that lines
- * waver, fill runs over the lines and falls short of them, and all of it still obeys the depth of its neighbours.
- * Nienhaus 2005, chapter 6, and Nienhaus et al. 2006, section 4; rows S01–S13, C13–C18, C20–C25.
+/* uncertainty: a continuous field of noise moves the places where lines, fill and depth of a figure are looked up, so
+ * that lines waver, fill runs over the lines and falls short of them, and all of it still obeys the depth of its
+ * neighbours. Nienhaus 2005, chapter 6, and Nienhaus et al. 2006, section 4; rows S01–S13, C13–C18, C20–C25.
  *
- * Where the sources are silent or wrong: noise is signed (unsigned values, as listing 6-1 reads them, move everything one way); the two
- * components are independent (the sources' second one, taken at (1−s, 1−t), equals the first in the middle of the page); ink outside
- * the boundary has the depth of the surface that it surrounds (its own lookup is empty); towards the page's border the field
- * shrinks, so that nothing is looked up outside. Enlarged geometry (section 6.7) gives a field that jumps where depth jumps; spread from
- * the nearest surfaces outwards ("continuous") it does not. Its wave length counts pixels, not units, at any distance: octaves come
- * and go as the viewer approaches. */
+ * Where the sources are silent or wrong: noise is signed (unsigned values, as listing 6-1 reads them, move everything
+ * one way); the two components are independent (the sources' second one, taken at (1−s, 1−t), equals the first in the
+ * middle of the page); ink outside the boundary has the depth of the surface that it surrounds (its own lookup is
+ * empty); towards the page's border the field shrinks, so that nothing is looked up outside. Enlarged geometry
+ * (section 6.7) gives a field that jumps where depth jumps; spread from the nearest surfaces outwards ("continuous") it
+ * does not. Its wave length counts pixels, not units, at any distance: octaves come and go as the viewer approaches. */
 #include <math.h>
 
 #include "perturb/perturb.h"
@@ -31,57 +31,70 @@ static const char *const field_names[] = {"noise", "turbulence", NULL};
 static const char *const by_names[] = {"position", "normal", "curvature", NULL};
 static const char *const outward_names[] = {"continuous", "enlarged", NULL};
 
-#define DEGREE_ROW(FIELD, DEFAULT, TEXT) \
+#define DEGREE_ROW(FIELD, DEFAULT, TEXT)                                                                               \
     PARAM_FLOAT_ROW(uncertainty, FIELD, .def = DEFAULT, .min = -4, .max = 4, .soft_min = -2, .soft_max = 2, .doc = TEXT)
 
 static const param params[] = {
-    PARAM_FLOAT_ROW(uncertainty, amount, .def = 4, .min = 0, .max = 64, .soft_max = 16, .unit = UNIT_PX,
-                    .doc = "Largest displacement for a degree of uncertainty of 1; 0 draws exactly, without grain or pressure."),
+    PARAM_FLOAT_ROW(
+        uncertainty, amount, .def = 4, .min = 0, .max = 64, .soft_max = 16, .unit = UNIT_PX,
+        .doc = "Largest displacement for a degree of uncertainty of 1; 0 draws exactly, without grain or pressure."),
     PARAM_ENUM_ROW(uncertainty, lock, .names = lock_names, .variant = true,
-                   .doc = "object: the wobble moves with the model; screen: it stays on the sheet, and a moving model swims under it."),
-    PARAM_ENUM_ROW(uncertainty, field, .names = field_names, .variant = true,
-                   .doc = "noise: smooth waves; turbulence: waves with sharp turns, the sum of the octaves' absolute values."),
-    PARAM_FLOAT_ROW(uncertainty, scale, .def = 90, .min = 2, .max = 1000, .soft_min = 15, .soft_max = 400, .unit = UNIT_PX, .along = true,
-                    .logarithmic = true, .doc = "Length of the longest waves on the sheet, the same at any distance."),
+                   .doc = "object: the wobble moves with the model; screen: it stays on the sheet, and a moving model "
+                          "swims under it."),
+    PARAM_ENUM_ROW(
+        uncertainty, field, .names = field_names, .variant = true,
+        .doc = "noise: smooth waves; turbulence: waves with sharp turns, the sum of the octaves' absolute values."),
+    PARAM_FLOAT_ROW(uncertainty, scale, .def = 90, .min = 2, .max = 1000, .soft_min = 15, .soft_max = 400,
+                    .unit = UNIT_PX, .along = true, .logarithmic = true,
+                    .doc = "Length of the longest waves on the sheet, the same at any distance."),
     PARAM_INT_ROW(uncertainty, octaves, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "Waves of how many lengths; each is half as long and half as strong as the one before."),
-    PARAM_FLOAT_ROW(uncertainty, tile, .def = 0, .min = 0, .max = 16384, .soft_max = 1024, .unit = UNIT_PX, .along = true,
-                    .only_if = "lock=screen", .doc = "The field repeats after this length, both ways; 0: it does not."),
+    PARAM_FLOAT_ROW(uncertainty, tile, .def = 0, .min = 0, .max = 16384, .soft_max = 1024, .unit = UNIT_PX,
+                    .along = true, .only_if = "lock=screen",
+                    .doc = "The field repeats after this length, both ways; 0: it does not."),
     PARAM_INT_ROW(uncertainty, seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true,
                   .doc = "Another number draws another wobble; counts with the drawing's own seed."),
-    PARAM_FLOAT_ROW(uncertainty, boil, .a_second = true, .def = 0, .min = 0, .max = 60, .soft_max = 24, .cpu_only = true,
-                    .doc = "New wobbles a second of the drawing's time: 12 is drawn on twos at 24 frames a second; 0 keeps one."),
+    PARAM_FLOAT_ROW(
+        uncertainty, boil, .a_second = true, .def = 0, .min = 0, .max = 60, .soft_max = 24, .cpu_only = true,
+        .doc = "New wobbles a second of the drawing's time: 12 is drawn on twos at 24 frames a second; 0 keeps one."),
     PARAM_ENUM_ROW(uncertainty, by, .names = by_names, .variant = true, .only_if = "lock=object",
                    .doc = "What of the surface the wobble depends on: place, direction or bend."),
-    PARAM_ENUM_ROW(uncertainty, outward, .names = outward_names, .variant = true, .only_if = "lock=object",
-                   .doc = "How the field goes on beside a surface: spread from it without jumps, or that of the enlarged model."),
-    PARAM_FLOAT_ROW(uncertainty, enlarge, .def = 12, .min = 1, .max = 200, .soft_max = 40, .unit = UNIT_PX, .along = true,
-                    .only_if = "outward=enlarged", .cpu_only = true, .doc = "How far the enlarged model reaches beyond the model."),
+    PARAM_ENUM_ROW(
+        uncertainty, outward, .names = outward_names, .variant = true, .only_if = "lock=object",
+        .doc = "How the field goes on beside a surface: spread from it without jumps, or that of the enlarged model."),
+    PARAM_FLOAT_ROW(uncertainty, enlarge, .def = 12, .min = 1, .max = 200, .soft_max = 40, .unit = UNIT_PX,
+                    .along = true, .only_if = "outward=enlarged", .cpu_only = true,
+                    .doc = "How far the enlarged model reaches beyond the model."),
     DEGREE_ROW(edges_xx, 1, "Degree of uncertainty of lines: share of the first noise in the way to the right."),
     DEGREE_ROW(edges_xy, 0, "Of lines: share of the second noise in the way to the right."),
     DEGREE_ROW(edges_yx, 0, "Of lines: share of the first noise in the way up."),
     DEGREE_ROW(edges_yy, 1, "Of lines: share of the second noise in the way up."),
-    DEGREE_ROW(shades_xx, -0.75, "Degree of uncertainty of fill: share of the first noise in the way to the right; of another sign than "
-                                 "that of lines, both part."),
+    DEGREE_ROW(shades_xx, -0.75,
+               "Degree of uncertainty of fill: share of the first noise in the way to the right; of another sign than "
+               "that of lines, both part."),
     DEGREE_ROW(shades_xy, 0, "Of fill: share of the second noise in the way to the right."),
     DEGREE_ROW(shades_yx, 0, "Of fill: share of the first noise in the way up."),
     DEGREE_ROW(shades_yy, -0.75, "Of fill: share of the second noise in the way up."),
     PARAM_FLOAT_ROW(uncertainty, rough, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,
                     .doc = "Displacement of every grain of the paper by itself: borders fray as chalk's do."),
-    PARAM_FLOAT_ROW(uncertainty, tooth, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-                    .doc = "Share of the paper's grains that the fill leaves bare; lines, drawn with more force, leave half as many."),
+    PARAM_FLOAT_ROW(
+        uncertainty, tooth, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+        .doc =
+            "Share of the paper's grains that the fill leaves bare; lines, drawn with more force, leave half as many."),
     PARAM_FLOAT_ROW(uncertainty, grain, .def = 1, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_PX, .along = true,
                     .doc = "Size of the paper's grains."),
     PARAM_INT_ROW(uncertainty, repeat, .def = 1, .min = 1, .max = 8, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "How often lines are drawn, each time displaced in another direction."),
-    PARAM_FLOAT_ROW(uncertainty, repeat_degree, .def = 1, .min = 0.1, .max = 2, .soft_min = 0.5, .soft_max = 1.5, .only_if = "repeat>1",
-                    .doc = "How much farther each repetition is displaced than the one before."),
-    PARAM_PALETTE_ROW(uncertainty, repeat_colours, .def_palette = {1, {{0.45f, 0.47f, 0.50f, 1}}}, .only_if = "repeat>1",
+    PARAM_FLOAT_ROW(uncertainty, repeat_degree, .def = 1, .min = 0.1, .max = 2, .soft_min = 0.5, .soft_max = 1.5,
+                    .only_if = "repeat>1", .doc = "How much farther each repetition is displaced than the one before."),
+    PARAM_PALETTE_ROW(uncertainty, repeat_colours, .def_palette = {1, {{0.45f, 0.47f, 0.50f, 1}}},
+                      .only_if = "repeat>1",
                       .doc = "Colours of the repetitions, in turn; the first time lines have their own."),
     PARAM_FLOAT_ROW(uncertainty, pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
                     .doc = "How much the weight of lines varies along them."),
     PARAM_COLOUR_ROW(uncertainty, fallback, .can_auto = true, .def_auto = true, .auto_ground = true,
-                     .doc = "Ground inside the outline where the fill fell short or left grains bare; auto takes the page's, none shows what "
+                     .doc = "Ground inside the outline where the fill fell short or left grains bare; auto takes the "
+                            "page's, none shows what "
                             "is behind. Not in what is seen through."),
 };
 
@@ -101,19 +114,20 @@ static float row_sum(float a, float b)
 static float reach_of(const void *values)
 {
     const uncertainty *v = values;
-    float edges = fmaxf(row_sum(v->edges_xx, v->edges_xy), row_sum(v->edges_yx, v->edges_yy));
-    float shades = fmaxf(row_sum(v->shades_xx, v->shades_xy), row_sum(v->shades_yx, v->shades_yy));
+    float              edges = fmaxf(row_sum(v->edges_xx, v->edges_xy), row_sum(v->edges_yx, v->edges_yy));
+    float              shades = fmaxf(row_sum(v->shades_xx, v->shades_xy), row_sum(v->shades_yx, v->shades_yy));
     if (v->repeat > 1) /* turned, both components together may point along one axis */
         edges *= 1.4142136f * fmaxf(1, powf(v->repeat_degree, (float)(v->repeat - 1)));
     return v->amount * fmaxf(edges, shades) + v->rough;
 }
 
-/* Texels are so small that the shortest waves of two octaves have fourteen, and so large that those to which the field spreads beside a
- * surface (perturb/spread.glsl) reach as far as anything moves; a tile has a whole number of them. */
+/* Texels are so small that the shortest waves of two octaves have fourteen, and so large that those to which the
+ * field spreads beside a surface (perturb/spread.glsl) reach as far as anything moves; a tile has a whole number of
+ * them. */
 static float cell_of(const void *values)
 {
     const uncertainty *v = values;
-    float cell = fmaxf(fmaxf(v->scale / 29, reach_of(values) / 7), 1);
+    float              cell = fmaxf(fmaxf(v->scale / 29, reach_of(values) / 7), 1);
     return v->lock == 1 && v->tile > 0 ? v->tile / ceilf(v->tile / cell) : cell;
 }
 
@@ -126,7 +140,10 @@ static uint32_t seed_of(const void *values, uint32_t seed, double time_s)
 }
 
 static const pass map = {
-    .name = "map", .shader = "perturb/map.frag", .reads = {TARGET_UNCERTAINTY}, .writes = TARGET_FIELD,
+    .name = "map",
+    .shader = "perturb/map.frag",
+    .reads = {TARGET_UNCERTAINTY},
+    .writes = TARGET_FIELD,
 };
 
 static void uncertainty_hand(struct stroke_style *style, const void *values)
@@ -137,13 +154,19 @@ static void uncertainty_hand(struct stroke_style *style, const void *values)
 }
 
 static const perturbation perturbs = {
-    .places = "perturb/uncertainty.glsl", .active = is_active, .reach = reach_of, .cell = cell_of, .seed = seed_of, .map = &map, .as_hand = uncertainty_hand,
+    .places = "perturb/uncertainty.glsl",
+    .active = is_active,
+    .reach = reach_of,
+    .cell = cell_of,
+    .seed = seed_of,
+    .map = &map,
+    .as_hand = uncertainty_hand,
 };
 
 /* The figure with all surfaces moved outwards: x and y of the normal, part id, eye depth (0: empty). */
 #define ENLARGED TARGET_OWN(0)
 /* Uncertainty of the surfaces, times how sure it is; a: how sure. And on the way to the next. */
-#define TRACES TARGET_OWN(1)
+#define TRACES     TARGET_OWN(1)
 #define TRACES_ROW TARGET_OWN(2)
 static const target_row targets[] = {
     {"t_enlarged", TEXEL_RGBA32F},
@@ -153,19 +176,41 @@ static const target_row targets[] = {
 
 static const pass passes[] = {
     {.name = "noise", .shader = "perturb/page.frag", .writes = TARGET_UNCERTAINTY, .when = "lock=screen"},
-    {.name = "enlarged", .geometry = true, .enlarge = "enlarge", .writes = ENLARGED, .when = "lock=object&outward=enlarged"},
-    {.name = "traces", .shader = "perturb/traces.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, ENLARGED}, .writes = TRACES,
+    {.name = "enlarged",
+     .geometry = true,
+     .enlarge = "enlarge",
+     .writes = ENLARGED,
+     .when = "lock=object&outward=enlarged"},
+    {.name = "traces",
+     .shader = "perturb/traces.frag",
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, ENLARGED},
+     .writes = TRACES,
      .when = "lock=object"},
-    {.name = "spread across", .shader = "perturb/spread_row.frag", .reads = {TRACES}, .writes = TRACES_ROW,
+    {.name = "spread across",
+     .shader = "perturb/spread_row.frag",
+     .reads = {TRACES},
+     .writes = TRACES_ROW,
      .when = "lock=object&outward=continuous"},
-    {.name = "spread", .shader = "perturb/spread.frag", .reads = {TRACES, TRACES_ROW}, .writes = TARGET_UNCERTAINTY,
+    {.name = "spread",
+     .shader = "perturb/spread.frag",
+     .reads = {TRACES, TRACES_ROW},
+     .writes = TARGET_UNCERTAINTY,
      .when = "lock=object"},
 };
 
 const technique perturb_uncertainty = {
-    .name = "uncertainty", .doc = "Lines and fill waver apart, as drawn by hand.",
-    .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", \"surface\": \"lit\"}",
-    .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(uncertainty),
-    .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID,
-    .passes = passes, .pass_count = PARAM_COUNT(passes), .targets = targets, .target_count = PARAM_COUNT(targets), .perturbs = &perturbs,
+    .name = "uncertainty",
+    .doc = "Lines and fill waver apart, as drawn by hand.",
+    .example = "{\"perturb\": {\"technique\": \"uncertainty\", \"rough\": 0.8}, \"lines\": \"discontinuity\", "
+               "\"surface\": \"lit\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(uncertainty),
+    .channels = CHANNEL_NORMAL_DEPTH,
+    .part_channels = CHANNEL_ID,
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
+    .targets = targets,
+    .target_count = PARAM_COUNT(targets),
+    .perturbs = &perturbs,
 };

@@ -28,20 +28,20 @@ static bool normalise3(double v[3])
     return true;
 }
 
-/* Direction to the eye and up vector of the named views. Front looks along −Z (Y-up) or +Y (Z-up); top and bottom have the front
- * at the picture's bottom and top. */
+/* Direction to the eye and up vector of the named views. Front looks along −Z (Y-up) or +Y (Z-up); top and bottom
+ * have the front at the picture's bottom and top. */
 static void named_view(lmn_view view, char up, double to_eye[3], double up_axis[3])
 {
     /* In Y-up axes; Z-up turns (x, y, z) into (x, −z, y). */
     static const double directions[][2][3] = {
-        [LMN_VIEW_ISO] = {{1, 1, 1}, {0, 1, 0}},    [LMN_VIEW_FRONT] = {{0, 0, 1}, {0, 1, 0}},
-        [LMN_VIEW_BACK] = {{0, 0, -1}, {0, 1, 0}},  [LMN_VIEW_LEFT] = {{-1, 0, 0}, {0, 1, 0}},
-        [LMN_VIEW_RIGHT] = {{1, 0, 0}, {0, 1, 0}},  [LMN_VIEW_TOP] = {{0, 1, 0}, {0, 0, -1}},
+        [LMN_VIEW_ISO] = {{1, 1, 1}, {0, 1, 0}},     [LMN_VIEW_FRONT] = {{0, 0, 1}, {0, 1, 0}},
+        [LMN_VIEW_BACK] = {{0, 0, -1}, {0, 1, 0}},   [LMN_VIEW_LEFT] = {{-1, 0, 0}, {0, 1, 0}},
+        [LMN_VIEW_RIGHT] = {{1, 0, 0}, {0, 1, 0}},   [LMN_VIEW_TOP] = {{0, 1, 0}, {0, 0, -1}},
         [LMN_VIEW_BOTTOM] = {{0, -1, 0}, {0, 0, 1}},
     };
     for (int which = 0; which < 2; which++) {
         const double *v = directions[view][which];
-        double *out = which ? up_axis : to_eye;
+        double       *out = which ? up_axis : to_eye;
         out[0] = v[0];
         out[1] = up == 'z' ? -v[2] : v[1];
         out[2] = up == 'z' ? v[1] : v[2];
@@ -92,7 +92,8 @@ static double fitting_centre(const double x[8], const double z[8], double eye_z,
 }
 
 /* Moves the eye so that the projected corners of the box fill the share `fit` of the frame. */
-static void fit_box(view_camera *c, box3 bounds, double fit, const double right[3], const double up[3], const double forward[3])
+static void fit_box(view_camera *c, box3 bounds, double fit, const double right[3], const double up[3],
+                    const double forward[3])
 {
     double corner[8][3], x[8], y[8], z[8], middle[3];
     corners_of(bounds, corner);
@@ -162,25 +163,25 @@ static void frame_of(const double forward[3], const double wanted_up[3], double 
     cross3(right, forward, up);
 }
 
-static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, const pose *pose,
-                                    lmn_error *error)
+static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, const pose *pose, lmn_error *error)
 {
     const lmn_scene *scene = pose->scene;
-    const char *names[64];
-    char numbered[64][CAMERA_NAME_ROOM], room[CAMERA_NAME_ROOM];
-    size_t name_count = 0;
+    const char      *names[64];
+    char             numbered[64][CAMERA_NAME_ROOM], room[CAMERA_NAME_ROOM];
+    size_t           name_count = 0;
     for (size_t i = 0; i < scene->node_count; i++) {
         const node *n = &scene->nodes[i];
         if (n->camera < 0)
             continue;
         const camera *file = &scene->cameras[n->camera];
-        const char *name = scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : room);
+        const char   *name =
+            scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : room);
         if (name_count < 64)
             names[name_count++] = name;
         if (strcmp(name, desc->camera) != 0 && !(n->name && strcmp(n->name, desc->camera) == 0))
             continue;
         const double *m = pose->worlds[i].m;
-        double right[3] = {m[0], m[1], m[2]}, up[3] = {m[4], m[5], m[6]}, forward[3] = {-m[8], -m[9], -m[10]};
+        double        right[3] = {m[0], m[1], m[2]}, up[3] = {m[4], m[5], m[6]}, forward[3] = {-m[8], -m[9], -m[10]};
         normalise3(forward);
         frame_of(forward, up, right, up);
         c->orthographic = file->orthographic;
@@ -194,7 +195,8 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
         set_view(c, right, up, forward);
         return LMN_OK;
     }
-    lmn_status status = error_in_file(error, LMN_USAGE, refuse_file(scene), 0, "the scene has no camera '%s'", desc->camera);
+    lmn_status status =
+        error_in_file(error, LMN_USAGE, refuse_file(scene), 0, "the scene has no camera '%s'", desc->camera);
     const char *nearest = text_nearest(desc->camera, names, name_count);
     if (nearest)
         error_hint(error, "did you mean '%s'?", nearest);
@@ -203,8 +205,7 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
     return status;
 }
 
-lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *pose, box3 bounds,
-                        lmn_error *error)
+lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *pose, box3 bounds, lmn_error *error)
 {
     memset(c, 0, sizeof *c);
     c->aspect = (double)desc->width / desc->height;
@@ -248,7 +249,7 @@ void camera_depth_range(const view_camera *c, box3 box, double *nearest, double 
     corners_of(box, corner);
     for (int i = 0; i < 8; i++) {
         const double *m = c->view.m;
-        double depth = -(m[2] * corner[i][0] + m[6] * corner[i][1] + m[10] * corner[i][2] + m[14]);
+        double        depth = -(m[2] * corner[i][0] + m[6] * corner[i][1] + m[10] * corner[i][2] + m[14]);
         *nearest = fmin(*nearest, depth);
         *farthest = fmax(*farthest, depth);
     }
@@ -292,7 +293,7 @@ void camera_pixels(const view_camera *c, box3 box, int width, int height, int ma
     mat4 both = mat4_multiply(&c->projection, &c->view);
     for (int i = 0; i < 8; i++) {
         const double *m = both.m, *p = corner[i];
-        double clip[4];
+        double        clip[4];
         for (int k = 0; k < 4; k++)
             clip[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
         if (!(clip[3] > 0)) {
@@ -308,7 +309,8 @@ void camera_pixels(const view_camera *c, box3 box, int width, int height, int ma
     }
     int size[2] = {width, height};
     for (int k = 0; k < 2; k++) {
-        double first = floor((low[k] * 0.5 + 0.5) * size[k]) - margin, last = ceil((high[k] * 0.5 + 0.5) * size[k]) + margin;
+        double first = floor((low[k] * 0.5 + 0.5) * size[k]) - margin,
+               last = ceil((high[k] * 0.5 + 0.5) * size[k]) + margin;
         first = fmin(fmax(first, 0), size[k]);
         last = fmin(fmax(last, first), size[k]);
         out[k] = (int)first;

@@ -16,8 +16,7 @@ typedef struct view_camera {
 
 /* Sets everything but the clip planes. `bounds` is what is to be fitted.
  * Errors: LMN_USAGE (eye equals target, unknown camera: nearest in the hint). */
-lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose *pose, box3 bounds,
-                        lmn_error *error);
+lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose *pose, box3 bounds, lmn_error *error);
 
 /* Sets near and far so that they hug depths from `nearest` to `farthest` (eye depth), and the projection. */
 void camera_set_range(view_camera *camera, double nearest, double farthest);
@@ -25,8 +24,8 @@ void camera_set_range(view_camera *camera, double nearest, double farthest);
 /* Widens a range of eye depths by the corners of a box (world axes). Start with INFINITY and −INFINITY. */
 void camera_depth_range(const view_camera *camera, box3 box, double *nearest, double *farthest);
 
-/* The pixels that a box can cover: x, y, width, height from the bottom left, `margin` pixels added. The whole picture when the
- * box reaches behind the near plane. */
+/* The pixels that a box can cover: x, y, width, height from the bottom left, `margin` pixels added. The whole
+ * picture when the box reaches behind the near plane. */
 void camera_pixels(const view_camera *camera, box3 box, int width, int height, int margin, int out[4]);
 
 /* Widens a box of pixels by another. */

@@ -6,7 +6,8 @@
 #include "limner/version.h"
 #include "plan/report_json.h"
 
-lmn_status facts_take(report_facts *out, const lmn_scene *scene, const lmn_look *look, size_t part_count, uint32_t seed, lmn_error *error)
+lmn_status facts_take(report_facts *out, const lmn_scene *scene, const lmn_look *look, size_t part_count, uint32_t seed,
+                      lmn_error *error)
 {
     *out = (report_facts){.seed = seed, .bounds = box3_empty(), .load_ms = scene->load_ms};
     out->look = mem_copy_text(look->name ? look->name : "");
@@ -41,5 +42,6 @@ json_t *facts_begin_json(const report_facts *f, int width, int height)
 
 json_t *facts_scene_json(const report_facts *f)
 {
-    return json_pack("{s:I, s:I, s:o}", "parts", (json_int_t)f->part_count, "triangles", (json_int_t)f->triangles, "bounds", report_box_json(f->bounds));
+    return json_pack("{s:I, s:I, s:o}", "parts", (json_int_t)f->part_count, "triangles", (json_int_t)f->triangles,
+                     "bounds", report_box_json(f->bounds));
 }

@@ -18,7 +18,8 @@ typedef struct report_facts {
 } report_facts;
 
 /* The bounds and triangles are the caller's to set. Errors: LMN_MEMORY. Release it also after one. */
-lmn_status facts_take(report_facts *out, const lmn_scene *scene, const lmn_look *look, size_t part_count, uint32_t seed, lmn_error *error);
+lmn_status facts_take(report_facts *out, const lmn_scene *scene, const lmn_look *look, size_t part_count, uint32_t seed,
+                      lmn_error *error);
 void       facts_release(report_facts *f);
 
 /* The first entries of a report: program, look, size, seed. */

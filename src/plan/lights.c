@@ -2,12 +2,13 @@
 
 #include <math.h>
 
-static void add_light(float positions[][4], float colours[][4], int *count, const double direction[3], double w, const float rgb[3],
-                      float strength)
+static void add_light(float positions[][4], float colours[][4], int *count, const double direction[3], double w,
+                      const float rgb[3], float strength)
 {
     if (*count >= LIGHTS_MAX)
         return;
-    double length = w > 0 ? 1 : sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+    double length =
+        w > 0 ? 1 : sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
     for (int k = 0; k < 3; k++) {
         positions[*count][k] = (float)(direction[k] / (length > 0 ? length : 1));
         colours[*count][k] = rgb[k] * strength;
@@ -17,31 +18,32 @@ static void add_light(float positions[][4], float colours[][4], int *count, cons
     ++*count;
 }
 
-static void add_file_lights(const light_conditions *c, float positions[][4], float colours[][4], int *count, float scale)
+static void add_file_lights(const light_conditions *c, float positions[][4], float colours[][4], int *count,
+                            float scale)
 {
     const lmn_scene *scene = c->pose->scene;
     for (size_t i = 0; i < scene->node_count; i++) {
         if (scene->nodes[i].light < 0)
             continue;
         const light *l = &scene->lights[scene->nodes[i].light];
-        mat4 eye = mat4_multiply(c->view, &c->pose->worlds[i]);
+        mat4         eye = mat4_multiply(c->view, &c->pose->worlds[i]);
         /* Lights shine along their node's −Z. Physical units are not used: every light counts as fully bright. */
         double back[3] = {eye.m[8], eye.m[9], eye.m[10]}, place[3] = {eye.m[12], eye.m[13], eye.m[14]};
-        bool placed = l->type != LIGHT_DIRECTIONAL;
+        bool   placed = l->type != LIGHT_DIRECTIONAL;
         add_light(positions, colours, count, placed ? place : back, placed ? 1 : 0, l->colour, scale);
     }
 }
 
 light_list lights_list(const light_conditions *c)
 {
-    light_list l = {.count = 0};
+    light_list          l = {.count = 0};
     const scene_values *v = c->look->wide[KIND_SCENE].values;
     if (v->lights == LIGHTS_FILE)
         add_file_lights(c, l.positions, l.colours, &l.count, v->light_scale);
     if (l.count > 0)
         return l;
     static const float white[3] = {1, 1, 1};
-    double key[3] = {v->light_direction.x, v->light_direction.y, v->light_direction.z};
+    double             key[3] = {v->light_direction.x, v->light_direction.y, v->light_direction.z};
     if (key[0] == 0 && key[1] == 0 && key[2] == 0)
         key[2] = 1;
     /* The light goes with the viewer, but what a mirror shows is lit as the scene itself is. */

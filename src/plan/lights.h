@@ -1,4 +1,5 @@
-/* The lights of a view: the studio's two or the file's own. Light reaches surfaces alike whether they are drawn as pixels or as vectors. */
+/* The lights of a view: the studio's two or the file's own. Light reaches surfaces alike whether they are drawn as
+ * pixels or as vectors. */
 #ifndef LIMNER_PLAN_LIGHTS_H
 #define LIMNER_PLAN_LIGHTS_H
 

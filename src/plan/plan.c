@@ -54,19 +54,21 @@ static bool copy_rule(rule *out, const rule *from, int pixel_scale)
     return true;
 }
 
-/* Leaves a perturbation out that moves nothing, so that such a picture is exactly the one without it; and where a composition cannot
- * look anything up elsewhere. */
+/* Leaves a perturbation out that moves nothing, so that such a picture is exactly the one without it; and where a
+ * composition cannot look anything up elsewhere. */
 static void settle_perturbation(rule *r, warnings *notes)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
-    technique_use *perturb = r->use_counts[KIND_PERTURB] ? &r->uses[KIND_PERTURB][0] : NULL;
+    technique_use       *perturb = r->use_counts[KIND_PERTURB] ? &r->uses[KIND_PERTURB][0] : NULL;
     if (!perturb)
         return;
-    bool active = perturb->technique->perturbs->active(perturb->values), able = !compose || compose->technique->compose->perturbable;
+    bool active = perturb->technique->perturbs->active(perturb->values),
+         able = !compose || compose->technique->compose->perturbable;
     if (active && able)
         return;
     if (!able)
-        warnings_add(notes, WARNING_UNUSED, "compose '%s' cannot be perturbed; 'opaque' and those of layers can", compose->technique->name);
+        warnings_add(notes, WARNING_UNUSED, "compose '%s' cannot be perturbed; 'opaque' and those of layers can",
+                     compose->technique->name);
     use_release(perturb);
     r->use_counts[KIND_PERTURB] = 0;
 }
@@ -115,8 +117,8 @@ static unsigned channels_of(const rule *r, bool several_parts)
     unsigned channels = lines_are_spatial(r) ? CHANNEL_NORMAL_DEPTH : 0;
     for (int k = 0; k < KIND_COUNT; k++)
         for (size_t i = 0; i < r->use_counts[k]; i++)
-            channels |= r->uses[k][i].technique->channels |
-                        (several_parts ? r->uses[k][i].technique->part_channels : 0);
+            channels |=
+                r->uses[k][i].technique->channels | (several_parts ? r->uses[k][i].technique->part_channels : 0);
     return channels;
 }
 
@@ -186,12 +188,13 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
 bool shades_with_geometry(const technique_use *surface)
 {
     const technique *t = surface->technique;
-    return t->surface->forward || (t->surface->forward_when && params_condition(t->surface->forward_when, t->params, t->param_count, surface->values));
+    return t->surface->forward || (t->surface->forward_when && params_condition(t->surface->forward_when, t->params,
+                                                                                t->param_count, surface->values));
 }
 
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
 {
-    const rule *r = f->rule;
+    const rule          *r = f->rule;
     const technique_use *surface = rule_use(r, KIND_SURFACE);
     f->layering = layering_of(rule_use(r, KIND_LAYERS));
     f->layered = is_seen_through(r);
@@ -199,12 +202,14 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
         settle_layers(f, p, as_sprites);
         return;
     }
-    bool perturbed = rule_use(r, KIND_PERTURB) != NULL;
+    bool             perturbed = rule_use(r, KIND_PERTURB) != NULL;
     const technique *shader = surface ? surface->technique : NULL;
-    bool later = shader && shader->surface->deferred_when && params_condition(shader->surface->deferred_when, shader->params, shader->param_count, surface->values);
+    bool             later = shader && shader->surface->deferred_when &&
+                 params_condition(shader->surface->deferred_when, shader->params, shader->param_count, surface->values);
     f->deferred = surface && (f->layering.deferred || later) && !shades_with_geometry(surface);
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
-    f->complement = f->layering.complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
+    f->complement =
+        f->layering.complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
     f->reflects = surface && surface->technique->surface->reflects;
     bool plain_surface = !surface || (surface->technique->surface->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
@@ -245,7 +250,7 @@ static bool is_selected(const plan *p, const selector *wanted, size_t part_index
 
 static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
 {
-    selector *wanted = NULL;
+    selector  *wanted = NULL;
     lmn_status status = select ? selector_parse(&wanted, select, error) : LMN_OK;
     for (size_t i = 0; status == LMN_OK && i < p->part_count; i++) {
         p->selected[i] = is_selected(p, wanted, i);
@@ -260,29 +265,34 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
                 error_hint(error, "%s", p->scene->warnings.items[0].text);
             return LMN_FORMAT;
         }
-        status = error_in_file(error, LMN_USAGE, refuse_file(p->scene), 0, "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
+        status = error_in_file(error, LMN_USAGE, refuse_file(p->scene), 0,
+                               "the selection '%s' matches none of %zu parts", select, p->scene->part_count);
         error_hint(error, "`limner info` lists the parts with their names and paths");
     }
     return status;
 }
 
-/* What the picture is fitted to of a part. Cutters may stick out far: of a ghost, what lies within a quarter of its solid's diagonal. */
+/* What the picture is fitted to of a part. Cutters may stick out far: of a ghost, what lies within a quarter of its
+ * solid's diagonal. */
 static box3 fitted_box(const plan *p, size_t part_index)
 {
-    box3 box = p->pose->part_boxes[part_index];
+    box3   box = p->pose->part_boxes[part_index];
     size_t owner = scene_part_of_ghost(p->scene, part_index);
     if (owner == SIZE_MAX || box3_is_empty(p->pose->part_boxes[owner]))
         return box;
-    box3 near = p->pose->part_boxes[owner];
+    box3  near = p->pose->part_boxes[owner];
     float x = near.max.x - near.min.x, y = near.max.y - near.min.y, z = near.max.z - near.min.z;
     float margin = sqrtf(x * x + y * y + z * z) / 4;
-    box.min = (vec3){fmaxf(box.min.x, near.min.x - margin), fmaxf(box.min.y, near.min.y - margin), fmaxf(box.min.z, near.min.z - margin)};
-    box.max = (vec3){fminf(box.max.x, near.max.x + margin), fminf(box.max.y, near.max.y + margin), fminf(box.max.z, near.max.z + margin)};
+    box.min = (vec3){fmaxf(box.min.x, near.min.x - margin), fmaxf(box.min.y, near.min.y - margin),
+                     fmaxf(box.min.z, near.min.z - margin)};
+    box.max = (vec3){fminf(box.max.x, near.max.x + margin), fminf(box.max.y, near.max.y + margin),
+                     fminf(box.max.z, near.max.z + margin)};
     return box3_is_empty(box) ? box3_empty() : box;
 }
 
-/* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides nothing and
- * has no lines; the picture is fitted to it all the same, so that looks of one scene can be compared, but not to a ghost. */
+/* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides
+ * nothing and has no lines; the picture is fitted to it all the same, so that looks of one scene can be compared,
+ * but not to a ghost. */
 static void share_parts(plan *p)
 {
     const lmn_look *look = p->look;
@@ -310,11 +320,13 @@ static void note_idle_rules(const plan *p, warnings *notes)
 {
     const lmn_look *look = p->look;
     for (size_t r = 0; r < look->rule_count; r++) {
-        bool idle = look->rules[r].select && strcmp(look->rules[r].select, "*") != 0 && strcmp(look->rules[r].select, "@solid") != 0;
+        bool idle = look->rules[r].select && strcmp(look->rules[r].select, "*") != 0 &&
+                    strcmp(look->rules[r].select, "@solid") != 0;
         for (size_t i = 0; idle && i < p->part_count; i++)
             idle = p->rule_of[i] != (int32_t)r;
         if (idle)
-            warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name, look->rules[r].select);
+            warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name,
+                         look->rules[r].select);
     }
 }
 
@@ -350,7 +362,7 @@ static lmn_status make_figures(plan *p, const plan_options *options, warnings *n
 /* Each mirror has a plane of its own, so each part of a mirror rule becomes a figure. */
 static lmn_status split_mirrors(plan *p, lmn_error *error)
 {
-    size_t before = p->figure_count, capacity = before + p->part_count;
+    size_t  before = p->figure_count, capacity = before + p->part_count;
     figure *grown = mem_realloc(p->figures, capacity * sizeof *grown);
     if (!grown)
         return error_memory(error);
@@ -390,7 +402,7 @@ static rule *add_rule(plan *p, const rule *from)
 static bool add_hidden_rule(plan *p, figure *f)
 {
     const layer_style *style = rule_use(f->rule, KIND_COMPOSE)->values;
-    rule *r = add_rule(p, f->rule);
+    rule              *r = add_rule(p, f->rule);
     for (size_t i = 0; r && i < r->use_counts[KIND_LINES]; i++) {
         lines_common *lines = r->uses[KIND_LINES][i].values;
         if (!isnan(style->hidden_colour.r))
@@ -410,7 +422,7 @@ static bool add_hidden_rule(plan *p, figure *f)
 static lmn_status split_focus(plan *p, size_t index, colour highlight, lmn_error *error)
 {
     figure *f = &p->figures[index];
-    figure opaque = {.box = box3_empty(), .highlight = highlight};
+    figure  opaque = {.box = box3_empty(), .highlight = highlight};
     opaque.designated = mem_calloc(p->part_count, sizeof *opaque.designated);
     rule *r = opaque.designated ? add_rule(p, f->rule) : NULL;
     if (!r) {
@@ -454,11 +466,11 @@ static lmn_status split_focus(plan *p, size_t index, colour highlight, lmn_error
 
 static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *error)
 {
-    figure *f = &p->figures[index];
+    figure  *f = &p->figures[index];
     layering how = layering_of(rule_use(f->rule, KIND_LAYERS));
     if (!how.focus[0])
         return LMN_OK;
-    selector *wanted = NULL;
+    selector  *wanted = NULL;
     lmn_status status = selector_parse(&wanted, how.focus, error);
     if (status != LMN_OK)
         return status;
@@ -528,7 +540,8 @@ static lmn_status find_ground(colour *out, const lmn_look *look, const char *bac
     return status;
 }
 
-static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, lmn_error *error)
+static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, const plan_options *options,
+                            lmn_error *error)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     memset(out, 0, sizeof *out);
@@ -570,7 +583,8 @@ static lmn_status plan_figures(plan *p, const plan_options *options, warnings *n
     return LMN_OK;
 }
 
-lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes, lmn_error *error)
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes,
+                       lmn_error *error)
 {
     lmn_status status = open_plan(out, pose, look, options, error);
     if (status == LMN_OK)

@@ -10,24 +10,24 @@
 
 /* The parts that one rule draws. */
 typedef struct figure {
-    const rule *rule;
-    const rule *hidden;     /* layered: the rule with its lines as hidden layers have them */
-    bool       *focus;      /* layered, per part: to be uncovered; NULL: nothing */
-    colour      highlight;  /* drawn in this colour instead of its own; alpha 0: as it is */
-    bool       *designated; /* per part: drawn by this figure */
-    size_t      part_count; /* designated ones */
-    box3        box;        /* of the designated parts, world axes */
-    unsigned    channels;
-    bool        complement; /* other figures' parts take part in edge detection */
-    bool        deferred;
-    bool        direct;     /* drawn straight onto the page */
-    bool        reflects;
-    bool        layered;    /* composed layer by layer */
-    bool        ghostly;    /* of ghosts alone */
-    bool        unmarked;   /* marks of its surface are left out */
-    layering    layering;
-    int         layer_count; /* layers at most */
-    const struct figure_textures *textures; /* that who draws has made for it */
+    const rule                   *rule;
+    const rule                   *hidden;     /* layered: the rule with its lines as hidden layers have them */
+    bool                         *focus;      /* layered, per part: to be uncovered; NULL: nothing */
+    colour                        highlight;  /* drawn in this colour instead of its own; alpha 0: as it is */
+    bool                         *designated; /* per part: drawn by this figure */
+    size_t                        part_count; /* designated ones */
+    box3                          box;        /* of the designated parts, world axes */
+    unsigned                      channels;
+    bool                          complement; /* other figures' parts take part in edge detection */
+    bool                          deferred;
+    bool                          direct; /* drawn straight onto the page */
+    bool                          reflects;
+    bool                          layered;  /* composed layer by layer */
+    bool                          ghostly;  /* of ghosts alone */
+    bool                          unmarked; /* marks of its surface are left out */
+    layering                      layering;
+    int                           layer_count; /* layers at most */
+    const struct figure_textures *textures;    /* that who draws has made for it */
 } figure;
 
 typedef struct plan {
@@ -35,24 +35,24 @@ typedef struct plan {
     const lmn_scene *scene;
     const lmn_look  *look;
     /* what stages need */
-    section          section;
-    bool             has_cut;      /* there may be cut faces */
-    double           crease_angle; /* radians */
-    mesh_needs      meshes;       /* of all techniques */
-    bool             has_removed;  /* the look selects what solids take away: ghosts are parts, too */
+    section    section;
+    bool       has_cut;      /* there may be cut faces */
+    double     crease_angle; /* radians */
+    mesh_needs meshes;       /* of all techniques */
+    bool       has_removed;  /* the look selects what solids take away: ghosts are parts, too */
     /* parts */
-    size_t           part_count;
-    int32_t         *rule_of;  /* per part: index of the look's rule that draws it; NONE: it is not drawn */
-    bool            *selected; /* per part: drawn by some rule */
-    bool            *opaque;   /* per part: drawn by a figure that is not seen through, so that it may hide others */
-    size_t           selected_count, opaque_count;
-    box3             box; /* of the selection, which the picture is fitted to, before it is cut */
+    size_t   part_count;
+    int32_t *rule_of;  /* per part: index of the look's rule that draws it; NONE: it is not drawn */
+    bool    *selected; /* per part: drawn by some rule */
+    bool    *opaque;   /* per part: drawn by a figure that is not seen through, so that it may hide others */
+    size_t   selected_count, opaque_count;
+    box3     box; /* of the selection, which the picture is fitted to, before it is cut */
     /* figures */
-    colour           ground;   /* of the page */
-    rule            *rules;    /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
-    size_t           rule_count;
-    figure          *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
-    size_t           figure_count;
+    colour  ground; /* of the page */
+    rule   *rules; /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
+    size_t  rule_count;
+    figure *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
+    size_t  figure_count;
 } plan;
 
 /* How a drawing wants its plan. */
@@ -65,9 +65,10 @@ typedef struct plan_options {
     bool        parts_only;    /* no figures, ghosts and sections: for who draws parts by the look's own rules */
 } plan_options;
 
-/* The pose and the look are lent. Errors: LMN_USAGE (bad selector, colour or section), LMN_FORMAT (nothing to draw), LMN_MEMORY. Warnings (rules that select nothing,
- * settings without effect) go to `notes`. */
-lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes, lmn_error *error);
+/* The pose and the look are lent. Errors: LMN_USAGE (bad selector, colour or section), LMN_FORMAT (nothing to
+ * draw), LMN_MEMORY. Warnings (rules that select nothing, settings without effect) go to `notes`. */
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes,
+                       lmn_error *error);
 void       plan_release(plan *p);
 
 /* The look's rule that draws a part; NULL: none does. */
@@ -81,7 +82,8 @@ bool shades_with_geometry(const technique_use *surface);
 
 /* The use of a kind that holds one technique; NULL when the rule has none. */
 const technique_use *rule_use(const rule *r, kind_id id);
-/* The composition of a rule when it shades the geometry again, so that nothing is drawn over surfaces; NULL: it does not. */
+/* The composition of a rule when it shades the geometry again, so that nothing is drawn over surfaces; NULL: it
+ * does not. */
 const technique_use *rule_shades_again(const rule *r);
 
 #endif

@@ -14,7 +14,8 @@ const char *refuse_file(const lmn_scene *scene)
 void refuse_in_file(lmn_error *error, const lmn_scene *scene)
 {
     const char *file = refuse_file(scene);
-    bool        model = error && (error->status == LMN_FORMAT || error->status == LMN_LIMIT || error->status == LMN_UNSUPPORTED);
+    bool        model =
+        error && (error->status == LMN_FORMAT || error->status == LMN_LIMIT || error->status == LMN_UNSUPPORTED);
     if (model && file && !error->file[0])
         snprintf(error->file, sizeof error->file, "%s", file);
 }
@@ -36,7 +37,7 @@ lmn_status refuse(const refusal *r, lmn_status status, warning_code code, const 
     return status;
 }
 
-/* --- time --------------------------------------------------------------------------------------------------------------- */
+/* --- time ----------------------------------------------------------------------------------------------- */
 
 static bool use_moves(kind_id id, const technique_use *use)
 {
@@ -67,9 +68,12 @@ lmn_status refuse_time(const refusal *r, const lmn_look *look, double time_s, bo
     if (time_s == 0)
         return LMN_OK;
     if (r->scene->animation_count)
-        return refuse(r, LMN_USAGE, WARNING_UNUSED, NULL, "animations are not posed yet: the scene is drawn in its rest pose at any time");
+        return refuse(r, LMN_USAGE, WARNING_UNUSED, NULL,
+                      "animations are not posed yet: the scene is drawn in its rest pose at any time");
     if (moves && look_moves(look))
         return LMN_OK;
-    return refuse(r, LMN_USAGE, WARNING_UNUSED, moves ? "leave the time out, or take a look that changes with it (perturb.boil, surface.change)" : "leave the time out",
+    return refuse(r, LMN_USAGE, WARNING_UNUSED,
+                  moves ? "leave the time out, or take a look that changes with it (perturb.boil, surface.change)"
+                        : "leave the time out",
                   "the model has no animation: it is drawn the same at any time");
 }

@@ -28,7 +28,8 @@ json_t *report_camera_json(const view_camera *c)
     json_object_set_new(out, "target", numbers(c->target, 3));
     json_object_set_new(out, "up", numbers(c->up, 3));
     json_object_set_new(out, "projection", json_string(c->orthographic ? "orthographic" : "perspective"));
-    json_object_set_new(out, "fov_deg", c->orthographic ? json_null() : json_real(c->fov_y * (180 / 3.14159265358979323846)));
+    json_object_set_new(out, "fov_deg",
+                        c->orthographic ? json_null() : json_real(c->fov_y * (180 / 3.14159265358979323846)));
     json_object_set_new(out, "near", json_real(c->near));
     json_object_set_new(out, "far", json_real(c->far));
     json_object_set_new(out, "view_matrix", numbers(c->view.m, 16));
@@ -40,8 +41,8 @@ json_t *report_warnings_json(const warnings *list)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < list->count; i++)
-        json_array_append_new(array, json_pack("{s:s, s:s, s:I}", "code", warning_code_text(list->items[i].code), "text",
-                                               list->items[i].text, "count", (json_int_t)list->items[i].count));
+        json_array_append_new(array, json_pack("{s:s, s:s, s:I}", "code", warning_code_text(list->items[i].code),
+                                               "text", list->items[i].text, "count", (json_int_t)list->items[i].count));
     return array;
 }
 

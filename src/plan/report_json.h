@@ -14,6 +14,6 @@ json_t *report_warnings_json(const warnings *list);
 /* How many strokes of each class; classes without any are left out. */
 json_t *report_strokes_json(const uint64_t counts[STROKE_CLASS_COUNT]);
 /* The text of a report, whose reference it takes over; NULL when memory is gone. */
-char   *report_dump(json_t *root);
+char *report_dump(json_t *root);
 
 #endif

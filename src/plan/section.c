@@ -8,7 +8,7 @@
 /* The parts that a selector matches; NULL text or an empty one: `otherwise`. Ghosts go with their parts. */
 static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *text, bool otherwise, lmn_error *error)
 {
-    selector *wanted = NULL;
+    selector  *wanted = NULL;
     lmn_status status = text && text[0] ? selector_parse(&wanted, text, error) : LMN_OK;
     *out = status == LMN_OK ? mem_calloc(scene->part_count + scene->ghost_count, sizeof **out) : NULL;
     if (status == LMN_OK && !*out)
@@ -25,14 +25,14 @@ static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *te
 
 lmn_status section_find(section *out, const pose *pose, const lmn_look *look, const char *select, lmn_error *error)
 {
-    const lmn_scene *scene = pose->scene;
+    const lmn_scene    *scene = pose->scene;
     const scene_values *v = look->wide[KIND_SCENE].values;
     *out = (section){.spared = NULL};
     memset(&out->cut, 0, sizeof out->cut);
     if (!v->cut.text[0])
         return LMN_OK;
-    bool *selected;
-    box3 box = box3_empty();
+    bool      *selected;
+    box3       box = box3_empty();
     lmn_status status = match_parts(&selected, scene, select, true, error);
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++)
         if (selected[i])

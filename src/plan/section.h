@@ -12,12 +12,13 @@ typedef struct section {
     bool *spared; /* per part and ghost; NULL: none. Owned. */
 } section;
 
-/* Percentages of a cut count along the bounds of what is selected (NULL: all). Errors: LMN_USAGE, LMN_MEMORY. Release it also after one. */
+/* Percentages of a cut count along the bounds of what is selected (NULL: all). Errors: LMN_USAGE, LMN_MEMORY.
+ * Release it also after one. */
 lmn_status section_find(section *out, const pose *pose, const lmn_look *look, const char *select, lmn_error *error);
 void       section_release(section *s);
 /* Of a scene with so many parts and ghosts; false when memory is gone. */
-bool       section_copy(section *out, const section *from, size_t part_count);
+bool section_copy(section *out, const section *from, size_t part_count);
 /* Of the same scene. */
-bool       section_equal(const section *a, const section *b, size_t part_count);
+bool section_equal(const section *a, const section *b, size_t part_count);
 
 #endif

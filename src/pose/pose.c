@@ -34,14 +34,21 @@ static void pose_part(pose *p, size_t part_index, mat4 *joints)
     const mesh *m = &p->scene->meshes[n->mesh];
     if (s)
         set_joints(joints, p->worlds, s);
-    p->parts[part_index] = (part_pose){.joints = s ? joints : NULL, .joint_count = s ? s->joint_count : 0, .weights = n->morph_weights ? n->morph_weights : m->morph_weights,
-                                       .weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count};
+    p->parts[part_index] =
+        (part_pose){.joints = s ? joints : NULL,
+                    .joint_count = s ? s->joint_count : 0,
+                    .weights = n->morph_weights ? n->morph_weights : m->morph_weights,
+                    .weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count};
 }
 
 lmn_status pose_create(pose *out, const lmn_scene *scene, lmn_error *error)
 {
     size_t all = scene->part_count + scene->ghost_count, joint_count = count_joints(scene);
-    *out = (pose){.scene = scene, .revision = scene->revision, .part_count = scene->part_count, .ghost_count = scene->ghost_count, .box = box3_empty()};
+    *out = (pose){.scene = scene,
+                  .revision = scene->revision,
+                  .part_count = scene->part_count,
+                  .ghost_count = scene->ghost_count,
+                  .box = box3_empty()};
     out->worlds = scene_world_matrices(scene);
     out->parts = mem_calloc(scene->part_count, sizeof *out->parts);
     out->part_boxes = mem_calloc(all, sizeof *out->part_boxes);
@@ -71,6 +78,8 @@ void pose_release(pose *p)
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance)
 {
     const node *n = &p->scene->nodes[p->scene->parts[part_index].node];
-    mat4 world = part_index < p->part_count && p->parts[part_index].joints ? mat4_identity() : p->worlds[p->scene->parts[part_index].node];
+    mat4        world = part_index < p->part_count && p->parts[part_index].joints
+                            ? mat4_identity()
+                            : p->worlds[p->scene->parts[part_index].node];
     return n->instance_count ? mat4_multiply(&world, &n->instances[instance]) : world;
 }

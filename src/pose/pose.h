@@ -1,4 +1,5 @@
-/* Where everything in a scene is at a time, in the world: what drawings read instead of the scene's own nodes, so that nothing but this room knows about time. */
+/* Where everything in a scene is at a time, in the world: what drawings read instead of the scene's own nodes, so
+ * that nothing but this room knows about time. */
 #ifndef LIMNER_POSE_POSE_H
 #define LIMNER_POSE_POSE_H
 
@@ -6,7 +7,8 @@
 
 /* How a part's mesh is deformed. */
 typedef struct part_pose {
-    const mat4  *joints; /* NULL: no skin; else from the mesh to the world, and the node's own matrix does not count (glTF 2.0, section 3.7.3.3) */
+    const mat4 *joints; /* NULL: no skin; else from the mesh to the world, and the node's own matrix does not count
+                           (glTF 2.0, section 3.7.3.3) */
     size_t       joint_count;
     const float *weights; /* of morph targets */
     size_t       weight_count;
@@ -19,11 +21,12 @@ typedef struct pose {
     part_pose       *parts;      /* per part */
     box3            *part_boxes; /* per part, then per ghost: deformed, world axes */
     size_t           part_count, ghost_count;
-    box3             box;        /* of all parts */
-    mat4            *joints;     /* of all parts, which point into it */
+    box3             box;    /* of all parts */
+    mat4            *joints; /* of all parts, which point into it */
 } pose;
 
-/* The scene at rest. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY. Release it also after one. */
+/* The scene at rest. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY. Release it
+ * also after one. */
 lmn_status pose_create(pose *out, const lmn_scene *scene, lmn_error *error);
 void       pose_release(pose *p);
 

@@ -29,20 +29,23 @@ void posed_release(posed_mesh *m)
 static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_pose *pose, lmn_error *error)
 {
     const render_vertices *split = &out->split;
-    uint32_t count = split->vertex_count;
-    const vec3 *normals = split->normals ? split->normals : p->normals;
-    bool done = true;
-    vertex_arrays *data = &out->data;
-    *data = (vertex_arrays){.vertex_count = count, .index_count = p->index_count,
-                            .indices = split->indices ? split->indices : p->indices, .normals = (const float *)normals,
-                            .positions = (const float *)p->positions, .colours = (const float *)p->colours};
+    uint32_t               count = split->vertex_count;
+    const vec3            *normals = split->normals ? split->normals : p->normals;
+    bool                   done = true;
+    vertex_arrays         *data = &out->data;
+    *data = (vertex_arrays){.vertex_count = count,
+                            .index_count = p->index_count,
+                            .indices = split->indices ? split->indices : p->indices,
+                            .normals = (const float *)normals,
+                            .positions = (const float *)p->positions,
+                            .colours = (const float *)p->colours};
     if (pose->joints || (pose->weights && p->morph_count)) {
         out->positions = mem_alloc(sizeof(vec3) * (size_t)count);
         out->normals = mem_alloc(sizeof(vec3) * (size_t)count);
         done = out->positions && out->normals;
         if (done)
-            mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, normals, split->source, count, out->positions,
-                      out->normals);
+            mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, normals, split->source,
+                      count, out->positions, out->normals);
         data->normals = (const float *)out->normals;
         data->positions = (const float *)out->positions;
     } else if (split->source) {

@@ -22,10 +22,12 @@ typedef struct posed_mesh {
 } posed_mesh;
 
 /* `crease_angle` in radians. Errors: LMN_MEMORY, those of mesh_make_normals. */
-lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose, lmn_error *error);
+lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose,
+                      lmn_error *error);
 void       posed_release(posed_mesh *m);
 
-/* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The caller frees it. */
+/* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The
+ * caller frees it. */
 void *posed_gather(const void *source, const uint32_t *map, uint32_t count, size_t size);
 
 #endif

@@ -29,7 +29,7 @@ static void sort_bucket(half_edge *edges, size_t count)
     }
     for (size_t i = 1; i < count; i++) {
         half_edge moved = edges[i];
-        size_t k = i;
+        size_t    k = i;
         for (; k > 0 && edges[k - 1].high > moved.high; k--)
             edges[k] = edges[k - 1];
         edges[k] = moved;
@@ -68,10 +68,10 @@ static void pair_bucket(const half_edge *edges, size_t count, uint32_t vertex, u
 
 uint32_t *mesh_adjacency(const primitive *p)
 {
-    size_t edge_count = p->index_count;
-    uint32_t *ids = mesh_position_ids(p);
-    uint32_t *opposite = mem_alloc(edge_count * sizeof *opposite);
-    uint32_t *starts = mem_calloc((size_t)p->vertex_count + 2, sizeof *starts);
+    size_t     edge_count = p->index_count;
+    uint32_t  *ids = mesh_position_ids(p);
+    uint32_t  *opposite = mem_alloc(edge_count * sizeof *opposite);
+    uint32_t  *starts = mem_calloc((size_t)p->vertex_count + 2, sizeof *starts);
     half_edge *edges = mem_alloc(edge_count * sizeof *edges);
     if (ids && opposite && starts && edges) {
         memset(opposite, 0xFF, edge_count * sizeof *opposite);

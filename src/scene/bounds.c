@@ -4,8 +4,8 @@
 #include "scene/mesh.h"
 #include "scene/solid.h"
 
-/* Bounds of turned and posed meshes are exact as long as all of a scene's nodes take about this many points; beyond, boxes
- * around boxes do. Otherwise a small file that draws one large mesh a million times would take hours. */
+/* Bounds of turned and posed meshes are exact as long as all of a scene's nodes take about this many points;
+ * beyond, boxes around boxes do. Otherwise a small file that draws one large mesh a million times would take hours. */
 enum { EXACT_POINTS = 1 << 26, EXACT_LEAST = 64 };
 
 static bool is_affordable(const lmn_scene *s, size_t points, size_t draws)
@@ -26,7 +26,7 @@ int32_t scene_next_node(const lmn_scene *s, int32_t root, int32_t current)
 mat4 *scene_world_matrices(const lmn_scene *s)
 {
     size_t bytes;
-    mat4 *worlds = size_mul(s->node_count, sizeof *worlds, &bytes) ? mem_alloc(bytes) : NULL;
+    mat4  *worlds = size_mul(s->node_count, sizeof *worlds, &bytes) ? mem_alloc(bytes) : NULL;
     if (!worlds)
         return NULL;
     for (size_t i = 0; i < s->node_count; i++) {
@@ -46,7 +46,7 @@ mat4 *scene_world_matrices(const lmn_scene *s)
 mat4 scene_world_matrix(const lmn_scene *s, int32_t node_index)
 {
     int32_t above[LIMIT_NODE_DEPTH + 1];
-    size_t depth = 0;
+    size_t  depth = 0;
     for (int32_t i = node_index; i != NONE && depth <= LIMIT_NODE_DEPTH; i = s->nodes[i].parent)
         above[depth++] = i;
     mat4 world = node_local_matrix(&s->nodes[above[--depth]]);
@@ -78,7 +78,7 @@ static box3 points_bounds(const vec3 *points, size_t count, const mat4 *m)
 static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, const mat4 *joints, size_t joint_count)
 {
     const float *weights = n->morph_weights ? n->morph_weights : m->morph_weights;
-    size_t weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
+    size_t       weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
     if (!joints && (p->morph_count == 0 || weight_count == 0))
         return NULL;
     vec3 *posed = mem_alloc(p->vertex_count * sizeof *posed);
@@ -92,7 +92,7 @@ static mat4 *skin_matrices(const lmn_scene *s, const mat4 *worlds, int32_t skin_
     if (skin_index == NONE || !is_affordable(s, s->skins[skin_index].joint_count, 1))
         return NULL;
     const skin *k = &s->skins[skin_index];
-    mat4 *joints = mem_alloc(k->joint_count * sizeof *joints);
+    mat4       *joints = mem_alloc(k->joint_count * sizeof *joints);
     for (size_t i = 0; joints && i < k->joint_count; i++)
         joints[i] = mat4_multiply(&worlds[k->joints[i]], &k->inverse_binds[i]);
     return joints;
@@ -120,15 +120,16 @@ static box3 placed_bounds(const vec3 *points, size_t count, box3 local, const no
     return box;
 }
 
-static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive *p, const mat4 *world, const mat4 *joints)
+static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive *p, const mat4 *world,
+                             const mat4 *joints)
 {
-    bool skinned = joints && p->joints && p->weights;
-    bool exact = is_affordable(s, p->vertex_count, node_draw_count(n));
+    bool   skinned = joints && p->joints && p->weights;
+    bool   exact = is_affordable(s, p->vertex_count, node_draw_count(n));
     size_t joint_count = skinned ? s->skins[n->skin].joint_count : 0;
     if (skinned && !exact)
         return joint_boxes(p->bounds, joints, joint_count);
     vec3 *posed = exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count) : NULL;
-    box3 local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
+    box3  local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
     /* Skinned vertices are already in the world: the node's own place does not move them. */
     if (!skinned || !posed)
         local = placed_bounds(posed ? posed : p->positions, p->vertex_count, local, n, world, exact);
@@ -139,13 +140,13 @@ static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive 
 box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
 {
     const node *n = &s->nodes[node_index];
-    box3 box = box3_empty();
+    box3        box = box3_empty();
     if (n->solid != NONE)
         return box3_transform(solid_bounds(&s->solids[n->solid]), &worlds[node_index]);
     if (n->mesh == NONE)
         return box;
     const mesh *m = &s->meshes[n->mesh];
-    mat4 *joints = skin_matrices(s, worlds, n->skin);
+    mat4       *joints = skin_matrices(s, worlds, n->skin);
     for (size_t i = 0; i < m->primitive_count; i++)
         box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints));
     mem_free(joints);

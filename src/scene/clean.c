@@ -127,7 +127,7 @@ static bool repair_normals(primitive *p, clean_counts *counts)
         return false;
     for (uint32_t i = 0; i < p->index_count; i += 3) {
         const uint32_t *t = p->indices + i;
-        dvec3 cross = face_cross(p->positions[t[0]], p->positions[t[1]], p->positions[t[2]]);
+        dvec3           cross = face_cross(p->positions[t[0]], p->positions[t[1]], p->positions[t[2]]);
         for (int k = 0; k < 3; k++) {
             sums[t[k]].x += cross.x;
             sums[t[k]].y += cross.y;

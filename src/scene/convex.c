@@ -12,7 +12,7 @@ enum { PAIRS_MAX = 4000000 };
 static bool is_closed(const primitive *p)
 {
     uint32_t *twins = mesh_adjacency(p);
-    bool closed = twins != NULL;
+    bool      closed = twins != NULL;
     for (uint32_t i = 0; i < p->index_count && closed; i++)
         closed = twins[i] != UINT32_MAX;
     mem_free(twins);
@@ -38,7 +38,7 @@ static bool is_in_front(const primitive *p, uint32_t triangle, double outward, d
     if (!(length > 0))
         return true;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
-        vec3 v = p->positions[i];
+        vec3   v = p->positions[i];
         double d = n[0] * ((double)v.x - c[0][0]) + n[1] * ((double)v.y - c[0][1]) + n[2] * ((double)v.z - c[0][2]);
         if (outward * d > tolerance * length)
             return false;

@@ -12,8 +12,8 @@ cut_verdict cut_judge_box(const cut *c, box3 box)
     uint32_t positive = 0, negative = 0; /* planes that all of the box is on these sides of */
     for (int i = 0; i < c->plane_count; i++) {
         const cut_plane *p = &c->planes[i];
-        double low = -p->offset, high = -p->offset;
-        const float *least = &box.min.x, *most = &box.max.x;
+        double           low = -p->offset, high = -p->offset;
+        const float     *least = &box.min.x, *most = &box.max.x;
         for (int k = 0; k < 3; k++) {
             double a = p->normal[k] * (double)least[k], b = p->normal[k] * (double)most[k];
             low += fmin(a, b);
@@ -28,17 +28,18 @@ cut_verdict cut_judge_box(const cut *c, box3 box)
     for (int i = 0; i < c->cell_count; i++) {
         bool outside = false;
         for (int k = 0; k < c->cells[i].count; k++)
-            outside = outside || ((c->cells[i].faces[k].positive ? negative : positive) >> c->cells[i].faces[k].plane & 1);
+            outside =
+                outside || ((c->cells[i].faces[k].positive ? negative : positive) >> c->cells[i].faces[k].plane & 1);
         if (!outside)
             return CUT_CROSSED;
     }
     return CUT_WHOLE;
 }
 
-/* --- the part's vertices ------------------------------------------------------------------------------------------- */
+/* --- the part's vertices -------------------------------------------------------------------------------- */
 
-/* One number for each place, however many primitives and corners share it: `numbers` for all vertices, one primitive's behind
- * the other's. */
+/* One number for each place, however many primitives and corners share it: `numbers` for all vertices, one
+ * primitive's behind the other's. */
 static uint32_t *number_places(cut_job *j, size_t input_count)
 {
     size_t total = 0;
@@ -48,7 +49,7 @@ static uint32_t *number_places(cut_job *j, size_t input_count)
         return NULL;
     primitive all = {.vertex_count = (uint32_t)total, .positions = mem_alloc(total * sizeof(vec3))};
     uint32_t *numbers = NULL;
-    size_t at = 0;
+    size_t    at = 0;
     for (size_t i = 0; all.positions && i < input_count; i++) {
         memcpy(all.positions + at, j->inputs[i].positions, j->inputs[i].vertex_count * sizeof(vec3));
         at += j->inputs[i].vertex_count;
@@ -60,9 +61,9 @@ static uint32_t *number_places(cut_job *j, size_t input_count)
             numbers[i] = numbers[numbers[i]]; /* the first at a place comes before the others */
             continue;
         }
-        vec3 p = all.positions[i];
+        vec3          p = all.positions[i];
         const double *e = j->world->m;
-        cut_vertex v = {.local = {p.x, p.y, p.z}};
+        cut_vertex    v = {.local = {p.x, p.y, p.z}};
         for (int k = 0; k < 3; k++)
             v.world[k] = e[k] * v.local[0] + e[4 + k] * v.local[1] + e[8 + k] * v.local[2] + e[12 + k];
         for (int k = 0; k < j->cut->plane_count; k++) {
@@ -77,7 +78,7 @@ static uint32_t *number_places(cut_job *j, size_t input_count)
     return numbers;
 }
 
-/* --- shells -------------------------------------------------------------------------------------------------------- */
+/* --- shells --------------------------------------------------------------------------------------------- */
 
 static uint32_t root_of(cut_vertex *v, uint32_t i)
 {
@@ -122,7 +123,8 @@ static void find_shells(cut_job *j, const uint32_t *numbers, size_t input_count)
             }
         }
     for (uint32_t i = 0; i < j->vertex_count; i++)
-        j->vertices[i].shell = j->vertices[i].shell == i ? (uint32_t)j->shell_count++ : j->vertices[j->vertices[i].shell].shell;
+        j->vertices[i].shell =
+            j->vertices[i].shell == i ? (uint32_t)j->shell_count++ : j->vertices[j->vertices[i].shell].shell;
     double total = 0;
     own = numbers;
     for (size_t i = 0; i < input_count; own += j->inputs[i++].vertex_count)
@@ -149,12 +151,12 @@ static void measure(cut_job *j)
     j->scale = extent > 0 && isfinite(extent) ? 1 / extent : 1;
 }
 
-/* --- surfaces ------------------------------------------------------------------------------------------------------ */
+/* --- surfaces ------------------------------------------------------------------------------------------- */
 
 /* Triangles that no plane touches with more than a corner are settled at once, the others become pieces. */
 static void sort_triangles(cut_job *j, const uint32_t *numbers, size_t input_count)
 {
-    uint32_t all = j->cut->plane_count == 32 ? UINT32_MAX : (UINT32_C(1) << j->cut->plane_count) - 1;
+    uint32_t        all = j->cut->plane_count == 32 ? UINT32_MAX : (UINT32_C(1) << j->cut->plane_count) - 1;
     const uint32_t *own = numbers;
     for (size_t i = 0; i < input_count && !j->failed; own += j->inputs[i++].vertex_count) {
         cut_surface *s = &j->out->surfaces[i];
@@ -167,7 +169,8 @@ static void sort_triangles(cut_job *j, const uint32_t *numbers, size_t input_cou
                 in[k] = all & ~(j->vertices[c[k]].positive | j->vertices[c[k]].negative);
             }
             if ((positive & negative) | (in[0] & in[1]) | (in[1] & in[2]) | (in[2] & in[0])) {
-                cut_piece *p = job_add_piece(j, (cut_point[]){{c[0], {1, 0, 0}}, {c[1], {0, 1, 0}}, {c[2], {0, 0, 1}}}, 3, (uint32_t)i, t);
+                cut_piece *p = job_add_piece(j, (cut_point[]){{c[0], {1, 0, 0}}, {c[1], {0, 1, 0}}, {c[2], {0, 0, 1}}},
+                                             3, (uint32_t)i, t);
                 if (p)
                     p->whole = true;
             } else if (!cut_is_inside(j->cut, positive, negative)) {
@@ -187,13 +190,15 @@ static void settle_flat(cut_job *j, cut_piece *p)
     for (int k = 0; k < j->cut->plane_count; k++) {
         if (touching >> k & 1)
             continue;
-        double sum = 0;
+        double        sum = 0;
         const double *a = j->vertices[j->points[p->first].vertex].world;
         for (uint32_t i = 1; i + 1 < p->count; i++) {
-            const double *b = j->vertices[j->points[p->first + i].vertex].world, *c = j->vertices[j->points[p->first + i + 1].vertex].world;
+            const double *b = j->vertices[j->points[p->first + i].vertex].world,
+                         *c = j->vertices[j->points[p->first + i + 1].vertex].world;
             const double *n = j->cut->planes[k].normal;
             double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-            sum += n[0] * (u[1] * v[2] - u[2] * v[1]) + n[1] * (u[2] * v[0] - u[0] * v[2]) + n[2] * (u[0] * v[1] - u[1] * v[0]);
+            sum += n[0] * (u[1] * v[2] - u[2] * v[1]) + n[1] * (u[2] * v[0] - u[0] * v[2]) +
+                   n[2] * (u[0] * v[1] - u[1] * v[0]);
         }
         if ((sum > 0) != j->inside_out)
             p->negative |= UINT32_C(1) << k;
@@ -223,14 +228,14 @@ static void make_caps(cut_job *j)
     for (int i = 0; i < j->cut->cell_count; i++)
         for (int k = 0; k < j->cut->cells[i].count && !j->failed; k++) {
             const cut_face *f = &j->cut->cells[i].faces[k];
-            uint32_t bit = UINT32_C(1) << f->plane;
+            uint32_t        bit = UINT32_C(1) << f->plane;
             if (!(done[f->positive] & bit))
                 job_cap(j, f->plane, f->positive);
             done[f->positive] |= bit;
         }
 }
 
-/* --- what is left -------------------------------------------------------------------------------------------------- */
+/* --- what is left --------------------------------------------------------------------------------------- */
 
 /* Corner k of a fan's triangle i. */
 static const cut_point *fan_corner(const cut_job *j, const cut_piece *p, uint32_t start, uint32_t i, uint32_t k)
@@ -263,7 +268,7 @@ static void write_surface(cut_job *j, const cut_piece *p)
     for (uint32_t i = 1; i + 1 < p->count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             const cut_point *from = fan_corner(j, p, start, i, k);
-            cut_corner *c = &s->corners[s->corner_count++];
+            cut_corner      *c = &s->corners[s->corner_count++];
             *c = (cut_corner){.position = place_of(j, from), .triangle = p->triangle};
             memcpy(c->weights, from->weights, sizeof c->weights);
         }
@@ -272,7 +277,8 @@ static void write_surface(cut_job *j, const cut_piece *p)
 static void write_cap(cut_job *j, const cut_piece *p)
 {
     cut_cap *cap = &j->out->caps[p->cap];
-    if (!mem_grow((void **)&cap->positions, &cap->capacity, cap->count + 3 * (size_t)(p->count - 2), sizeof *cap->positions)) {
+    if (!mem_grow((void **)&cap->positions, &cap->capacity, cap->count + 3 * (size_t)(p->count - 2),
+                  sizeof *cap->positions)) {
         j->failed = true;
         return;
     }
@@ -292,14 +298,14 @@ static void write_pieces(cut_job *j)
             write_surface(j, p);
     }
     cut_result *r = j->out;
-    size_t kept = 0;
+    size_t      kept = 0;
     for (size_t i = 0; i < r->cap_count; i++)
         if (r->caps[i].count)
             r->caps[kept++] = r->caps[i];
     r->cap_count = kept;
 }
 
-/* --- the part ------------------------------------------------------------------------------------------------------ */
+/* --- the part ------------------------------------------------------------------------------------------- */
 
 static cut_verdict judge_vertices(const cut_job *j)
 {
@@ -315,7 +321,9 @@ static cut_verdict judge_vertices(const cut_job *j)
     for (int i = 0; i < j->cut->cell_count; i++) {
         bool outside = false;
         for (int k = 0; k < j->cut->cells[i].count; k++)
-            outside = outside || !((j->cut->cells[i].faces[k].positive ? some_positive : some_negative) >> j->cut->cells[i].faces[k].plane & 1);
+            outside = outside || !((j->cut->cells[i].faces[k].positive ? some_positive : some_negative) >>
+                                       j->cut->cells[i].faces[k].plane &
+                                   1);
         if (!outside)
             return CUT_CROSSED;
     }
@@ -330,10 +338,11 @@ static void job_release(cut_job *j)
     mem_free(j->edges);
 }
 
-lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_input *inputs, size_t input_count, lmn_error *error)
+lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_input *inputs, size_t input_count,
+                    lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    cut_job j = {.cut = c, .inputs = inputs, .world = world, .out = out};
+    cut_job   j = {.cut = c, .inputs = inputs, .world = world, .out = out};
     uint32_t *numbers = number_places(&j, input_count);
     out->surfaces = mem_calloc(input_count, sizeof *out->surfaces);
     out->surface_count = out->surfaces ? input_count : 0;

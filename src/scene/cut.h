@@ -1,5 +1,5 @@
-/* Sections: parts cut by planes and boxes, and the faces that close them. What is cut away is a union of cells, each the
- * inside of a few half-spaces. All is done in the mesh, so that whatever draws sees ordinary geometry. */
+/* Sections: parts cut by planes and boxes, and the faces that close them. What is cut away is a union of cells,
+ * each the inside of a few half-spaces. All is done in the mesh, so that whatever draws sees ordinary geometry. */
 #ifndef LIMNER_SCENE_CUT_H
 #define LIMNER_SCENE_CUT_H
 
@@ -48,8 +48,8 @@ typedef struct cut_input {
 
 /* A corner of a new triangle: where it is and what it is made of. */
 typedef struct cut_corner {
-    vec3     position; /* before `world` */
-    uint32_t triangle; /* of the primitive */
+    vec3     position;   /* before `world` */
+    uint32_t triangle;   /* of the primitive */
     float    weights[3]; /* of that triangle's corners, sum 1 */
 } cut_corner;
 
@@ -63,17 +63,17 @@ typedef struct cut_surface {
 
 /* A cut face: flat, of one body (a shell with its cavities). */
 typedef struct cut_cap {
-    int32_t   plane;
-    bool      positive;  /* the side that its normal points to: what was cut away */
-    uint32_t  body;      /* counts from 0 within the part, the same for all its faces */
-    uint32_t  primitive; /* that most of its outline belongs to */
-    vec3      normal;    /* before the normal matrix of `world` */
-    vec3     *positions; /* three a triangle, before `world`; wound as the part's own triangles */
-    size_t    count, capacity;
+    int32_t  plane;
+    bool     positive;  /* the side that its normal points to: what was cut away */
+    uint32_t body;      /* counts from 0 within the part, the same for all its faces */
+    uint32_t primitive; /* that most of its outline belongs to */
+    vec3     normal;    /* before the normal matrix of `world` */
+    vec3    *positions; /* three a triangle, before `world`; wound as the part's own triangles */
+    size_t   count, capacity;
 } cut_cap;
 
 typedef struct cut_result {
-    cut_verdict  verdict; /* surfaces and caps are there when CUT_CROSSED */
+    cut_verdict  verdict;  /* surfaces and caps are there when CUT_CROSSED */
     cut_surface *surfaces; /* as many as inputs */
     size_t       surface_count;
     cut_cap     *caps;
@@ -82,7 +82,8 @@ typedef struct cut_result {
 } cut_result;
 
 /* Cuts one instance of a part. Errors: LMN_MEMORY; the result can be released in any case. */
-lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_input *inputs, size_t input_count, lmn_error *error);
+lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_input *inputs, size_t input_count,
+                    lmn_error *error);
 void       cut_result_release(cut_result *r);
 
 #endif

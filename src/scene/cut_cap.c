@@ -1,6 +1,6 @@
-/* Cut faces. The outline of the material in a plane is filled once, whatever else is cut, then divided by the other planes; what
- * borders on a cell from outside stays. Bodies that share a plane but not their material are filled one by one, so that each can
- * be hatched in its own way. */
+/* Cut faces. The outline of the material in a plane is filled once, whatever else is cut, then divided by the other
+ * planes; what borders on a cell from outside stays. Bodies that share a plane but not their material are filled
+ * one by one, so that each can be hatched in its own way. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,21 +21,21 @@ typedef struct body {
 } body;
 
 typedef struct section {
-    cut_job   *job;
-    int        plane;
-    bool       positive;
-    double     axes[2][3]; /* with the cap's normal a right-handed system */
-    cut_loops  loops;
-    size_t    *order;      /* loops, those of a body together */
-    uint32_t  *shell_of;   /* per loop */
-    body      *bodies;
-    size_t     body_count;
-    bool       turned;     /* all outlines run the wrong way around */
-    cut_contour *contours; /* room for what is filled at once */
+    cut_job      *job;
+    int           plane;
+    bool          positive;
+    double        axes[2][3]; /* with the cap's normal a right-handed system */
+    cut_loops     loops;
+    size_t       *order;    /* loops, those of a body together */
+    uint32_t     *shell_of; /* per loop */
+    body         *bodies;
+    size_t        body_count;
+    bool          turned;   /* all outlines run the wrong way around */
+    cut_contour  *contours; /* room for what is filled at once */
     cut_triangles triangles;
 } section;
 
-/* --- the outline --------------------------------------------------------------------------------------------------- */
+/* --- the outline ---------------------------------------------------------------------------------------- */
 
 static bool lies_in(const cut_job *j, uint32_t vertex, uint32_t bit)
 {
@@ -45,11 +45,11 @@ static bool lies_in(const cut_job *j, uint32_t vertex, uint32_t bit)
 /* Edges in the plane of pieces with material on the side that stays. */
 static bool collect(section *s)
 {
-    cut_job *j = s->job;
-    uint32_t bit = UINT32_C(1) << s->plane;
+    cut_job     *j = s->job;
+    uint32_t     bit = UINT32_C(1) << s->plane;
     cut_segment *segments = NULL;
-    size_t count = 0, capacity = 0;
-    bool done = true;
+    size_t       count = 0, capacity = 0;
+    bool         done = true;
     for (size_t i = 0; i < j->surface_pieces && done; i++) {
         const cut_piece *p = &j->pieces[i];
         if (!p->count || !((s->positive ? p->negative : p->positive) & bit))
@@ -60,7 +60,8 @@ static bool collect(section *s)
                 continue;
             done = mem_grow((void **)&segments, &capacity, count + 1, sizeof *segments);
             if (done) /* the face runs against its neighbours */
-                segments[count++] = j->inside_out ? (cut_segment){a, b, p->primitive} : (cut_segment){b, a, p->primitive};
+                segments[count++] =
+                    j->inside_out ? (cut_segment){a, b, p->primitive} : (cut_segment){b, a, p->primitive};
         }
     }
     done = done && outline_chain(&s->loops, j, segments, count);
@@ -71,7 +72,7 @@ static bool collect(section *s)
 static void set_axes(section *s)
 {
     const double *n = s->job->cut->planes[s->plane].normal;
-    int least = fabs(n[0]) <= fabs(n[1]) ? (fabs(n[0]) <= fabs(n[2]) ? 0 : 2) : (fabs(n[1]) <= fabs(n[2]) ? 1 : 2);
+    int    least = fabs(n[0]) <= fabs(n[1]) ? (fabs(n[0]) <= fabs(n[2]) ? 0 : 2) : (fabs(n[1]) <= fabs(n[2]) ? 1 : 2);
     double axis[3] = {0, 0, 0}, u[3], length = 0, sign = s->positive ? 1 : -1;
     axis[least] = 1;
     for (int k = 0; k < 3; k++) {
@@ -84,7 +85,7 @@ static void set_axes(section *s)
         s->axes[1][k] = sign * (n[(k + 1) % 3] * s->axes[0][(k + 2) % 3] - n[(k + 2) % 3] * s->axes[0][(k + 1) % 3]);
 }
 
-/* --- bodies -------------------------------------------------------------------------------------------------------- */
+/* --- bodies --------------------------------------------------------------------------------------------- */
 
 static uint32_t root(uint32_t *parents, uint32_t i)
 {
@@ -97,7 +98,7 @@ static uint32_t root(uint32_t *parents, uint32_t i)
 static bool name_loops(section *s)
 {
     const cut_loops *l = &s->loops;
-    uint32_t *parents = mem_alloc((s->job->shell_count + 1) * sizeof *parents);
+    uint32_t        *parents = mem_alloc((s->job->shell_count + 1) * sizeof *parents);
     s->shell_of = mem_alloc((l->count + 1) * sizeof *s->shell_of);
     s->order = mem_alloc((l->count + 1) * sizeof *s->order);
     s->contours = mem_alloc((2 * l->count + 1) * sizeof *s->contours);
@@ -127,14 +128,14 @@ typedef struct named_loop {
 static int compare_loops(const void *a, const void *b)
 {
     const named_loop *s = a, *t = b;
-    int shells = (s->shell > t->shell) - (s->shell < t->shell);
+    int               shells = (s->shell > t->shell) - (s->shell < t->shell);
     return shells ? shells : (s->loop > t->loop) - (s->loop < t->loop);
 }
 
 static double measure_loop(section *s, size_t loop, body *b)
 {
     const cut_loops *l = &s->loops;
-    double area = 0, before[2];
+    double           area = 0, before[2];
     contour_place(s->job, s->axes, l->points[l->starts[loop + 1] - 1], before);
     for (size_t k = l->starts[loop]; k < l->starts[loop + 1]; k++) {
         double at[2];
@@ -151,7 +152,7 @@ static double measure_loop(section *s, size_t loop, body *b)
 
 static bool find_bodies(section *s)
 {
-    size_t count = s->loops.directed;
+    size_t      count = s->loops.directed;
     named_loop *named = mem_alloc((count + 1) * sizeof *named);
     s->bodies = mem_alloc((count + 1) * sizeof *s->bodies);
     if (!named || !s->bodies) {
@@ -164,7 +165,8 @@ static bool find_bodies(section *s)
     double total = 0;
     for (size_t i = 0; i < count; i++) {
         if (i == 0 || named[i].shell != named[i - 1].shell)
-            s->bodies[s->body_count++] = (body){named[i].shell, 0, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, i, 0, -1};
+            s->bodies[s->body_count++] =
+                (body){named[i].shell, 0, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, i, 0, -1};
         body *b = &s->bodies[s->body_count - 1];
         s->order[i] = named[i].loop;
         b->count++;
@@ -183,7 +185,7 @@ static bool find_bodies(section *s)
 static int winding(section *s, const body *b, const double at[2])
 {
     const cut_loops *l = &s->loops;
-    int around = 0;
+    int              around = 0;
     for (size_t i = b->first; i < b->first + b->count; i++) {
         size_t loop = s->order[i];
         double p[2], q[2];
@@ -217,23 +219,24 @@ static void place_hollows(section *s)
         contour_place(s->job, s->axes, s->loops.points[s->loops.starts[s->order[hollow->first]]], at);
         for (size_t k = 0; k < s->body_count; k++) {
             const body *b = &s->bodies[k];
-            bool better = b->area > 0 && (hollow->within < 0 || b->area < s->bodies[hollow->within].area);
+            bool        better = b->area > 0 && (hollow->within < 0 || b->area < s->bodies[hollow->within].area);
             if (better && boxes_meet(hollow, b) && winding(s, b, at) != 0)
                 hollow->within = (int32_t)k;
         }
     }
 }
 
-/* --- filling ------------------------------------------------------------------------------------------------------- */
+/* --- filling -------------------------------------------------------------------------------------------- */
 
 /* Adds its outline, running so that it counts as material or as its absence. */
 static size_t add_body(section *s, size_t count, const body *b, bool material)
 {
     const cut_loops *l = &s->loops;
-    bool reversed = ((b->area >= 0) != material) != s->turned;
+    bool             reversed = ((b->area >= 0) != material) != s->turned;
     for (size_t i = b->first; i < b->first + b->count; i++) {
         size_t loop = s->order[i];
-        s->contours[count++] = (cut_contour){l->points + l->starts[loop], l->starts[loop + 1] - l->starts[loop], reversed};
+        s->contours[count++] =
+            (cut_contour){l->points + l->starts[loop], l->starts[loop + 1] - l->starts[loop], reversed};
     }
     return count;
 }
@@ -242,18 +245,19 @@ static size_t add_body(section *s, size_t count, const body *b, bool material)
 static bool fill_body(section *s, size_t index)
 {
     const body *b = &s->bodies[index];
-    size_t count = add_body(s, 0, b, true), own;
+    size_t      count = add_body(s, 0, b, true), own;
     for (size_t i = 0; i < s->body_count; i++)
         if (s->bodies[i].within == (int32_t)index)
             count = add_body(s, count, &s->bodies[i], false);
     own = count;
     for (size_t i = 0; i < s->body_count; i++) {
         const body *other = &s->bodies[i];
-        double smaller = fabs(other->area) - fabs(b->area);
+        double      smaller = fabs(other->area) - fabs(b->area);
         if (i != index && other->within < 0 && boxes_meet(b, other) && (smaller < 0 || (smaller == 0 && i < index)))
             count = add_body(s, count, other, false);
     }
-    return contours_fill(&s->triangles, s->job, s->plane, s->axes, s->contours, count, count > own ? CUT_RULE_POSITIVE : CUT_RULE_NONZERO);
+    return contours_fill(&s->triangles, s->job, s->plane, s->axes, s->contours, count,
+                         count > own ? CUT_RULE_POSITIVE : CUT_RULE_NONZERO);
 }
 
 /* Loops from `first` on at once. */
@@ -265,12 +269,12 @@ static bool fill_loops(section *s, size_t first, size_t end, cut_rule rule)
     return contours_fill(&s->triangles, s->job, s->plane, s->axes, s->contours, end - first, rule);
 }
 
-/* --- the faces ----------------------------------------------------------------------------------------------------- */
+/* --- the faces ------------------------------------------------------------------------------------------ */
 
 static vec3 normal_before(const section *s)
 {
     const double *n = s->job->cut->planes[s->plane].normal, *m = s->job->world->m;
-    double out[3], length = 0;
+    double        out[3], length = 0;
     for (int k = 0; k < 3; k++) {
         out[k] = (m[4 * k] * n[0] + m[4 * k + 1] * n[1] + m[4 * k + 2] * n[2]) * (s->positive ? 1 : -1);
         length += out[k] * out[k];
@@ -282,9 +286,9 @@ static vec3 normal_before(const section *s)
 /* What was filled last becomes a cut face, as far as it borders on what was cut away. */
 static void make_cap(section *s, uint32_t number, size_t loop)
 {
-    cut_job *j = s->job;
+    cut_job    *j = s->job;
     cut_result *r = j->out;
-    size_t first = j->piece_count;
+    size_t      first = j->piece_count;
     for (size_t i = 0; i < s->triangles.count && !j->failed; i += 3) {
         const uint32_t *c = &s->triangles.corners[i];
         job_add_piece(j, (cut_point[]){{c[0], {0}}, {c[1], {0}}, {c[2], {0}}}, 3, 0, 0);
@@ -303,15 +307,18 @@ static void make_cap(section *s, uint32_t number, size_t loop)
         j->failed = true;
         return;
     }
-    r->caps[r->cap_count++] = (cut_cap){.plane = s->plane, .positive = s->positive, .body = number,
-                                        .primitive = s->loops.primitives[loop], .normal = normal_before(s)};
+    r->caps[r->cap_count++] = (cut_cap){.plane = s->plane,
+                                        .positive = s->positive,
+                                        .body = number,
+                                        .primitive = s->loops.primitives[loop],
+                                        .normal = normal_before(s)};
 }
 
 static void fill_all(section *s)
 {
-    cut_job *j = s->job;
+    cut_job         *j = s->job;
     const cut_loops *l = &s->loops;
-    bool together = s->body_count > BODIES_MAX;
+    bool             together = s->body_count > BODIES_MAX;
     if (together) {
         if (fill_loops(s, 0, l->directed, CUT_RULE_NONZERO))
             make_cap(s, 0, 0);

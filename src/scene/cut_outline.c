@@ -1,6 +1,6 @@
-/* Segments to loops. In a closed mesh each vertex has as many segments in as out, so that walking along them always comes back.
- * Where it does not, ends that nearly meet are joined; what still does not close is walked in either direction, which helps with
- * triangles of mixed winding, and what is open then stays open. */
+/* Segments to loops. In a closed mesh each vertex has as many segments in as out, so that walking along them always
+ * comes back. Where it does not, ends that nearly meet are joined; what still does not close is walked in either
+ * direction, which helps with triangles of mixed winding, and what is open then stays open. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +19,8 @@ typedef struct outline {
     size_t         count, capacity;
     uint32_t      *vertices; /* ascending */
     size_t         vertex_count;
-    int32_t       *excess;   /* segments out − segments in; undirected: how many */
-    uint32_t      *group;    /* union-find */
+    int32_t       *excess; /* segments out − segments in; undirected: how many */
+    uint32_t      *group;  /* union-find */
     bool           failed;
 } outline;
 
@@ -78,7 +78,7 @@ static uint32_t high_end(const cut_segment *s)
 static int compare_segments(const void *a, const void *b)
 {
     const cut_segment *s = a, *t = b;
-    int ends = (low_end(s) > low_end(t)) - (low_end(s) < low_end(t));
+    int                ends = (low_end(s) > low_end(t)) - (low_end(s) < low_end(t));
     if (ends == 0)
         ends = (high_end(s) > high_end(t)) - (high_end(s) < high_end(t));
     if (ends == 0)
@@ -93,7 +93,9 @@ static size_t cancel(cut_segment *segments, size_t count, bool any_way)
     qsort(segments, count, sizeof *segments, compare_segments);
     for (size_t i = 0, end; i < count; i = end) {
         long net = 0;
-        for (end = i; end < count && low_end(&segments[end]) == low_end(&segments[i]) && high_end(&segments[end]) == high_end(&segments[i]); end++)
+        for (end = i; end < count && low_end(&segments[end]) == low_end(&segments[i]) &&
+                      high_end(&segments[end]) == high_end(&segments[i]);
+             end++)
             net += segments[end].from < segments[end].to ? 1 : -1;
         cut_segment s = segments[i];
         if (s.from == s.to)
@@ -125,7 +127,7 @@ static void find_groups(outline *o)
     }
 }
 
-/* --- gaps ---------------------------------------------------------------------------------------------------------- */
+/* --- gaps ----------------------------------------------------------------------------------------------- */
 
 typedef struct loose_end {
     double   along; /* sorted by this: a direction that nothing in a model is likely to share */
@@ -137,14 +139,15 @@ typedef struct loose_end {
 static int compare_ends(const void *a, const void *b)
 {
     const loose_end *s = a, *t = b;
-    int along = (s->along > t->along) - (s->along < t->along);
+    int              along = (s->along > t->along) - (s->along < t->along);
     return along ? along : (s->place > t->place) - (s->place < t->place);
 }
 
 static double distance(const outline *o, uint32_t a, uint32_t b)
 {
     const double *p = o->job->vertices[o->vertices[a]].world, *q = o->job->vertices[o->vertices[b]].world;
-    return sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2])) * o->job->scale;
+    return sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2])) *
+           o->job->scale;
 }
 
 static bool add_segment(outline *o, uint32_t from, uint32_t to)
@@ -171,7 +174,8 @@ static bool join_end(outline *o, loose_end *ends, size_t count, size_t i)
     if (best == count)
         return true;
     ends[i].taken = ends[best].taken = true;
-    uint32_t from = ends[i].sign < 0 ? ends[i].place : ends[best].place, to = ends[i].sign < 0 ? ends[best].place : ends[i].place;
+    uint32_t from = ends[i].sign < 0 ? ends[i].place : ends[best].place,
+             to = ends[i].sign < 0 ? ends[best].place : ends[i].place;
     o->excess[from]++;
     o->excess[to] += ends[i].sign == 0 ? 1 : -1;
     return add_segment(o, from, to);
@@ -189,8 +193,8 @@ static bool join_gaps(outline *o, bool any_way)
     count = 0;
     for (uint32_t i = 0; i < o->vertex_count; i++) {
         const double *p = o->job->vertices[o->vertices[i]].world;
-        double along = (0.5377 * p[0] + 0.6532 * p[1] + 0.5332 * p[2]) * o->job->scale;
-        int copies = any_way ? o->excess[i] & 1 : abs(o->excess[i]);
+        double        along = (0.5377 * p[0] + 0.6532 * p[1] + 0.5332 * p[2]) * o->job->scale;
+        int           copies = any_way ? o->excess[i] & 1 : abs(o->excess[i]);
         for (int k = 0; k < copies && isfinite(along); k++)
             ends[count++] = (loose_end){along, i, any_way ? 0 : o->excess[i] > 0 ? 1 : -1, false};
     }
@@ -203,7 +207,7 @@ static bool join_gaps(outline *o, bool any_way)
     return done;
 }
 
-/* --- walking ------------------------------------------------------------------------------------------------------- */
+/* --- walking -------------------------------------------------------------------------------------------- */
 
 /* Which segments leave each vertex. */
 typedef struct walk {
@@ -225,8 +229,13 @@ static void walk_release(walk *w)
 
 static bool walk_make(walk *w, const outline *o, const cut_segment *segments, size_t count, bool any_way)
 {
-    *w = (walk){o, segments, count, mem_calloc(o->vertex_count + 1, sizeof(size_t)), mem_alloc(o->vertex_count * sizeof(size_t)),
-                mem_alloc(2 * count * sizeof(uint32_t)), mem_calloc(count, sizeof(bool))};
+    *w = (walk){o,
+                segments,
+                count,
+                mem_calloc(o->vertex_count + 1, sizeof(size_t)),
+                mem_alloc(o->vertex_count * sizeof(size_t)),
+                mem_alloc(2 * count * sizeof(uint32_t)),
+                mem_calloc(count, sizeof(bool))};
     if (!w->starts || !w->next || !w->leaving || !w->used)
         return false;
     for (size_t i = 0; i < count; i++) {
@@ -260,7 +269,7 @@ static uint32_t leave(walk *w, uint32_t at)
 /* Walks from a segment's beginning until it comes back. Loops that do not are dropped. */
 static bool walk_from(walk *w, uint32_t start, cut_loops *out, bool *closed)
 {
-    size_t before = out->point_count;
+    size_t   before = out->point_count;
     uint32_t at = start, primitive = 0;
     *closed = false;
     for (uint32_t s = leave(w, at); s != UINT32_MAX; s = leave(w, at)) {
@@ -313,9 +322,9 @@ static bool walk_all(outline *o, const cut_segment *segments, size_t count, bool
 /* Moves segments of groups with loose ends behind the others; returns how many others there are. */
 static size_t part_closed(outline *o)
 {
-    bool *loose = mem_calloc(o->vertex_count, sizeof *loose);
+    bool        *loose = mem_calloc(o->vertex_count, sizeof *loose);
     cut_segment *copy = mem_copy(o->segments, o->count * sizeof *copy);
-    size_t closed = 0, back = o->count;
+    size_t       closed = 0, back = o->count;
     if (!loose || !copy)
         o->failed = true;
     for (uint32_t i = 0; i < o->vertex_count && !o->failed; i++)
@@ -364,7 +373,7 @@ bool outline_chain(cut_loops *out, const cut_job *j, cut_segment *segments, size
 {
     memset(out, 0, sizeof *out);
     outline o = {.job = j, .segments = mem_copy(segments, count * sizeof *segments), .count = count, .capacity = count};
-    bool done = mem_grow((void **)&out->starts, &out->start_capacity, 1, sizeof *out->starts) && o.segments;
+    bool    done = mem_grow((void **)&out->starts, &out->start_capacity, 1, sizeof *out->starts) && o.segments;
     if (done)
         out->starts[0] = 0;
     done = done && (count == 0 || chain(&o, out));

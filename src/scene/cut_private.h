@@ -23,7 +23,7 @@ typedef struct cut_piece {
     uint32_t positive, negative; /* of its points together; once sliced, of the material behind it */
     bool     whole;              /* still the triangle that it was */
     bool     kept;
-    int32_t  cap;                /* of the result, −1: a surface's */
+    int32_t  cap; /* of the result, −1: a surface's */
 } cut_piece;
 
 /* Which vertex divides an edge. */
@@ -47,15 +47,15 @@ typedef struct cut_job {
     size_t           edge_slots, edge_count;
     size_t           shell_count;
     double           centre[3], scale; /* of the part: brings it to about 1 */
-    bool             inside_out; /* the part's triangles face inward */
-    bool             failed;     /* memory is gone */
+    bool             inside_out;       /* the part's triangles face inward */
+    bool             failed;           /* memory is gone */
     cut_result      *out;
 } cut_job;
 
 /* --- cut_slice.c --- */
 uint32_t job_add_vertex(cut_job *j, const cut_vertex *v);
 /* A point between others, on the plane (−1: on none). Its sides agree with those it lies between. */
-uint32_t job_blend(cut_job *j, const uint32_t *from, const double *weights, int count, int plane);
+uint32_t   job_blend(cut_job *j, const uint32_t *from, const double *weights, int count, int plane);
 cut_piece *job_add_piece(cut_job *j, const cut_point *points, uint32_t count, uint32_t primitive, uint32_t triangle);
 /* Divides pieces from `first` on along the plane. */
 void job_slice(cut_job *j, size_t first, int plane);
@@ -84,9 +84,9 @@ typedef struct cut_loops {
     size_t   *starts, start_capacity;
     uint32_t *primitives; /* of each loop's first segment */
     size_t    primitive_capacity;
-    size_t    count; /* starts has one more */
+    size_t    count;    /* starts has one more */
     size_t    directed; /* the loops before have their material on the left; from here on, any side */
-    bool      open; /* something did not close */
+    bool      open;     /* something did not close */
 } cut_loops;
 /* Chains segments to loops; `segments` is rearranged. False when memory is gone. */
 bool outline_chain(cut_loops *out, const cut_job *j, cut_segment *segments, size_t count);
@@ -106,7 +106,9 @@ typedef struct cut_triangles {
 } cut_triangles;
 /* Where a vertex is along the axes, in parts of the part's extent. */
 void contour_place(const cut_job *j, double axes[2][3], uint32_t vertex, double out[2]);
-/* Fills the contours; new vertices may be added to the job. False when it cannot be done; memory trouble is in job->failed. */
-bool contours_fill(cut_triangles *out, cut_job *j, int plane, double axes[2][3], const cut_contour *contours, size_t count, cut_rule rule);
+/* Fills the contours; new vertices may be added to the job. False when it cannot be done; memory trouble is in
+ * job->failed. */
+bool contours_fill(cut_triangles *out, cut_job *j, int plane, double axes[2][3], const cut_contour *contours,
+                   size_t count, cut_rule rule);
 
 #endif

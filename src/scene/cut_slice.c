@@ -1,6 +1,6 @@
-/* Pieces of triangles divided by planes. Every vertex is on one side of each plane or in it, decided once; an edge is divided
- * once, by one vertex that all its triangles share; nothing else decides what meets what, so closed meshes stay closed however
- * badly numbers round. */
+/* Pieces of triangles divided by planes. Every vertex is on one side of each plane or in it, decided once; an edge
+ * is divided once, by one vertex that all its triangles share; nothing else decides what meets what, so closed
+ * meshes stay closed however badly numbers round. */
 #include <math.h>
 #include <string.h>
 
@@ -38,7 +38,7 @@ uint32_t job_blend(cut_job *j, const uint32_t *from, const double *weights, int 
     uint32_t unclear = out.positive & out.negative;
     for (int k = 0; k < j->cut->plane_count; k++) {
         uint32_t bit = UINT32_C(1) << k;
-        double h = unclear & bit ? height(&j->cut->planes[k], out.world) : 0;
+        double   h = unclear & bit ? height(&j->cut->planes[k], out.world) : 0;
         if (k == plane || (unclear & bit && !(h > j->cut->snap)))
             out.positive &= ~bit;
         if (k == plane || (unclear & bit && !(h < -j->cut->snap)))
@@ -50,7 +50,7 @@ uint32_t job_blend(cut_job *j, const uint32_t *from, const double *weights, int 
 static size_t edge_slot(const cut_edge *edges, size_t slots, uint64_t key)
 {
     uint64_t h = key * UINT64_C(0x9E3779B97F4A7C15);
-    size_t slot = (size_t)(h >> 20) & (slots - 1);
+    size_t   slot = (size_t)(h >> 20) & (slots - 1);
     while (edges[slot].key && edges[slot].key != key)
         slot = (slot + 1) & (slots - 1);
     return slot;
@@ -58,7 +58,7 @@ static size_t edge_slot(const cut_edge *edges, size_t slots, uint64_t key)
 
 static bool grow_edges(cut_job *j)
 {
-    size_t slots = j->edge_slots ? j->edge_slots * 2 : 1024;
+    size_t    slots = j->edge_slots ? j->edge_slots * 2 : 1024;
     cut_edge *bigger = mem_calloc(slots, sizeof *bigger);
     if (!bigger)
         return false;
@@ -75,9 +75,9 @@ static bool grow_edges(cut_job *j)
 static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, double *share)
 {
     uint32_t ends[2] = {a < b ? a : b, a < b ? b : a};
-    double low = height(&j->cut->planes[plane], j->vertices[ends[0]].world);
-    double high = height(&j->cut->planes[plane], j->vertices[ends[1]].world);
-    double t = low / (low - high);
+    double   low = height(&j->cut->planes[plane], j->vertices[ends[0]].world);
+    double   high = height(&j->cut->planes[plane], j->vertices[ends[1]].world);
+    double   t = low / (low - high);
     if (!(t > 0 && t < 1)) /* the sides were inherited and rounding says something else */
         t = low == 0 || fabs(low) < fabs(high) ? 0 : 1;
     *share = a < b ? t : 1 - t;
@@ -85,7 +85,7 @@ static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, doubl
         j->failed = true;
         return 0;
     }
-    uint64_t key = (uint64_t)ends[0] << 32 | ends[1];
+    uint64_t  key = (uint64_t)ends[0] << 32 | ends[1];
     cut_edge *e = &j->edges[edge_slot(j->edges, j->edge_slots, key)];
     if (!e->key) {
         e->vertex = job_blend(j, ends, (double[]){1 - t, t}, 2, plane);
@@ -130,19 +130,19 @@ static void add_point(polygon *p, cut_point point)
 static void divide_piece(cut_job *j, size_t index, int plane)
 {
     cut_piece piece = j->pieces[index];
-    uint32_t bit = UINT32_C(1) << plane;
-    polygon above = {.count = 0}, below = {.count = 0};
+    uint32_t  bit = UINT32_C(1) << plane;
+    polygon   above = {.count = 0}, below = {.count = 0};
     for (uint32_t i = 0; i < piece.count && !j->failed; i++) {
-        cut_point a = j->points[piece.first + i], b = j->points[piece.first + (i + 1) % piece.count];
+        cut_point         a = j->points[piece.first + i], b = j->points[piece.first + (i + 1) % piece.count];
         const cut_vertex *va = &j->vertices[a.vertex], *vb = &j->vertices[b.vertex];
-        bool crosses = (va->positive & vb->negative & bit) || (va->negative & vb->positive & bit);
+        bool              crosses = (va->positive & vb->negative & bit) || (va->negative & vb->positive & bit);
         if (!(va->negative & bit))
             add_point(&above, a);
         if (!(va->positive & bit))
             add_point(&below, a);
         if (!crosses)
             continue;
-        double share;
+        double    share;
         cut_point middle = {.vertex = divide_edge(j, a.vertex, b.vertex, plane, &share)};
         for (int k = 0; k < 3; k++)
             middle.weights[k] = (float)((1 - share) * (double)a.weights[k] + share * (double)b.weights[k]);
@@ -159,7 +159,7 @@ static void divide_piece(cut_job *j, size_t index, int plane)
 void job_slice(cut_job *j, size_t first, int plane)
 {
     uint32_t bit = UINT32_C(1) << plane;
-    size_t end = j->piece_count;
+    size_t   end = j->piece_count;
     for (size_t i = first; i < end && !j->failed; i++)
         if (j->pieces[i].count && j->pieces[i].positive & j->pieces[i].negative & bit)
             divide_piece(j, i, plane);
@@ -169,7 +169,7 @@ bool cut_is_inside(const cut *c, uint32_t positive, uint32_t negative)
 {
     for (int i = 0; i < c->cell_count; i++) {
         const cut_cell *cell = &c->cells[i];
-        bool inside = true;
+        bool            inside = true;
         for (int k = 0; k < cell->count && inside; k++)
             inside = (cell->faces[k].positive ? positive : negative) >> cell->faces[k].plane & 1;
         if (inside)
@@ -180,7 +180,7 @@ bool cut_is_inside(const cut *c, uint32_t positive, uint32_t negative)
 
 static double corner_area(const cut_job *j, const cut_piece *p, uint32_t a, uint32_t b, uint32_t c)
 {
-    const double *at[3];
+    const double  *at[3];
     const uint32_t corners[3] = {a % p->count, b % p->count, c % p->count};
     for (int i = 0; i < 3; i++)
         at[i] = j->vertices[j->points[p->first + corners[i]].vertex].world;
@@ -196,7 +196,7 @@ static double corner_area(const cut_job *j, const cut_piece *p, uint32_t a, uint
 uint32_t job_fan_start(const cut_job *j, const cut_piece *p)
 {
     uint32_t best = 0;
-    double best_least = -1;
+    double   best_least = -1;
     /* Each corner of the usual few; of many corners some, as trying is quadratic. */
     for (uint32_t s = 0; s < p->count && p->count > 3; s += 1 + p->count / 32) {
         double least = INFINITY;

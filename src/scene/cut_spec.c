@@ -13,7 +13,8 @@ typedef struct reader {
     lmn_error  *error;
 } reader;
 
-static const char hint[] = "for example x, -z=40%, y=12.5, 1,1,0@0,0,5 or box=50%,0%,50%:100%,100%,100%; several separated by ';'";
+static const char hint[] =
+    "for example x, -z=40%, y=12.5, 1,1,0@0,0,5 or box=50%,0%,50%:100%,100%,100%; several separated by ';'";
 
 static lmn_status wrong(const reader *r, const char *what)
 {
@@ -67,7 +68,7 @@ static int find_plane(cut *c, const double normal[3], double offset, bool *posit
     for (int i = 0; i < c->plane_count; i++)
         for (int sign = 1; sign >= -1; sign -= 2) {
             const cut_plane *p = &c->planes[i];
-            double apart = fabs(p->offset - sign * offset);
+            double           apart = fabs(p->offset - sign * offset);
             for (int k = 0; k < 3; k++)
                 apart = fmax(apart, fabs(p->normal[k] - sign * normal[k]) * fmax(1, fabs(offset)));
             if (apart <= tolerance) {
@@ -87,7 +88,7 @@ static int find_plane(cut *c, const double normal[3], double offset, bool *posit
 static bool add_face(cut *c, cut_cell *cell, const double normal[3], double offset)
 {
     bool positive;
-    int plane = find_plane(c, normal, offset, &positive);
+    int  plane = find_plane(c, normal, offset, &positive);
     if (plane < 0)
         return false;
     cell->faces[cell->count].plane = plane;
@@ -115,7 +116,7 @@ static lmn_status read_axis_plane(reader *r, cut *c, cut_cell *cell)
 static lmn_status read_plane(reader *r, cut *c, cut_cell *cell)
 {
     static const char form[] = "a plane is x, y or z, signed, with =VALUE or =N%; or NX,NY,NZ@PX,PY,PZ";
-    double n[3], p[3], length;
+    double            n[3], p[3], length;
     for (int k = 0; k < 3; k++)
         if ((k && !take(r, ',')) || !read_number(r, &n[k]))
             return wrong(r, form);
@@ -129,7 +130,8 @@ static lmn_status read_plane(reader *r, cut *c, cut_cell *cell)
         return wrong(r, "a plane's normal must not be 0,0,0");
     for (int k = 0; k < 3; k++)
         n[k] /= length;
-    return add_face(c, cell, n, n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) ? LMN_OK : wrong(r, "too many planes; 32 are allowed");
+    return add_face(c, cell, n, n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) ? LMN_OK
+                                                                         : wrong(r, "too many planes; 32 are allowed");
 }
 
 static lmn_status read_box(reader *r, cut *c, cut_cell *cell)
@@ -141,7 +143,8 @@ static lmn_status read_box(reader *r, cut *c, cut_cell *cell)
             if (!take(r, k ? ',' : i ? ':' : '=') || !read_place(r, k, &corners[i][k]))
                 return wrong(r, "a box is box=X0,Y0,Z0:X1,Y1,Z1, numbers or percentages of the bounds");
     for (int k = 0; k < 3; k++) {
-        double low = fmin(corners[0][k], corners[1][k]), high = fmax(corners[0][k], corners[1][k]), normal[3] = {0, 0, 0};
+        double low = fmin(corners[0][k], corners[1][k]), high = fmax(corners[0][k], corners[1][k]),
+               normal[3] = {0, 0, 0};
         normal[k] = 1;
         bool added = add_face(c, cell, normal, low);
         normal[k] = -1;
@@ -158,7 +161,7 @@ static lmn_status read_cell(reader *r, cut *c)
     cut_cell *cell = &c->cells[c->cell_count++];
     skip_blanks(r);
     const char *name = r->at < r->end && (*r->at == '-' || *r->at == '+') ? r->at + 1 : r->at;
-    lmn_status status;
+    lmn_status  status;
     if (r->end - r->at > 3 && strncmp(r->at, "box", 3) == 0)
         status = read_box(r, c, cell);
     else if (name < r->end && *name >= 'x' && *name <= 'z')
@@ -182,7 +185,7 @@ lmn_status cut_parse(cut *out, const char *spec, box3 bounds, lmn_error *error)
         take(&r, ';');
     }
     if (!box3_is_empty(bounds)) {
-        double largest = 0;
+        double       largest = 0;
         const float *numbers = &bounds.min.x, *high = &bounds.max.x;
         for (int k = 0; k < 3; k++)
             largest = fmax(largest, fmax(fabs((double)numbers[k]), fabs((double)high[k])));

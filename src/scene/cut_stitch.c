@@ -1,5 +1,5 @@
-/* Cut faces of different planes are filled one by one, so along the line in which they meet each has corners that the other has
- * not, and a gap of a pixel could shine through. Here each gets all corners that any has. */
+/* Cut faces of different planes are filled one by one, so along the line in which they meet each has corners that
+ * the other has not, and a gap of a pixel could shine through. Here each gets all corners that any has. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,8 +35,8 @@ static int32_t lowest_bit(uint32_t bits)
 static int32_t line_of(const cut_job *j, uint32_t a, uint32_t b)
 {
     const cut_vertex *p = &j->vertices[a], *q = &j->vertices[b];
-    uint32_t all = j->cut->plane_count == 32 ? UINT32_MAX : (UINT32_C(1) << j->cut->plane_count) - 1;
-    uint32_t in = all & ~(p->positive | p->negative | q->positive | q->negative);
+    uint32_t          all = j->cut->plane_count == 32 ? UINT32_MAX : (UINT32_C(1) << j->cut->plane_count) - 1;
+    uint32_t          in = all & ~(p->positive | p->negative | q->positive | q->negative);
     if (!(in & (in - 1)))
         return -1;
     return 32 * lowest_bit(in) + lowest_bit(in & (in - 1));
@@ -44,7 +44,8 @@ static int32_t line_of(const cut_job *j, uint32_t a, uint32_t b)
 
 static bead bead_of(const cut_job *j, int32_t line, uint32_t vertex)
 {
-    const double *n = j->cut->planes[line / 32].normal, *m = j->cut->planes[line % 32].normal, *at = j->vertices[vertex].world;
+    const double *n = j->cut->planes[line / 32].normal, *m = j->cut->planes[line % 32].normal,
+                 *at = j->vertices[vertex].world;
     bead out = {.line = line, .vertex = vertex};
     for (int k = 0; k < 3; k++)
         out.along += (n[(k + 1) % 3] * m[(k + 2) % 3] - n[(k + 2) % 3] * m[(k + 1) % 3]) * (at[k] - j->centre[k]);
@@ -54,13 +55,13 @@ static bead bead_of(const cut_job *j, int32_t line, uint32_t vertex)
 /* Corners on lines, sorted, each once. */
 static bead *collect(cut_job *j, size_t *out_count)
 {
-    bead *beads = NULL;
+    bead  *beads = NULL;
     size_t count = 0, capacity = 0, kept = 0;
     for (size_t i = 0; i < j->piece_count && !j->failed; i++) {
         const cut_piece *p = &j->pieces[i];
         for (uint32_t k = 0; k < p->count && p->kept; k++) {
             uint32_t a = j->points[p->first + k].vertex, b = j->points[p->first + (k + 1) % p->count].vertex;
-            int32_t line = line_of(j, a, b);
+            int32_t  line = line_of(j, a, b);
             if (line < 0)
                 continue;
             if (!mem_grow((void **)&beads, &capacity, count + 2, sizeof *beads)) {
@@ -100,7 +101,7 @@ static size_t between(const cut_job *j, const bead *beads, size_t count, cut_poi
     int32_t line = line_of(j, a.vertex, b.vertex);
     if (line < 0)
         return 0;
-    bead ends[2] = {bead_of(j, line, a.vertex), bead_of(j, line, b.vertex)};
+    bead   ends[2] = {bead_of(j, line, a.vertex), bead_of(j, line, b.vertex)};
     size_t from = find(beads, count, &ends[0]), to = find(beads, count, &ends[1]);
     size_t found = from < to ? to - from : from - to, written = found ? found - 1 : 0;
     for (size_t i = 0; i < written && out; i++) {
@@ -141,7 +142,7 @@ void job_stitch(cut_job *j)
     if (j->cut->plane_count < 2)
         return;
     size_t count;
-    bead *beads = collect(j, &count);
+    bead  *beads = collect(j, &count);
     for (size_t i = 0; i < j->piece_count && count && !j->failed; i++)
         if (j->pieces[i].count && j->pieces[i].kept)
             refine(j, &j->pieces[i], beads, count);

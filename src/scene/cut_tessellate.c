@@ -28,7 +28,7 @@ static uint32_t as_vertex(const void *pointer)
 
 static void GLAPIENTRY on_vertex(void *vertex, void *user)
 {
-    filling *f = user;
+    filling       *f = user;
     cut_triangles *t = f->out;
     if (!vertex || !mem_grow((void **)&t->corners, &t->capacity, t->count + 1, sizeof *t->corners)) {
         f->job->failed = f->job->failed || vertex;
@@ -57,8 +57,8 @@ static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat shares[
 {
     filling *f = user;
     uint32_t from[4];
-    double weights[4], sum = 0;
-    int count = 0;
+    double   weights[4], sum = 0;
+    int      count = 0;
     (void)at;
     for (int i = 0; i < 4; i++)
         if (data[i] && shares[i] > 0) {
@@ -103,11 +103,12 @@ static void give_contour(filling *f, GLUtesselator *t, double axes[2][3], const 
     gluTessEndContour(t);
 }
 
-bool contours_fill(cut_triangles *out, cut_job *j, int plane, double axes[2][3], const cut_contour *contours, size_t count, cut_rule rule)
+bool contours_fill(cut_triangles *out, cut_job *j, int plane, double axes[2][3], const cut_contour *contours,
+                   size_t count, cut_rule rule)
 {
     static const double windings[] = {GLU_TESS_WINDING_NONZERO, GLU_TESS_WINDING_POSITIVE, GLU_TESS_WINDING_ODD};
-    filling f = {.job = j, .out = out, .plane = plane};
-    GLUtesselator *t = gluNewTess();
+    filling             f = {.job = j, .out = out, .plane = plane};
+    GLUtesselator      *t = gluNewTess();
     out->count = 0;
     if (!t) {
         j->failed = true;

@@ -1,7 +1,8 @@
-/* Curvature as the change of normals: over a triangle, the gradient of the normals that its corners have, times its area, needs no division and is therefore as
- * good on slivers as elsewhere. Summed over a disc only the disc's border remains, so what irregular triangles do to single ones cancels out. The sum of bent edges
- * (Alliez et al. 2003), tried on the same discs, is as good on regular triangles, and far worse on irregular ones: on a dense ellipsoid with jittered vertices 95 % of its
- * directions are within 13.5 degrees, of these within 2.2. */
+/* Curvature as the change of normals: over a triangle, the gradient of the normals that its corners have, times its
+ * area, needs no division and is therefore as good on slivers as elsewhere. Summed over a disc only the disc's
+ * border remains, so what irregular triangles do to single ones cancels out. The sum of bent edges (Alliez et al.
+ * 2003), tried on the same discs, is as good on regular triangles, and far worse on irregular ones: on a dense
+ * ellipsoid with jittered vertices 95 % of its directions are within 13.5 degrees, of these within 2.2. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -9,13 +10,14 @@
 #include "scene/direction_field_private.h"
 
 enum {
-    PIECE = 8192,         /* per thread at least */
-    STEPS_OF_THREE = 7,   /* steps of smoothing that spread as far as a disc of three edges does */
+    PIECE = 8192,       /* per thread at least */
+    STEPS_OF_THREE = 7, /* steps of smoothing that spread as far as a disc of three edges does */
     STEPS_MAX = 64,
     STEPS_OF_DIRECTION = 3
 };
 
-/* Curvature times the model's diagonal: below the first number the surface counts as flat, from ten times that on as bent. */
+/* Curvature times the model's diagonal: below the first number the surface counts as flat, from ten times that on
+ * as bent. */
 static const double flat_below = 0.02;
 
 typedef struct curvature_job {
@@ -36,8 +38,8 @@ static tensor triangle_bend(const field_surface *s, size_t t)
     tangents(n, &u, &v);
     for (size_t k = 0; k < 3; k++) {
         uint32_t a = s->corners[3 * t + k], b = s->corners[3 * t + (k + 1) % 3], c = s->corners[3 * t + (k + 2) % 3];
-        point3 rise = point_scale(point_cross(n, point_sub(s->positions[c], s->positions[b])), 0.5);
-        point3 normal = s->normals[a];
+        point3   rise = point_scale(point_cross(n, point_sub(s->positions[c], s->positions[b])), 0.5);
+        point3   normal = s->normals[a];
         uu += point_dot(normal, u) * point_dot(rise, u);
         vv += point_dot(normal, v) * point_dot(rise, v);
         uv += (point_dot(normal, u) * point_dot(rise, v) + point_dot(normal, v) * point_dot(rise, u)) / 2;
@@ -55,7 +57,7 @@ static void bend_triangles(size_t begin, size_t end, void *user)
 /* The first step of smoothing, from areas times curvatures to curvatures. */
 static void bend_elements(size_t begin, size_t end, void *user)
 {
-    curvature_job *job = user;
+    curvature_job       *job = user;
     const field_surface *s = job->surface;
     for (size_t e = begin; e < end; e++) {
         double sums[6] = {0}, area = 0;
@@ -72,17 +74,18 @@ static void bend_elements(size_t begin, size_t end, void *user)
 
 static void smooth_to_triangles(size_t begin, size_t end, void *user)
 {
-    curvature_job *job = user;
+    curvature_job  *job = user;
     const uint32_t *corners = job->surface->corners;
     for (size_t t = begin; t < end; t++)
         for (int k = 0; k < 6; k++)
             job->triangles[t].v[k] = (job->elements[corners[3 * t]].v[k] + job->elements[corners[3 * t + 1]].v[k] +
-                                      job->elements[corners[3 * t + 2]].v[k]) / 3;
+                                      job->elements[corners[3 * t + 2]].v[k]) /
+                                     3;
 }
 
 static void smooth_to_elements(size_t begin, size_t end, void *user)
 {
-    curvature_job *job = user;
+    curvature_job       *job = user;
     const field_surface *s = job->surface;
     for (size_t e = begin; e < end; e++) {
         float sums[6] = {0}, area = 0;
@@ -90,7 +93,7 @@ static void smooth_to_elements(size_t begin, size_t end, void *user)
             continue;
         for (uint32_t i = s->starts[e]; i < s->starts[e + 1]; i++) {
             uint32_t t = s->around[i] / 3;
-            float weight = (float)s->areas[t];
+            float    weight = (float)s->areas[t];
             for (int k = 0; k < 6; k++)
                 sums[k] += weight * job->triangles[t].v[k];
             area += weight;
@@ -113,8 +116,8 @@ static void make_directions(size_t begin, size_t end, void *user)
     curvature_job *job = user;
     for (size_t e = begin; e < end; e++) {
         const tensor *bend = &job->elements[e];
-        point3 u, v;
-        double a, b;
+        point3        u, v;
+        double        a, b;
         tangents(job->surface->normals[e], &u, &v);
         tensor_traceless(bend, u, v, &a, &b);
         double mean = (tensor_apply(bend, u, u) + tensor_apply(bend, v, v)) / 2, difference = hypot(a, b);
@@ -169,8 +172,8 @@ static bool hand_out(direction_field *out, const primitive *p, const field_surfa
     uint32_t *first = mem_alloc((size_t)p->vertex_count * sizeof *first);
     uint32_t *further = mem_alloc((size_t)s->element_count * sizeof *further);
     uint32_t *corners = mem_alloc((size_t)p->index_count * sizeof *corners);
-    bool good = first && further && corners, split = false;
-    uint32_t count = p->vertex_count;
+    bool      good = first && further && corners, split = false;
+    uint32_t  count = p->vertex_count;
     if (good) {
         memset(first, 0xFF, (size_t)p->vertex_count * sizeof *first);
         memset(further, 0xFF, (size_t)s->element_count * sizeof *further);
@@ -206,7 +209,8 @@ static bool hand_out(direction_field *out, const primitive *p, const field_surfa
     return out->tensors != NULL;
 }
 
-lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius, lmn_error *error)
+lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius,
+                                lmn_error *error)
 {
     field_surface s;
     memset(out, 0, sizeof *out);
@@ -214,7 +218,7 @@ lmn_status direction_field_make(direction_field *out, const primitive *p, double
     if (status != LMN_OK)
         return status;
     tensor *values = mem_alloc(s.element_count * sizeof *values), *flow = mem_alloc(s.triangle_count * sizeof *flow);
-    bool *flat = mem_calloc(s.element_count, sizeof *flat);
+    bool   *flat = mem_calloc(s.element_count, sizeof *flat);
     bool good = values && flow && flat && make_tensors(&s, radius, values, flow, flat) && hand_out(out, p, &s, values);
     mem_free(values);
     mem_free(flow);

@@ -1,4 +1,5 @@
-/* Directions for places that have none of their own: from the nearest sure place, over the surface; where a piece is flat, one for all of it. */
+/* Directions for places that have none of their own: from the nearest sure place, over the surface; where a piece
+ * is flat, one for all of it. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -6,8 +7,8 @@
 
 enum { STEPS_OF_CARRYING = 8 };
 
-static const double sure_from = 0.1;   /* below, a direction of its own fades out as a carried one fades in */
-static const double carried = 0.05;    /* how sure those are */
+static const double sure_from = 0.1; /* below, a direction of its own fades out as a carried one fades in */
+static const double carried = 0.05;  /* how sure those are */
 
 typedef struct carrier {
     const field_surface *surface;
@@ -85,8 +86,8 @@ static bool spread(carrier *c, bool into_flat)
 /* What is summed over a flat piece, or over a piece of surface on which nothing was sure. */
 typedef struct shape {
     point3 normal, mean;
-    double area, covariance[6];        /* xx, yy, zz, xy, yz, zx */
-    tensor bend;                       /* of the sure places around */
+    double area, covariance[6]; /* xx, yy, zz, xy, yz, zx */
+    tensor bend;                /* of the sure places around */
     double bend_weight;
     double border_cos, border_sin, border; /* edges turned by four times their angle */
 } shape;
@@ -101,7 +102,7 @@ static bool in_piece(const carrier *c, uint32_t t, uint32_t piece)
 static uint32_t collect(carrier *c, uint32_t first, uint32_t piece)
 {
     const field_surface *s = c->surface;
-    uint32_t end = 0;
+    uint32_t             end = 0;
     c->pieces[first] = piece;
     c->queue[end++] = first;
     for (uint32_t begin = 0; begin < end; begin++) {
@@ -152,7 +153,7 @@ static void measure_middle(const carrier *c, uint32_t count, uint32_t piece, sha
 
 static void add_spread(shape *out, point3 p, double weight)
 {
-    point3 d = point_sub(p, out->mean);
+    point3       d = point_sub(p, out->mean);
     const double products[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.y * d.z, d.z * d.x};
     for (int k = 0; k < 6; k++)
         out->covariance[k] += weight * products[k];
@@ -169,7 +170,7 @@ static void add_border(shape *out, point3 edge, point3 u, point3 v)
 static void measure_triangle(const carrier *c, uint32_t t, uint32_t piece, point3 u, point3 v, shape *out)
 {
     const field_surface *s = c->surface;
-    bool inside = in_piece(c, t, piece);
+    bool                 inside = in_piece(c, t, piece);
     for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
         uint32_t e = s->corners[h], next = s->corners[h % 3 == 2 ? h - 2 : h + 1], o = s->opposite[h];
         add_spread(out, s->positions[e], s->areas[t]);
@@ -187,7 +188,7 @@ static void measure_triangle(const carrier *c, uint32_t t, uint32_t piece, point
 static void measure(const carrier *c, uint32_t count, uint32_t piece, shape *out)
 {
     const field_surface *s = c->surface;
-    point3 u, v;
+    point3               u, v;
     memset(out, 0, sizeof *out);
     measure_middle(c, count, piece, out);
     tangents(out->normal, &u, &v);
@@ -226,7 +227,7 @@ static tensor flat_direction(const shape *piece)
         double straight = atan2(piece->border_sin, piece->border_cos) / 4;
         point3 one = point_add(point_scale(u, cos(straight)), point_scale(v, sin(straight)));
         point3 other = point_cross(piece->normal, one);
-        bool turn = covariance_apply(piece->covariance, other, other) > covariance_apply(piece->covariance, one, one);
+        bool   turn = covariance_apply(piece->covariance, other, other) > covariance_apply(piece->covariance, one, one);
         angle = straight + (turn ? 1.57079632679489662 : 0);
     }
     return tensor_of(u, v, cos(2 * angle), sin(2 * angle), 0);
@@ -235,12 +236,12 @@ static tensor flat_direction(const shape *piece)
 static void decide_flat_pieces(carrier *c)
 {
     const field_surface *s = c->surface;
-    uint32_t piece = 0;
+    uint32_t             piece = 0;
     memset(c->pieces, 0xFF, s->element_count * sizeof *c->pieces);
     for (uint32_t e = 0; e < s->element_count; e++) {
         if (!c->flat[e] || c->pieces[e] != NOWHERE)
             continue;
-        shape all;
+        shape    all;
         uint32_t count = collect(c, e, piece);
         measure(c, count, piece++, &all);
         tensor direction = flat_direction(&all);
@@ -257,8 +258,10 @@ static point3 longest_axis(const double m[6])
 {
     point3 axis = {1, 0.9, 0.8};
     for (int i = 0; i < 400; i++)
-        axis = point_unit_or((point3){m[0] * axis.x + m[3] * axis.y + m[5] * axis.z, m[3] * axis.x + m[1] * axis.y + m[4] * axis.z,
-                                      m[5] * axis.x + m[4] * axis.y + m[2] * axis.z}, (point3){1, 0, 0});
+        axis = point_unit_or((point3){m[0] * axis.x + m[3] * axis.y + m[5] * axis.z,
+                                      m[3] * axis.x + m[1] * axis.y + m[4] * axis.z,
+                                      m[5] * axis.x + m[4] * axis.y + m[2] * axis.z},
+                             (point3){1, 0, 0});
     return axis;
 }
 
@@ -266,12 +269,12 @@ static point3 longest_axis(const double m[6])
 static void decide_round_pieces(carrier *c)
 {
     const field_surface *s = c->surface;
-    uint32_t piece = 0;
+    uint32_t             piece = 0;
     memset(c->pieces, 0xFF, s->element_count * sizeof *c->pieces);
     for (uint32_t e = 0; e < s->element_count; e++) {
         if (c->reached[e] || c->pieces[e] != NOWHERE)
             continue;
-        shape all;
+        shape    all;
         uint32_t count = collect(c, e, piece);
         measure(c, count, piece++, &all);
         point3 axis = longest_axis(all.covariance);
@@ -321,7 +324,7 @@ static bool carry(carrier *c)
 
 bool field_carry(const field_surface *s, tensor *own, const bool *flat)
 {
-    size_t count = s->element_count;
+    size_t  count = s->element_count;
     carrier c = {.surface = s, .own = own, .flat = flat};
     c.units = mem_calloc(count, sizeof *c.units);
     c.flow = mem_alloc(s->triangle_count * sizeof *c.flow);
@@ -330,7 +333,7 @@ bool field_carry(const field_surface *s, tensor *own, const bool *flat)
     c.sure = mem_calloc(count, sizeof *c.sure);
     c.pieces = mem_alloc(count * sizeof *c.pieces);
     c.queue = mem_alloc(count * sizeof *c.queue);
-    bool good = c.units && c.flow && c.distances && c.reached && c.sure && c.pieces && c.queue && carry(&c);
+    bool        good = c.units && c.flow && c.distances && c.reached && c.sure && c.pieces && c.queue && carry(&c);
     void *const blocks[] = {c.units, c.flow, c.distances, c.reached, c.sure, c.pieces, c.queue, c.near.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);

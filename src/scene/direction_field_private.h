@@ -1,5 +1,6 @@
-/* Inside the scene folder: a surface on which fields live and patches grow. Corners at one position are one element as long as no feature edge separates them; copies of
- * a triangle are left out, and windings that disagree are turned, so that neighbours' normals can be compared. */
+/* Inside the scene folder: a surface on which fields live and patches grow. Corners at one position are one element
+ * as long as no feature edge separates them; copies of a triangle are left out, and windings that disagree are
+ * turned, so that neighbours' normals can be compared. */
 #ifndef LIMNER_SCENE_DIRECTION_FIELD_PRIVATE_H
 #define LIMNER_SCENE_DIRECTION_FIELD_PRIVATE_H
 
@@ -59,7 +60,8 @@ uint32_t field_surface_element(const field_surface *s, const primitive *p, uint3
 /* One step of smoothing: to the triangles, and back by area. `flow` has room for a tensor a triangle. */
 void field_smooth(const field_surface *s, tensor *values, tensor *flow, const bool *fixed);
 
-/* Carries unit tensors from sure elements to the others. `own` are tensors T; out: what is to stand there. False when memory is gone. */
+/* Carries unit tensors from sure elements to the others. `own` are tensors T; out: what is to stand there. False
+ * when memory is gone. */
 bool field_carry(const field_surface *s, tensor *own, const bool *flat);
 
 static inline point3 point_add(point3 a, point3 b)
@@ -109,17 +111,21 @@ static inline void tangents(point3 normal, point3 *u, point3 *v)
 static inline double tensor_apply(const tensor *t, point3 a, point3 b)
 {
     const float *v = t->v;
-    return (double)v[0] * a.x * b.x + (double)v[1] * a.y * b.y + (double)v[2] * a.z * b.z + (double)v[3] * (a.x * b.y + a.y * b.x) +
-           (double)v[4] * (a.y * b.z + a.z * b.y) + (double)v[5] * (a.z * b.x + a.x * b.z);
+    return (double)v[0] * a.x * b.x + (double)v[1] * a.y * b.y + (double)v[2] * a.z * b.z +
+           (double)v[3] * (a.x * b.y + a.y * b.x) + (double)v[4] * (a.y * b.z + a.z * b.y) +
+           (double)v[5] * (a.z * b.x + a.x * b.z);
 }
 
 /* a (u uᵀ − v vᵀ) + b (u vᵀ + v uᵀ) + c (u uᵀ + v vᵀ) */
 static inline tensor tensor_of(point3 u, point3 v, double a, double b, double c)
 {
     double p = c + a, q = c - a;
-    return (tensor){{(float)(p * u.x * u.x + q * v.x * v.x + 2 * b * u.x * v.x), (float)(p * u.y * u.y + q * v.y * v.y + 2 * b * u.y * v.y),
-                     (float)(p * u.z * u.z + q * v.z * v.z + 2 * b * u.z * v.z), (float)(p * u.x * u.y + q * v.x * v.y + b * (u.x * v.y + u.y * v.x)),
-                     (float)(p * u.y * u.z + q * v.y * v.z + b * (u.y * v.z + u.z * v.y)), (float)(p * u.z * u.x + q * v.z * v.x + b * (u.z * v.x + u.x * v.z))}};
+    return (tensor){{(float)(p * u.x * u.x + q * v.x * v.x + 2 * b * u.x * v.x),
+                     (float)(p * u.y * u.y + q * v.y * v.y + 2 * b * u.y * v.y),
+                     (float)(p * u.z * u.z + q * v.z * v.z + 2 * b * u.z * v.z),
+                     (float)(p * u.x * u.y + q * v.x * v.y + b * (u.x * v.y + u.y * v.x)),
+                     (float)(p * u.y * u.z + q * v.y * v.z + b * (u.y * v.z + u.z * v.y)),
+                     (float)(p * u.z * u.x + q * v.z * v.x + b * (u.z * v.x + u.x * v.z))}};
 }
 
 /* What of a tensor lies in the plane of u and v and has no trace: a and b of tensor_of. */

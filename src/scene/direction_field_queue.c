@@ -13,7 +13,7 @@ bool near_push(near_queue *q, double distance, uint32_t element)
     if (!mem_grow((void **)&q->items, &q->room, q->count + 1, sizeof *q->items))
         return false;
     near_place p = {distance, element};
-    size_t i = q->count++;
+    size_t     i = q->count++;
     for (; i > 0 && before(p, q->items[(i - 1) / 2]); i = (i - 1) / 2)
         q->items[i] = q->items[(i - 1) / 2];
     q->items[i] = p;
@@ -23,7 +23,7 @@ bool near_push(near_queue *q, double distance, uint32_t element)
 near_place near_pop(near_queue *q)
 {
     near_place top = q->items[0], last = q->items[--q->count];
-    size_t i = 0;
+    size_t     i = 0;
     for (;;) {
         size_t child = 2 * i + 1;
         if (child >= q->count)

@@ -56,7 +56,7 @@ static bool keep_triangles(field_surface *s, const primitive *p, uint32_t *indic
     memset(slots, 0xFF, size * sizeof *slots);
     for (size_t t = 0; t < count; t++) {
         uint32_t next = s->triangle_count, *to = indices + 3 * (size_t)next;
-        bool good = true;
+        bool     good = true;
         for (int k = 0; k < 3; k++) {
             to[k] = s->ids[p->indices[3 * t + (size_t)k]];
             good = good && is_finite_point(p->positions[to[k]]);
@@ -90,7 +90,8 @@ static void find_scale(field_surface *s, const primitive *m, point3 *centre)
     double size = s->triangle_count ? point_length(point_sub(high, low)) : 0;
     s->size = size > 0 && isfinite(size) ? size : 1;
     *centre = s->triangle_count ? point_scale(point_add(low, high), 0.5) : (point3){0, 0, 0};
-    double far = fmax(fmax(fmax(fabs(low.x), fabs(high.x)), fmax(fabs(low.y), fabs(high.y))), fmax(fabs(low.z), fabs(high.z)));
+    double far =
+        fmax(fmax(fmax(fabs(low.x), fabs(high.x)), fmax(fabs(low.y), fabs(high.y))), fmax(fabs(low.z), fabs(high.z)));
     s->rounding = s->triangle_count ? 6e-8 * far / s->size : 0;
 }
 
@@ -193,9 +194,9 @@ static void make_normals(size_t begin, size_t end, void *user)
         point3 sum = {0, 0, 0}, any = {0, 0, 0};
         for (uint32_t i = s->starts[e]; i < s->starts[e + 1]; i++) {
             uint32_t c = s->around[i], b = next_corner(c), d = next_corner(b);
-            point3 u = point_sub(s->positions[s->corners[b]], s->positions[e]);
-            point3 v = point_sub(s->positions[s->corners[d]], s->positions[e]);
-            double weight = 2 * s->areas[c / 3] / (point_dot(u, u) * point_dot(v, v)) * (s->turned[c / 3] ? -1 : 1);
+            point3   u = point_sub(s->positions[s->corners[b]], s->positions[e]);
+            point3   v = point_sub(s->positions[s->corners[d]], s->positions[e]);
+            double   weight = 2 * s->areas[c / 3] / (point_dot(u, u) * point_dot(v, v)) * (s->turned[c / 3] ? -1 : 1);
             if (isfinite(weight))
                 sum = point_add(sum, point_scale(s->directions[c / 3], weight));
             if (point_dot(any, any) == 0)
@@ -207,10 +208,10 @@ static void make_normals(size_t begin, size_t end, void *user)
 
 static bool make_elements(field_surface *s, const primitive *m, point3 centre, double feature_angle)
 {
-    size_t corner_count = 3 * (size_t)s->triangle_count;
+    size_t    corner_count = 3 * (size_t)s->triangle_count;
     uint32_t *parents = mem_alloc(corner_count * sizeof *parents);
-    bool *seen = mem_calloc(s->triangle_count, sizeof *seen);
-    bool good = parents && seen;
+    bool     *seen = mem_calloc(s->triangle_count, sizeof *seen);
+    bool      good = parents && seen;
     if (good) {
         agree_on_windings(s, m, parents, seen);
         join_corners(s, m, parents, feature_angle >= 3.14159 ? -2 : cos(feature_angle) - 1e-6);
@@ -233,7 +234,7 @@ static bool make_elements(field_surface *s, const primitive *m, point3 centre, d
 static bool make_surface(field_surface *s, const primitive *p, uint32_t *indices, double feature_angle)
 {
     primitive m = {.vertex_count = p->vertex_count, .positions = p->positions, .indices = indices};
-    point3 centre;
+    point3    centre;
     if (!keep_triangles(s, p, indices))
         return false;
     m.index_count = 3 * s->triangle_count;
@@ -253,7 +254,7 @@ static bool make_surface(field_surface *s, const primitive *p, uint32_t *indices
 lmn_status field_surface_make(field_surface *out, const primitive *p, double feature_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    size_t corner_count = p->index_count / 3 * 3;
+    size_t    corner_count = p->index_count / 3 * 3;
     uint32_t *indices = mem_alloc(corner_count * sizeof *indices + 3 * sizeof *indices);
     out->triangles = mem_alloc(corner_count / 3 * sizeof *out->triangles);
     out->kept = mem_alloc(corner_count / 3 * sizeof *out->kept);
@@ -268,8 +269,8 @@ lmn_status field_surface_make(field_surface *out, const primitive *p, double fea
 
 void field_surface_release(field_surface *s)
 {
-    void *const blocks[] = {s->triangles, s->kept, s->ids, s->corners, s->opposite, s->starts, s->around, s->positions,
-                            s->normals, s->directions, s->areas, s->turned};
+    void *const blocks[] = {s->triangles, s->kept,      s->ids,     s->corners,    s->opposite, s->starts,
+                            s->around,    s->positions, s->normals, s->directions, s->areas,    s->turned};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);
     memset(s, 0, sizeof *s);

@@ -10,9 +10,9 @@
 #include "scene/solid.h"
 
 typedef struct check {
-    lmn_scene  *scene;
-    const char *file;
-    lmn_error  *error;
+    lmn_scene   *scene;
+    const char  *file;
+    lmn_error   *error;
     clean_counts counts;
 } check;
 
@@ -26,7 +26,7 @@ static lmn_status over_limit(const check *c, const char *what, size_t limit)
 static lmn_status check_limits(const check *c)
 {
     const lmn_scene *s = c->scene;
-    uint64_t vertices = 0, triangles = 0, instances = 0;
+    uint64_t         vertices = 0, triangles = 0, instances = 0;
     for (size_t i = 0; i < s->mesh_count; i++)
         for (size_t k = 0; k < s->meshes[i].primitive_count; k++) {
             vertices += s->meshes[i].primitives[k].vertex_count;
@@ -60,7 +60,7 @@ static lmn_status broken(const check *c, const char *what, size_t index, const c
 static lmn_status walk_tree(const check *c, int32_t root, unsigned char *state, size_t *visited)
 {
     const lmn_scene *s = c->scene;
-    int depth = 1;
+    int              depth = 1;
     for (int32_t n = root; n != NONE;) {
         if (state[n]++)
             return error_in_file(c->error, LMN_FORMAT, c->file, 0, "node %d is its own ancestor or has two parents", n);
@@ -99,7 +99,7 @@ static lmn_status check_tree(const check *c)
     unsigned char *state = mem_calloc(s->node_count, 1);
     if (!state)
         return error_memory(c->error);
-    size_t visited = 0;
+    size_t     visited = 0;
     lmn_status status = LMN_OK;
     for (size_t i = 0; i < s->node_count && status == LMN_OK; i++)
         if (s->nodes[i].parent == NONE)
@@ -133,7 +133,8 @@ static lmn_status check_nodes(const check *c)
                 return broken(c, "skin", i, "node");
     for (size_t i = 0; i < s->animation_count; i++)
         for (size_t k = 0; k < s->animations[i].channel_count; k++)
-            if (s->animations[i].channels[k].node == NONE || !in_range(s->animations[i].channels[k].node, s->node_count))
+            if (s->animations[i].channels[k].node == NONE ||
+                !in_range(s->animations[i].channels[k].node, s->node_count))
                 return broken(c, "animation", i, "node");
     for (size_t i = 0; i < s->solid_count; i++)
         for (size_t k = 0; k < s->solids[i].node_count; k++)
@@ -206,7 +207,7 @@ static void repair_transforms(check *c)
 {
     for (size_t i = 0; i < c->scene->node_count; i++) {
         node *n = &c->scene->nodes[i];
-        bool good = all_finite(n->matrix.m, 16) && all_finite(n->translation, 3) && all_finite(n->rotation, 4) &&
+        bool  good = all_finite(n->matrix.m, 16) && all_finite(n->translation, 3) && all_finite(n->rotation, 4) &&
                     all_finite(n->scale, 3);
         for (size_t k = 0; k < n->instance_count; k++)
             if (!all_finite(n->instances[k].m, 16)) {
@@ -236,7 +237,7 @@ static bool *find_operand_meshes(const lmn_scene *s)
 static lmn_status clean_meshes(check *c, const bool *operands)
 {
     for (size_t i = 0; i < c->scene->mesh_count; i++) {
-        mesh *m = &c->scene->meshes[i];
+        mesh  *m = &c->scene->meshes[i];
         size_t kept = 0;
         for (size_t k = 0; k < m->primitive_count; k++) {
             primitive *p = &m->primitives[k];
@@ -268,7 +269,7 @@ static lmn_status clean_meshes(check *c, const bool *operands)
 static void tell(const check *c)
 {
     const clean_counts *n = &c->counts;
-    warnings *w = &c->scene->warnings;
+    warnings           *w = &c->scene->warnings;
     if (n->degenerate)
         warnings_add(w, WARNING_BAD_GEOMETRY, "%llu triangles without area were left out",
                      (unsigned long long)n->degenerate);
@@ -286,7 +287,7 @@ static void tell(const check *c)
 static lmn_status nothing_to_draw(const check *c)
 {
     const clean_counts *n = &c->counts;
-    lmn_status status;
+    lmn_status          status;
     if (n->triangles == 0)
         status = error_in_file(c->error, LMN_FORMAT, c->file, 0, "nothing to draw: the file has no triangles");
     else if (n->triangles == n->degenerate + n->not_finite)
@@ -307,7 +308,7 @@ static const float FARTHEST = 1e18f;
 static bool is_far(box3 b)
 {
     float reach[6] = {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z};
-    bool far = false;
+    bool  far = false;
     for (int k = 0; k < 6; k++)
         far = far || !(fabsf(reach[k]) <= FARTHEST);
     return far && !box3_is_empty(b);
@@ -327,7 +328,8 @@ static lmn_status check_places(const check *c, const part *parts, size_t count)
     return LMN_OK;
 }
 
-/* A ghost that lies there is nobody's mistake, a cutter may be as long as it likes; it cannot be shown. Before the list is the scene's. */
+/* A ghost that lies there is nobody's mistake, a cutter may be as long as it likes; it cannot be shown. Before the
+ * list is the scene's. */
 static void leave_out_far_ghosts(lmn_scene *s, part_list *l)
 {
     size_t kept = l->part_count;
@@ -346,7 +348,7 @@ static void leave_out_far_ghosts(lmn_scene *s, part_list *l)
 
 lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
 {
-    check c = {.scene = s, .file = file, .error = error};
+    check      c = {.scene = s, .file = file, .error = error};
     lmn_status status = check_limits(&c);
     if (status == LMN_OK)
         status = check_tree(&c);

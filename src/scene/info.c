@@ -52,7 +52,7 @@ static json_t *part_materials(const lmn_scene *s, const mesh *m)
     json_t *list = json_array();
     for (size_t i = 0; m && i < m->primitive_count; i++) {
         int32_t index = m->primitives[i].material;
-        bool seen = false;
+        bool    seen = false;
         for (size_t k = 0; k < i && !seen && i < 64; k++)
             seen = m->primitives[k].material == index;
         if (!seen && index != NONE)
@@ -67,12 +67,12 @@ static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
     for (size_t i = first; i < first + count; i++) {
         const part *p = &s->parts[i];
         const node *n = &s->nodes[p->node];
-        size_t instances = node_draw_count(n);
-        json_t *entry = json_pack("{s:I,s:o,s:o,s:I,s:I,s:o,s:o,s:o}", "id", (json_int_t)(i + 1), "name",
-                                  string_or_null(p->name), "path", string_or_null(p->path), "triangles",
-                                  (json_int_t)(p->triangles * instances), "instances", (json_int_t)instances, "bounds",
-                                  bounds_json(p->bounds), "materials", part_materials(s, n->mesh != NONE ? &s->meshes[n->mesh] : NULL),
-                                  "attributes", attributes_json(n));
+        size_t      instances = node_draw_count(n);
+        json_t     *entry = json_pack(
+                "{s:I,s:o,s:o,s:I,s:I,s:o,s:o,s:o}", "id", (json_int_t)(i + 1), "name", string_or_null(p->name), "path",
+                string_or_null(p->path), "triangles", (json_int_t)(p->triangles * instances), "instances",
+                (json_int_t)instances, "bounds", bounds_json(p->bounds), "materials",
+                part_materials(s, n->mesh != NONE ? &s->meshes[n->mesh] : NULL), "attributes", attributes_json(n));
         if (entry && n->solid != NONE) {
             const solid *tree = &s->solids[n->solid];
             json_object_set_new(entry, "solid", solid_info_json(s, tree, bounds_json(solid_bounds(tree))));
@@ -96,13 +96,13 @@ static json_t *animations_json(const lmn_scene *s)
 static json_t *materials_json(const lmn_scene *s)
 {
     static const char *const modes[] = {"opaque", "mask", "blend"};
-    json_t *list = json_array();
+    json_t                  *list = json_array();
     for (size_t i = 0; i < s->material_count; i++) {
         const material *m = &s->materials[i];
-        json_t *entry = json_pack("{s:o,s:[o,o,o,o],s:s,s:b,s:b}", "name", string_or_null(m->name), "base_colour",
-                                  real(m->base_colour.x), real(m->base_colour.y), real(m->base_colour.z),
-                                  real(m->base_colour.w), "alpha", modes[m->alpha], "double_sided", m->double_sided,
-                                  "unlit", m->unlit);
+        json_t         *entry =
+            json_pack("{s:o,s:[o,o,o,o],s:s,s:b,s:b}", "name", string_or_null(m->name), "base_colour",
+                      real(m->base_colour.x), real(m->base_colour.y), real(m->base_colour.z), real(m->base_colour.w),
+                      "alpha", modes[m->alpha], "double_sided", m->double_sided, "unlit", m->unlit);
         int32_t texture = m->base_texture.image;
         if (entry)
             json_object_set_new(entry, "texture", texture == NONE ? json_null() : json_integer(texture));
@@ -116,26 +116,27 @@ static json_t *textures_json(const lmn_scene *s)
     json_t *list = json_array();
     for (size_t i = 0; i < s->image_count; i++) {
         const image *m = &s->images[i];
-        json_array_append_new(list, json_pack("{s:o,s:[I,I],s:b}", "name", string_or_null(m->name), "size",
-                                              (json_int_t)m->width, (json_int_t)m->height, "loaded", m->pixels != NULL));
+        json_array_append_new(list,
+                              json_pack("{s:o,s:[I,I],s:b}", "name", string_or_null(m->name), "size",
+                                        (json_int_t)m->width, (json_int_t)m->height, "loaded", m->pixels != NULL));
     }
     return list;
 }
 
 static json_t *cameras_json(const lmn_scene *s)
 {
-    json_t *list = json_array();
-    char numbered[CAMERA_NAME_ROOM];
+    json_t      *list = json_array();
+    char         numbered[CAMERA_NAME_ROOM];
     const char **node_names = mem_calloc(s->camera_count, sizeof *node_names);
     for (size_t i = s->node_count; node_names && i-- > 0;)
         if (s->nodes[i].camera != NONE && s->nodes[i].name)
             node_names[s->nodes[i].camera] = s->nodes[i].name;
     for (size_t i = 0; node_names && i < s->camera_count; i++) {
         const camera *c = &s->cameras[i];
-        json_t *angle = c->orthographic ? json_null() : real(c->fov_y * 57.295779513082320877);
-        json_array_append_new(list, json_pack("{s:o,s:s,s:o}", "name",
-                                              string_or_null(scene_camera_name(s, i, node_names[i], numbered)), "projection",
-                                              c->orthographic ? "orthographic" : "perspective", "fov_deg", angle));
+        json_t       *angle = c->orthographic ? json_null() : real(c->fov_y * 57.295779513082320877);
+        json_array_append_new(
+            list, json_pack("{s:o,s:s,s:o}", "name", string_or_null(scene_camera_name(s, i, node_names[i], numbered)),
+                            "projection", c->orthographic ? "orthographic" : "perspective", "fov_deg", angle));
     }
     mem_free(node_names);
     return list;
@@ -144,7 +145,7 @@ static json_t *cameras_json(const lmn_scene *s)
 static json_t *lights_json(const lmn_scene *s)
 {
     static const char *const types[] = {"directional", "point", "spot"};
-    json_t *list = json_array();
+    json_t                  *list = json_array();
     for (size_t i = 0; i < s->light_count; i++) {
         const light *l = &s->lights[i];
         json_array_append_new(list, json_pack("{s:o,s:s,s:o}", "name", string_or_null(l->name), "type", types[l->type],
@@ -184,15 +185,15 @@ static json_t *files_json(const lmn_scene *s)
 char *scene_info_json(const lmn_scene *s)
 {
     uint64_t triangles = 0;
-    box3 box = box3_empty();
+    box3     box = box3_empty();
     for (size_t i = 0; i < s->part_count; i++) {
         triangles += s->parts[i].triangles * node_draw_count(&s->nodes[s->parts[i].node]);
         box = box3_union(box, s->parts[i].bounds);
     }
     const char up[2] = {s->up ? s->up : 'y', '\0'};
-    json_t *root = json_pack("{s:o,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles", (json_int_t)triangles,
-                             "nodes", (json_int_t)scene_plain_node_count(s), "meshes", (json_int_t)(s->mesh_count - s->spare_meshes), "bounds",
-                             bounds_json(box), "up", up);
+    json_t    *root = json_pack("{s:o,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles", (json_int_t)triangles,
+                                "nodes", (json_int_t)scene_plain_node_count(s), "meshes",
+                                (json_int_t)(s->mesh_count - s->spare_meshes), "bounds", bounds_json(box), "up", up);
     if (!root)
         return NULL;
     json_object_set_new(root, "load_ms", real(s->load_ms));

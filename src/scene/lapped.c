@@ -1,13 +1,14 @@
-/* Covering a surface: patches from triangles in shuffled order as long as these are not covered yet, then, below all, what is left. */
+/* Covering a surface: patches from triangles in shuffled order as long as these are not covered yet, then, below
+ * all, what is left. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "scene/lapped_private.h"
 
 enum {
-    MOST_TIMES = 14,      /* so many times the triangles in patches; what is left comes once more */
-    ENOUGH = 60000,       /* triangles in patches that are no worry, however few the surface has */
-    MOST_ROWS = 8,        /* of parts of a large triangle, as many as bits: outlines of several patches together may have it */
+    MOST_TIMES = 14, /* so many times the triangles in patches; what is left comes once more */
+    ENOUGH = 60000,  /* triangles in patches that are no worry, however few the surface has */
+    MOST_ROWS = 8, /* of parts of a large triangle, as many as bits: outlines of several patches together may have it */
     LEFT_OVER_RADII = 16,
     STRETCH_CELLS = 4096
 };
@@ -17,25 +18,26 @@ static const double feature = 1.0471975511965976;
 /* Triangles laid flat, one patch behind the other. */
 typedef struct sheet {
     uint32_t *source, *indices;
-    float   (*places)[4];
-    size_t    vertex_count, index_count, source_room, place_room, index_room;
+    float (*places)[4];
+    size_t vertex_count, index_count, source_room, place_room, index_room;
 } sheet;
 
 typedef struct lapping {
     const primitive *primitive;
     field_surface    surface;
     patch_ground     ground;
-    double           radius;          /* as the surface is scaled */
-    uint32_t        *order;           /* triangles shuffled */
-    outline          outline;         /* of the patch at hand */
-    uint64_t        *cells;           /* per triangle: which parts some outline has */
-    bool            *hopeless;        /* per triangle: its parts are too large for an outline */
-    uint32_t        *copies;          /* per triangle of the primitive: the next copy, NOWHERE */
-    uint32_t        *numbers, *rounds; /* per vertex of the primitive: its number in the patch that was made in that round … */
-    uint32_t        *elements;         /* … as part of this element: around the end of a feature edge a patch may have both sides of it */
-    uint32_t         round, patch_count;
-    sheet            base, patches;
-    uint64_t         stretches[STRETCH_CELLS], triangles;
+    double           radius;   /* as the surface is scaled */
+    uint32_t        *order;    /* triangles shuffled */
+    outline          outline;  /* of the patch at hand */
+    uint64_t        *cells;    /* per triangle: which parts some outline has */
+    bool            *hopeless; /* per triangle: its parts are too large for an outline */
+    uint32_t        *copies;   /* per triangle of the primitive: the next copy, NOWHERE */
+    uint32_t *numbers, *rounds; /* per vertex of the primitive: its number in the patch that was made in that round … */
+    uint32_t
+        *elements; /* … as part of this element: around the end of a feature edge a patch may have both sides of it */
+    uint32_t round, patch_count;
+    sheet    base, patches;
+    uint64_t stretches[STRETCH_CELLS], triangles;
 } lapping;
 
 static uint32_t mix_bits(uint32_t n)
@@ -73,15 +75,16 @@ static void list_copies(lapping *l)
 static bool find_axes(lapping *l, const direction_field *field)
 {
     const field_surface *s = &l->surface;
-    tensor *sums = mem_calloc(s->element_count, sizeof *sums);
+    tensor              *sums = mem_calloc(s->element_count, sizeof *sums);
     if (!sums)
         return false;
     for (uint32_t e = 0; e < s->element_count; e++) {
-        point3 u, v;
-        double a, b;
+        point3   u, v;
+        double   a, b;
         uint32_t count = s->starts[e + 1] - s->starts[e];
         for (uint32_t i = s->starts[e]; i < s->starts[e + 1]; i++) {
-            const float *t = direction_field_at(field, l->primitive, 3 * s->triangles[s->around[i] / 3] + s->around[i] % 3);
+            const float *t =
+                direction_field_at(field, l->primitive, 3 * s->triangles[s->around[i] / 3] + s->around[i] % 3);
             for (int k = 0; k < 6; k++)
                 sums[e].v[k] += t[k] / (float)count;
         }
@@ -117,7 +120,7 @@ static bool add_vertex(lapping *l, sheet *to, uint32_t vertex, uint32_t element,
 static bool add_triangle(lapping *l, sheet *to, uint32_t triangle, float ignore, uint32_t patch)
 {
     const primitive *p = l->primitive;
-    double cell = (patch_stretch(&l->ground, triangle) - 1) / (STRETCH_MAX - 1) * STRETCH_CELLS;
+    double           cell = (patch_stretch(&l->ground, triangle) - 1) / (STRETCH_MAX - 1) * STRETCH_CELLS;
     l->stretches[cell < STRETCH_CELLS ? (size_t)fmax(cell, 0) : STRETCH_CELLS - 1]++;
     l->triangles++;
     for (uint32_t own = l->surface.triangles[triangle]; own != NOWHERE; own = l->copies[own]) {
@@ -125,7 +128,7 @@ static bool add_triangle(lapping *l, sheet *to, uint32_t triangle, float ignore,
             return false;
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t v = p->indices[3 * own + k], element = field_surface_element(&l->surface, p, 3 * own + k);
-            bool known = l->rounds[v] == l->round && l->elements[v] == element;
+            bool     known = l->rounds[v] == l->round && l->elements[v] == element;
             if (!known && !add_vertex(l, to, v, element, ignore, patch))
                 return false;
             to->indices[to->index_count++] = l->numbers[v];
@@ -156,7 +159,8 @@ static uint64_t all_cells(int rows)
     return UINT64_MAX >> (64 - rows * rows);
 }
 
-/* The corners of a part, as shares of the second and third corner. With 8 rows these have 15, 13 … 1 parts, every other one upside down. */
+/* The corners of a part, as shares of the second and third corner. With 8 rows these have 15, 13 … 1 parts, every
+ * other one upside down. */
 static void cell_corners(int cell, int rows, flat_place shares[3])
 {
     int row = 0, row_size = 2 * rows - 1;
@@ -175,7 +179,8 @@ static bool holds_cell(const lapping *l, const flat_place places[3], int cell, i
     cell_corners(cell, rows, shares);
     for (int k = 0; k < 3; k++) {
         double b = shares[k].x, c = shares[k].y, a = 1 - b - c;
-        corners[k] = (flat_place){a * places[0].x + b * places[1].x + c * places[2].x, a * places[0].y + b * places[1].y + c * places[2].y};
+        corners[k] = (flat_place){a * places[0].x + b * places[1].x + c * places[2].x,
+                                  a * places[0].y + b * places[1].y + c * places[2].y};
     }
     return outline_holds(&l->outline, corners);
 }
@@ -199,7 +204,7 @@ static void cover_triangle(lapping *l, uint32_t triangle, const flat_place place
 static flat_place bare_place(const lapping *l, uint32_t triangle, int *cell)
 {
     flat_place shares[3];
-    int rows = cell_rows(l, triangle), count = rows * rows;
+    int        rows = cell_rows(l, triangle), count = rows * rows;
     *cell = (int)(mix_bits(triangle + l->patch_count) % (uint32_t)count);
     while (l->cells[triangle] >> *cell & 1)
         *cell = (*cell + 1) % count;
@@ -211,8 +216,8 @@ static flat_place bare_place(const lapping *l, uint32_t triangle, int *cell)
 static bool take_patch(lapping *l, uint32_t seed, int cell, bool *full)
 {
     patch_ground *g = &l->ground;
-    flat_place places[3];
-    size_t kept = 0, most = (size_t)MOST_TIMES * l->surface.triangle_count;
+    flat_place    places[3];
+    size_t        kept = 0, most = (size_t)MOST_TIMES * l->surface.triangle_count;
     l->outline = outline_of(l->patch_count, l->radius);
     patch_places(g, seed, places);
     l->hopeless[seed] = !holds_cell(l, places, cell, cell_rows(l, seed));
@@ -239,7 +244,8 @@ static bool take_patch(lapping *l, uint32_t seed, int cell, bool *full)
     return true;
 }
 
-/* Large triangles take many patches. Each gets one in turn, so that none is left without if there come to be too many. */
+/* Large triangles take many patches. Each gets one in turn, so that none is left without if there come to be too
+ * many. */
 static bool cover_with_patches(lapping *l)
 {
     bool full = false, good = true, more = true;
@@ -247,7 +253,7 @@ static bool cover_with_patches(lapping *l)
         more = false;
         for (uint32_t i = 0; good && !full && i < l->surface.triangle_count; i++) {
             uint32_t seed = l->order[i];
-            int cell;
+            int      cell;
             if (l->ground.covered[seed] || l->hopeless[seed])
                 continue;
             flat_place middle = bare_place(l, seed, &cell);
@@ -266,7 +272,7 @@ static bool cover_with_patches(lapping *l)
 static bool cover_the_rest(lapping *l)
 {
     patch_ground *g = &l->ground;
-    bool good = true;
+    bool          good = true;
     g->only_uncovered = true;
     for (uint32_t seed = 0; good && seed < l->surface.triangle_count; seed++) {
         if (g->covered[seed])
@@ -286,9 +292,12 @@ static bool cover_the_rest(lapping *l)
 static lmn_status put_together(lapped_mesh *out, const lapping *l, lmn_error *error)
 {
     const sheet *a = &l->base, *b = &l->patches;
-    size_t vertices = a->vertex_count + b->vertex_count, indices = a->index_count + b->index_count;
+    size_t       vertices = a->vertex_count + b->vertex_count, indices = a->index_count + b->index_count;
     if (vertices >= UINT32_MAX || indices >= UINT32_MAX)
-        return error_set(error, LMN_LIMIT, "the patches of a lapped surface have %zu vertices and %zu indices; at most 4 thousand million are allowed", vertices, indices);
+        return error_set(
+            error, LMN_LIMIT,
+            "the patches of a lapped surface have %zu vertices and %zu indices; at most 4 thousand million are allowed",
+            vertices, indices);
     out->source = mem_alloc(vertices * sizeof *out->source);
     out->places = mem_alloc(vertices * sizeof *out->places);
     out->indices = mem_alloc(indices * sizeof *out->indices);
@@ -308,7 +317,7 @@ static lmn_status put_together(lapped_mesh *out, const lapping *l, lmn_error *er
     }
     out->patch_count = l->patch_count;
     uint64_t seen = 0;
-    size_t cell = 0;
+    size_t   cell = 0;
     while (cell < STRETCH_CELLS && (seen += l->stretches[cell]) < l->triangles * 95 / 100)
         cell++;
     out->stretch = 1 + (STRETCH_MAX - 1) * (double)cell / STRETCH_CELLS;
@@ -318,8 +327,8 @@ static lmn_status put_together(lapped_mesh *out, const lapping *l, lmn_error *er
 static bool make_ready(lapping *l, const direction_field *field, uint32_t seed)
 {
     const field_surface *s = &l->surface;
-    patch_ground *g = &l->ground;
-    size_t vertices = l->primitive->vertex_count;
+    patch_ground        *g = &l->ground;
+    size_t               vertices = l->primitive->vertex_count;
     g->surface = s;
     g->axes = mem_alloc(s->element_count * sizeof *g->axes);
     g->sure = mem_alloc(s->element_count * sizeof *g->sure);
@@ -333,7 +342,8 @@ static bool make_ready(lapping *l, const direction_field *field, uint32_t seed)
     l->numbers = mem_alloc(vertices * sizeof *l->numbers);
     l->rounds = mem_calloc(vertices, sizeof *l->rounds);
     l->elements = mem_alloc(vertices * sizeof *l->elements);
-    if (!g->axes || !g->sure || !g->local || !g->covered || !g->stamps || !l->order || !l->cells || !l->hopeless || !l->copies || !l->numbers || !l->rounds || !l->elements)
+    if (!g->axes || !g->sure || !g->local || !g->covered || !g->stamps || !l->order || !l->cells || !l->hopeless ||
+        !l->copies || !l->numbers || !l->rounds || !l->elements)
         return false;
     memset(g->local, 0xFF, s->element_count * sizeof *g->local);
     shuffle(l->order, s->triangle_count, seed);
@@ -344,16 +354,19 @@ static bool make_ready(lapping *l, const direction_field *field, uint32_t seed)
 static void release(lapping *l)
 {
     patch_ground *g = &l->ground;
-    void *const blocks[] = {g->axes, g->sure, g->local, g->covered, g->stamps, g->vertices, g->edges, g->triangles, g->kept, g->near.items,
-                            l->order, l->cells, l->hopeless, l->copies, l->numbers, l->rounds, l->elements, l->base.source, l->base.places, l->base.indices,
-                            l->patches.source, l->patches.places, l->patches.indices};
+    void *const   blocks[] = {g->axes,           g->sure,           g->local,          g->covered,     g->stamps,
+                              g->vertices,       g->edges,          g->triangles,      g->kept,        g->near.items,
+                              l->order,          l->cells,          l->hopeless,       l->copies,      l->numbers,
+                              l->rounds,         l->elements,       l->base.source,    l->base.places, l->base.indices,
+                              l->patches.source, l->patches.places, l->patches.indices};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);
     field_surface_release(&l->surface);
     mem_free(l);
 }
 
-lmn_status lapped_make(lapped_mesh *out, const primitive *p, const direction_field *field, double radius, uint32_t seed, lmn_error *error)
+lmn_status lapped_make(lapped_mesh *out, const primitive *p, const direction_field *field, double radius, uint32_t seed,
+                       lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     lapping *l = mem_calloc(1, sizeof *l);

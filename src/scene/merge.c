@@ -14,7 +14,7 @@ typedef struct offsets {
 
 static bool reserve_all(lmn_scene *into, const lmn_scene *from)
 {
-#define RESERVE(array, count, capacity, more)                                                                         \
+#define RESERVE(array, count, capacity, more)                                                                          \
     mem_grow((void **)&into->array, &into->capacity, into->count + (more), sizeof *into->array)
     return RESERVE(nodes, node_count, node_capacity, from->node_count + 1) &&
            RESERVE(meshes, mesh_count, mesh_capacity, from->mesh_count) &&
@@ -38,7 +38,7 @@ static void shift(int32_t *index, int32_t by)
 static void shift_references(lmn_scene *s, const offsets *by)
 {
     for (size_t i = 0; i < s->node_count; i++) {
-        node *n = &s->nodes[i];
+        node    *n = &s->nodes[i];
         int32_t *links[] = {&n->parent, &n->first_child, &n->last_child, &n->next_sibling};
         for (int k = 0; k < 4; k++)
             shift(links[k], by->nodes);
@@ -101,7 +101,7 @@ static char *root_name(const lmn_scene *into, const char *file)
 
 static lmn_status check_room(const lmn_scene *into, const lmn_scene *from, const char *file, lmn_error *error)
 {
-    size_t vertices = 0, triangles = 0, instances = 0;
+    size_t           vertices = 0, triangles = 0, instances = 0;
     const lmn_scene *both[] = {into, from};
     for (int k = 0; k < 2; k++) {
         for (size_t i = 0; i < both[k]->mesh_count; i++)
@@ -113,7 +113,7 @@ static lmn_status check_room(const lmn_scene *into, const lmn_scene *from, const
             instances += both[k]->nodes[i].instance_count;
     }
     const char *what = NULL;
-    size_t limit = 0;
+    size_t      limit = 0;
     if (into->node_count + from->node_count + 1 > LIMIT_NODES)
         what = "nodes", limit = LIMIT_NODES;
     else if (vertices > LIMIT_VERTICES)
@@ -124,17 +124,18 @@ static lmn_status check_room(const lmn_scene *into, const lmn_scene *from, const
         what = "instances", limit = LIMIT_INSTANCES;
     if (!what)
         return LMN_OK;
-    return error_in_file(error, LMN_LIMIT, file, 0, "with this file the scene would have more than %zu %s", limit, what);
+    return error_in_file(error, LMN_LIMIT, file, 0, "with this file the scene would have more than %zu %s", limit,
+                         what);
 }
 
 static void move_elements(lmn_scene *into, lmn_scene *from)
 {
-#define MOVE(array, count)                                                                                            \
-    do {                                                                                                              \
-        if (from->count)                                                                                              \
-            memcpy(into->array + into->count, from->array, from->count * sizeof *from->array);                        \
-        into->count += from->count;                                                                                   \
-        from->count = 0;                                                                                              \
+#define MOVE(array, count)                                                                                             \
+    do {                                                                                                               \
+        if (from->count)                                                                                               \
+            memcpy(into->array + into->count, from->array, from->count * sizeof *from->array);                         \
+        into->count += from->count;                                                                                    \
+        from->count = 0;                                                                                               \
     } while (0)
     MOVE(nodes, node_count);
     MOVE(meshes, mesh_count);
@@ -167,12 +168,12 @@ static void move_parts(lmn_scene *into, lmn_scene *from)
 /* Behind this nothing can fail. */
 static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, const mat4 *place)
 {
-    offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,  (int32_t)into->material_count,
+    offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,   (int32_t)into->material_count,
                   (int32_t)into->image_count,    (int32_t)into->camera_count, (int32_t)into->light_count,
                   (int32_t)into->skin_count,     (int32_t)into->solid_count};
     shift_references(from, &by);
     int32_t root = by.nodes - 1;
-    node *n = scene_append_node(into); /* room was reserved */
+    node   *n = scene_append_node(into); /* room was reserved */
     n->name = name;
     n->has_matrix = true;
     n->matrix = *place;
@@ -193,11 +194,12 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     lmn_status status = check_room(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4 place = scene_up_rotation(from->up, into->up ? into->up : from->up);
-    char *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
+    mat4      place = scene_up_rotation(from->up, into->up ? into->up : from->up);
+    char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
-    part *grown = NULL;
-    bool good = name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &place, &list);
+    part     *grown = NULL;
+    bool      good =
+        name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &place, &list);
     if (good) {
         size_t total = into->part_count + into->ghost_count + list.part_count + list.ghost_count;
         grown = mem_realloc(into->parts, total * sizeof *grown);

@@ -9,19 +9,22 @@
  * kept. Errors: LMN_MEMORY. */
 lmn_status mesh_weld_positions(primitive *p, lmn_error *error);
 
-/* For each vertex the first vertex at the same position: vertex_count entries, free with mem_free; NULL = memory gone. */
+/* For each vertex the first vertex at the same position: vertex_count entries, free with mem_free; NULL = memory
+ * gone. */
 uint32_t *mesh_position_ids(const primitive *p);
 
-/* Adjacency by position: for each of the index_count half-edges (corner k of a triangle to its next corner) the half-edge
- * on the other side, or UINT32_MAX at a border; edges of more than two triangles pair the first with the second and so
- * on. Free with mem_free; NULL when memory is gone. */
+/* Adjacency by position: for each of the index_count half-edges (corner k of a triangle to its next corner) the
+ * half-edge on the other side, or UINT32_MAX at a border; edges of more than two triangles pair the first with the
+ * second and so on. Free with mem_free; NULL when memory is gone. */
 uint32_t *mesh_adjacency(const primitive *p);
 
-/* Is the mesh closed, in one piece, and every point on or behind every face? Large meshes (4 million pairs of points and faces) count as not convex. */
+/* Is the mesh closed, in one piece, and every point on or behind every face? Large meshes (4 million pairs of
+ * points and faces) count as not convex. */
 bool mesh_is_convex(const mesh *m);
 
-/* Vertices ready to be drawn: those of the primitive, split where neighbouring faces meet at more than the crease angle.
- * `source` maps each vertex to the primitive's vertex. Owned by the caller, end with render_vertices_release. */
+/* Vertices ready to be drawn: those of the primitive, split where neighbouring faces meet at more than the crease
+ * angle. `source` maps each vertex to the primitive's vertex. Owned by the caller, end with
+ * render_vertices_release. */
 typedef struct render_vertices {
     uint32_t  vertex_count, index_count;
     uint32_t *source;  /* NULL: identity */
@@ -34,8 +37,9 @@ typedef struct render_vertices {
 lmn_status mesh_make_normals(render_vertices *out, const primitive *p, double crease_angle, lmn_error *error);
 void       render_vertices_release(render_vertices *v);
 
-/* Positions (and normals, may be NULL in and out) of a primitive in its node's pose: morphs with `weights`, then the skin's
- * joint matrices (already world · inverse bind); joint_matrices NULL = no skin. Arrays hold vertex_count elements. */
+/* Positions (and normals, may be NULL in and out) of a primitive in its node's pose: morphs with `weights`, then
+ * the skin's joint matrices (already world · inverse bind); joint_matrices NULL = no skin. Arrays hold vertex_count
+ * elements. */
 void mesh_pose(const primitive *p, const float *weights, size_t weight_count, const mat4 *joint_matrices,
                size_t joint_count, const vec3 *normals, const uint32_t *source, uint32_t count, vec3 *out_positions,
                vec3 *out_normals);

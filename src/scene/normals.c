@@ -21,13 +21,14 @@ typedef struct corner_face {
 
 typedef struct normals_job {
     const primitive *primitive;
-    const uint32_t  *starts, *corners; /* corners by position: group g is corners[starts[g]] … corners[starts[g + 1] − 1] */
-    const vec3      *areas;            /* per triangle */
-    float            cos_crease;
-    vec3            *vertex_normals;   /* per vertex: the group's one normal, or left 0 */
-    vec3            *corner_normals;   /* per corner, only in groups that are split */
-    unsigned char   *split;            /* per group */
-    unsigned char   *failed;           /* per group: memory was gone */
+    const uint32_t  *starts,
+        *corners;         /* corners by position: group g is corners[starts[g]] … corners[starts[g + 1] − 1] */
+    const vec3    *areas; /* per triangle */
+    float          cos_crease;
+    vec3          *vertex_normals; /* per vertex: the group's one normal, or left 0 */
+    vec3          *corner_normals; /* per corner, only in groups that are split */
+    unsigned char *split;          /* per group */
+    unsigned char *failed;         /* per group: memory was gone */
 } normals_job;
 
 static vec3 unit_or(vec3 v, vec3 otherwise)
@@ -103,7 +104,7 @@ static void split_by_cells(normals_job *job, const corner_face *faces, size_t co
         units[c] = unit_or(sums[c], (vec3){0, 0, 0});
     for (size_t i = 0; i < count; i++) {
         vec3 sum = {0, 0, 0};
-        int own = direction_cell(faces[i].unit);
+        int  own = direction_cell(faces[i].unit);
         for (int c = 0; c < DIRECTION_CELLS * DIRECTION_CELLS; c++)
             if (c == own || dot(faces[i].unit, units[c]) >= job->cos_crease)
                 sum = add(sum, sums[c]);
@@ -116,7 +117,7 @@ static void do_group(normals_job *job, size_t group, corner_face *faces, size_t 
     vec3 sum = {0, 0, 0};
     for (size_t i = 0; i < count; i++) {
         uint32_t corner = job->corners[job->starts[group] + i];
-        vec3 area = job->areas[corner / 3];
+        vec3     area = job->areas[corner / 3];
         faces[i] = (corner_face){unit_or(area, (vec3){0, 0, 0}), area, corner};
         sum = add(sum, area);
     }
@@ -137,7 +138,7 @@ static void do_group(normals_job *job, size_t group, corner_face *faces, size_t 
 static void do_groups(size_t begin, size_t end, void *user)
 {
     normals_job *job = user;
-    corner_face room[GROUP_STACK];
+    corner_face  room[GROUP_STACK];
     for (size_t g = begin; g < end; g++) {
         size_t count = job->starts[g + 1] - job->starts[g];
         if (count == 0)
@@ -160,7 +161,7 @@ typedef struct areas_job {
 
 static void do_areas(size_t begin, size_t end, void *user)
 {
-    areas_job *job = user;
+    areas_job       *job = user;
     const primitive *p = job->primitive;
     for (size_t t = begin; t < end; t++) {
         vec3 a = p->positions[p->indices[3 * t]], b = p->positions[p->indices[3 * t + 1]];
@@ -200,7 +201,7 @@ static bool same_normal(vec3 a, vec3 b)
 static uint32_t render_vertex(splitter *s, uint32_t vertex, vec3 normal)
 {
     render_vertices *out = s->out;
-    uint32_t r = s->latest[vertex];
+    uint32_t         r = s->latest[vertex];
     if (r == UINT32_MAX) {
         s->latest[vertex] = vertex;
         out->normals[vertex] = normal;
@@ -225,7 +226,7 @@ static uint32_t render_vertex(splitter *s, uint32_t vertex, vec3 normal)
 
 static bool split_groups(splitter *s)
 {
-    normals_job *job = s->job;
+    normals_job     *job = s->job;
     const primitive *p = job->primitive;
     for (size_t g = 0; g < p->vertex_count; g++) {
         if (!job->split[g])
@@ -246,7 +247,10 @@ static bool make_splits(render_vertices *out, normals_job *job)
     const primitive *p = job->primitive;
     if (!memchr(job->split, 1, p->vertex_count))
         return true;
-    splitter s = {.job = job, .out = out, .normal_room = p->vertex_count, .source_room = p->vertex_count,
+    splitter s = {.job = job,
+                  .out = out,
+                  .normal_room = p->vertex_count,
+                  .source_room = p->vertex_count,
                   .older_room = p->vertex_count};
     out->source = mem_alloc((size_t)p->vertex_count * sizeof *out->source);
     out->indices = mem_copy(p->indices, (size_t)p->index_count * sizeof *out->indices);
@@ -268,7 +272,7 @@ static bool make_normals(render_vertices *out, normals_job *job, uint32_t *ids, 
                          vec3 *areas)
 {
     const primitive *p = job->primitive;
-    areas_job faces = {p, areas};
+    areas_job        faces = {p, areas};
     threads_for(p->index_count / 3, GROUPS_PER_THREAD, do_areas, &faces);
     group_corners(p, ids, starts, corners);
     job->starts = starts;
@@ -281,11 +285,11 @@ static bool make_normals(render_vertices *out, normals_job *job, uint32_t *ids, 
 lmn_status mesh_make_normals(render_vertices *out, const primitive *p, double crease_angle, lmn_error *error)
 {
     *out = (render_vertices){.vertex_count = p->vertex_count, .index_count = p->index_count};
-    size_t vertices = p->vertex_count, corner_count = p->index_count;
-    uint32_t *ids = mesh_position_ids(p);
-    uint32_t *starts = mem_calloc(vertices + 2, sizeof *starts);
-    uint32_t *corners = mem_alloc(corner_count * sizeof *corners);
-    vec3 *areas = mem_alloc(corner_count / 3 * sizeof *areas);
+    size_t      vertices = p->vertex_count, corner_count = p->index_count;
+    uint32_t   *ids = mesh_position_ids(p);
+    uint32_t   *starts = mem_calloc(vertices + 2, sizeof *starts);
+    uint32_t   *corners = mem_alloc(corner_count * sizeof *corners);
+    vec3       *areas = mem_alloc(corner_count / 3 * sizeof *areas);
     normals_job job = {.primitive = p};
     /* A hair wider than asked, so that faces exactly at the angle are joined whatever the rounding. */
     job.cos_crease = crease_angle >= 3.14159 ? -1.0f : (float)cos(crease_angle) - 1e-6f;

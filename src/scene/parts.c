@@ -73,7 +73,7 @@ static void append_cut(text *t, const char *step)
 static char *make_path(const listing *l, int32_t index, const char *name)
 {
     int32_t chain[PATH_DEPTH_MAX];
-    int depth = 0;
+    int     depth = 0;
     for (int32_t n = l->scene->nodes[index].parent; n != NONE && depth < PATH_DEPTH_MAX; n = l->scene->nodes[n].parent)
         chain[depth++] = n;
     text t = {0};
@@ -125,7 +125,7 @@ static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
 
 static bool add_part(listing *l, int32_t index)
 {
-    char fallback[32];
+    char        fallback[32];
     const char *name = own_name(l->scene, index);
     if (!name) {
         snprintf(fallback, sizeof fallback, "part-%u", (unsigned)(l->first_id + l->count + 1));

@@ -4,9 +4,9 @@
 
 #include "scene/scene.h"
 
-/* Numbers the nodes that draw triangles, depth first: names, unique paths, counts and bounds. `prefix` and its slash stand
- * in front of each path (NULL: none), ids start behind `first_id`, `place` moves the bounds (NULL: not). Ghosts come behind the
- * others. The result and its strings belong to the caller. False when memory is gone. */
+/* Numbers the nodes that draw triangles, depth first: names, unique paths, counts and bounds. `prefix` and its
+ * slash stand in front of each path (NULL: none), ids start behind `first_id`, `place` moves the bounds (NULL:
+ * not). Ghosts come behind the others. The result and its strings belong to the caller. False when memory is gone. */
 typedef struct part_list {
     part  *parts;
     size_t part_count, ghost_count;

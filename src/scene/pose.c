@@ -19,12 +19,12 @@ static vec3 to_unit(vec3 n)
     return (vec3){(float)(n.x / length), (float)(n.y / length), (float)(n.z / length)};
 }
 
-/* Normals follow the cofactors of the 3x3, which is the inverse transpose times the determinant: right under non-uniform
- * scale, and defined when the matrix is singular. */
+/* Normals follow the cofactors of the 3x3, which is the inverse transpose times the determinant: right under
+ * non-uniform scale, and defined when the matrix is singular. */
 static mat4 cofactors(const mat4 *m)
 {
     const double *e = m->m;
-    mat4 c = mat4_identity();
+    mat4          c = mat4_identity();
     c.m[0] = e[5] * e[10] - e[6] * e[9];
     c.m[1] = e[6] * e[8] - e[4] * e[10];
     c.m[2] = e[4] * e[9] - e[5] * e[8];
@@ -40,7 +40,7 @@ static mat4 cofactors(const mat4 *m)
 /* The weighted sum of a vertex's joint matrices. */
 static mat4 blend(const primitive *p, uint32_t vertex, const mat4 *joints, size_t joint_count)
 {
-    mat4 sum = {{0}};
+    mat4         sum = {{0}};
     const float *weights = &p->weights[vertex].x;
     for (int k = 0; k < 4; k++) {
         uint16_t joint = p->joints[(size_t)vertex * 4 + (size_t)k];
@@ -65,12 +65,12 @@ void mesh_pose(const primitive *p, const float *weights, size_t weight_count, co
                size_t joint_count, const vec3 *normals, const uint32_t *source, uint32_t count, vec3 *out_positions,
                vec3 *out_normals)
 {
-    bool skinned = joint_matrices && p->joints && p->weights;
+    bool   skinned = joint_matrices && p->joints && p->weights;
     size_t morphs = weights ? weight_count < p->morph_count ? weight_count : p->morph_count : 0;
-    bool with_normals = normals && out_normals;
+    bool   with_normals = normals && out_normals;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t vertex = source ? source[i] : i;
-        vec3 position = p->positions[vertex], normal = with_normals ? normals[i] : (vec3){0, 0, 1};
+        vec3     position = p->positions[vertex], normal = with_normals ? normals[i] : (vec3){0, 0, 1};
         for (size_t m = 0; m < morphs; m++) {
             if (weights[m] == 0)
                 continue;

@@ -10,8 +10,8 @@
 #include "scene/parts.h"
 #include "scene/solid.h"
 
-/* One counter for the process: a renderer keeps GPU copies of the scene it drew last and knows it by address and revision, and
- * a new scene may lie where an old one was. */
+/* One counter for the process: a renderer keeps GPU copies of the scene it drew last and knows it by address and
+ * revision, and a new scene may lie where an old one was. */
 static atomic_uint_fast64_t revisions;
 
 uint64_t scene_next_revision(void)
@@ -275,7 +275,7 @@ char *scene_clean_name(const char *bytes, size_t size)
     text t = {0};
     for (size_t i = 0; i < size;) {
         size_t length = character_length(bytes + i, size - i);
-        bool control = length == 1 && ((unsigned char)bytes[i] < 0x20 || bytes[i] == 0x7F);
+        bool   control = length == 1 && ((unsigned char)bytes[i] < 0x20 || bytes[i] == 0x7F);
         if (length == 0 || control)
             text_append_bytes(&t, "\xEF\xBF\xBD", 3);
         else
@@ -290,7 +290,7 @@ char *scene_name_of_file(const char *path)
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
-    size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    size_t      length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
     return length ? scene_clean_name(name, length) : mem_copy_text("model");
 }
 
@@ -299,7 +299,8 @@ size_t node_draw_count(const node *n)
     return n->instance_count ? n->instance_count : 1;
 }
 
-const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name, char numbered[CAMERA_NAME_ROOM])
+const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name,
+                              char numbered[CAMERA_NAME_ROOM])
 {
     if (scene->cameras[index].name)
         return scene->cameras[index].name;

@@ -1,5 +1,5 @@
-/* The scene's data: what importers fill and everything else reads. Indices into the scene's arrays are int32_t, NONE = −1.
- * Angles are radians, colours linear RGBA, matrices column-major doubles acting on columns. */
+/* The scene's data: what importers fill and everything else reads. Indices into the scene's arrays are int32_t,
+ * NONE = −1. Angles are radians, colours linear RGBA, matrices column-major doubles acting on columns. */
 #ifndef LIMNER_SCENE_SCENE_H
 #define LIMNER_SCENE_SCENE_H
 
@@ -9,11 +9,21 @@
 
 enum { NONE = -1, UV_SETS = 2 };
 
-typedef struct vec2 { float x, y; } vec2;
-typedef struct vec3 { float x, y, z; } vec3;
-typedef struct vec4 { float x, y, z, w; } vec4;
-typedef struct mat4 { double m[16]; } mat4;
-typedef struct box3 { vec3 min, max; } box3; /* empty: min > max */
+typedef struct vec2 {
+    float x, y;
+} vec2;
+typedef struct vec3 {
+    float x, y, z;
+} vec3;
+typedef struct vec4 {
+    float x, y, z, w;
+} vec4;
+typedef struct mat4 {
+    double m[16];
+} mat4;
+typedef struct box3 {
+    vec3 min, max;
+} box3; /* empty: min > max */
 
 /* One morph target: offsets per vertex, arrays NULL when absent. */
 typedef struct morph_target {
@@ -30,18 +40,18 @@ typedef struct edge_visibility {
 typedef struct primitive {
     uint32_t        vertex_count, index_count;
     vec3           *positions;
-    vec3           *normals;        /* unit; NULL: made from the crease angle when drawn */
+    vec3           *normals; /* unit; NULL: made from the crease angle when drawn */
     vec2           *uvs[UV_SETS];
-    vec4           *colours;        /* linear, straight alpha */
-    uint16_t       *joints;         /* 4 per vertex */
-    vec4           *weights;        /* of the joints, sum 1 */
+    vec4           *colours; /* linear, straight alpha */
+    uint16_t       *joints;  /* 4 per vertex */
+    vec4           *weights; /* of the joints, sum 1 */
     uint32_t       *indices;
-    int32_t         material;       /* NONE: the default material */
+    int32_t         material; /* NONE: the default material */
     morph_target   *morphs;
     size_t          morph_count;
     edge_visibility edges;
-    bool            welded;         /* no two vertices lie at one position */
-    box3            bounds;         /* of positions; set by scene_finish */
+    bool            welded; /* no two vertices lie at one position */
+    box3            bounds; /* of positions; set by scene_finish */
 } primitive;
 
 typedef struct mesh {
@@ -57,7 +67,7 @@ typedef struct mesh {
 typedef struct image {
     char    *name;
     uint32_t width, height;
-    uint8_t *pixels; /* RGBA, row 0 on top, NULL when it could not be decoded */
+    uint8_t *pixels;  /* RGBA, row 0 on top, NULL when it could not be decoded */
     char    *strokes; /* path of the stroke texture that stands for it in halftones; NULL: none */
 } image;
 
@@ -71,7 +81,10 @@ typedef struct texture_use {
     bool      nearest;
     float     offset[2], scale[2], rotation;
 } texture_use;
-#define TEXTURE_USE_NONE {NONE, 0, WRAP_REPEAT, WRAP_REPEAT, false, {0, 0}, {1, 1}, 0}
+#define TEXTURE_USE_NONE                                                                                               \
+    {                                                                                                                  \
+        NONE, 0, WRAP_REPEAT, WRAP_REPEAT, false, {0, 0}, {1, 1}, 0                                                    \
+    }
 
 typedef enum alpha_mode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } alpha_mode;
 
@@ -90,9 +103,9 @@ typedef struct material {
 typedef struct camera {
     char  *name;
     bool   orthographic;
-    double fov_y;           /* radians, perspective */
-    double half_height;     /* orthographic */
-    double near, far;       /* far 0 = none */
+    double fov_y;       /* radians, perspective */
+    double half_height; /* orthographic */
+    double near, far;   /* far 0 = none */
 } camera;
 
 typedef enum light_type { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } light_type;
@@ -112,18 +125,18 @@ typedef struct attribute {
 
 /* One node. Its world matrix is parent · local; `local` is matrix when `has_matrix`, else T·R·S. */
 typedef struct node {
-    char      *name; /* may be NULL */
+    char      *name;                              /* may be NULL */
     int32_t    parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
-    int32_t    last_child; /* makes scene_link_child O(1) */
+    int32_t    last_child;                        /* makes scene_link_child O(1) */
     bool       has_matrix;
     mat4       matrix;
     double     translation[3], rotation[4] /* x y z w */, scale[3];
     int32_t    mesh, skin, camera, light;
-    int32_t    solid; /* a node has a mesh or a solid */
-    bool       ghost; /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
+    int32_t    solid;     /* a node has a mesh or a solid */
+    bool       ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
     mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
     size_t     instance_count; /* 0: the node itself is the one instance */
-    float     *morph_weights; /* NULL: the mesh's */
+    float     *morph_weights;  /* NULL: the mesh's */
     size_t     morph_weight_count;
     attribute *attributes;
     size_t     attribute_count;
@@ -166,35 +179,35 @@ typedef struct part {
 } part;
 
 struct lmn_scene {
-    node      *nodes;
-    size_t     node_count, node_capacity;
-    mesh      *meshes;
-    size_t     mesh_count, mesh_capacity;
-    material  *materials;
-    size_t     material_count, material_capacity;
-    image     *images;
-    size_t     image_count, image_capacity;
-    camera    *cameras;
-    size_t     camera_count, camera_capacity;
-    light     *lights;
-    size_t     light_count, light_capacity;
-    skin      *skins;
-    size_t     skin_count, skin_capacity;
-    animation *animations;
-    size_t     animation_count, animation_capacity;
+    node         *nodes;
+    size_t        node_count, node_capacity;
+    mesh         *meshes;
+    size_t        mesh_count, mesh_capacity;
+    material     *materials;
+    size_t        material_count, material_capacity;
+    image        *images;
+    size_t        image_count, image_capacity;
+    camera       *cameras;
+    size_t        camera_count, camera_capacity;
+    light        *lights;
+    size_t        light_count, light_capacity;
+    skin         *skins;
+    size_t        skin_count, skin_capacity;
+    animation    *animations;
+    size_t        animation_count, animation_capacity;
     struct solid *solids; /* scene/solid.h */
-    size_t     solid_count, solid_capacity;
-    part      *parts;  /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
-    size_t     part_count, ghost_count;
-    char     **files; /* paths as they were given, one per merged file */
-    size_t     file_count, file_capacity;
-    uint64_t   revision; /* changes whenever the content does; no two scenes of a process ever share one */
-    uint64_t   identity; /* the same as long as the scene lives; no other scene of the process ever has it */
-    size_t     spare_meshes;
-    char       up;       /* 'y', 'z', or 0 while empty */
-    bool       may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
-    warnings   warnings;
-    double     load_ms;
+    size_t        solid_count, solid_capacity;
+    part         *parts; /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
+    size_t        part_count, ghost_count;
+    char        **files; /* paths as they were given, one per merged file */
+    size_t        file_count, file_capacity;
+    uint64_t      revision; /* changes whenever the content does; no two scenes of a process ever share one */
+    uint64_t      identity; /* the same as long as the scene lives; no other scene of the process ever has it */
+    size_t        spare_meshes;
+    char          up;           /* 'y', 'z', or 0 while empty */
+    bool          may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
+    warnings      warnings;
+    double        load_ms;
 };
 
 /* An empty scene; NULL when memory is gone. */
@@ -202,7 +215,7 @@ lmn_scene *scene_new(void);
 /* Frees a scene and all it owns. NULL is accepted. */
 void scene_free(lmn_scene *scene);
 
-/* --- building: importers fill a scene of their own, then it is merged ------------------------------------------- */
+/* --- building: importers fill a scene of their own, then it is merged ----------------------------------- */
 
 /* Append a zeroed (NONE where that is the neutral value) element; NULL when memory is gone. Pointers into an array are
  * valid until the next append to it. Strings and arrays stored in elements are owned by the scene (mem_alloc). */
@@ -233,33 +246,36 @@ uint64_t scene_next_revision(void);
  * may_be_empty set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
 lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
 
-/* Brings the up axis `from` ('y' or 'z') to `to`: a quarter turn about x, with exact zeros so that boxes stay boxes. */
+/* Brings the up axis `from` ('y' or 'z') to `to`: a quarter turn about x, with exact zeros so that boxes stay
+ * boxes. */
 mat4 scene_up_rotation(char from, char to);
 
-/* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to `into`'s up
- * axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
+/* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to
+ * `into`'s up axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error);
 
-/* A copy of `size` bytes as valid UTF-8 without control characters (bad bytes become U+FFFD), for names from files. NULL
- * when memory is gone. */
+/* A copy of `size` bytes as valid UTF-8 without control characters (bad bytes become U+FFFD), for names from files.
+ * NULL when memory is gone. */
 char *scene_clean_name(const char *bytes, size_t size);
 /* "spot" for "models/spot.stl": what a file's root node is called. NULL when memory is gone. */
 char *scene_name_of_file(const char *path);
 
-/* --- reading ---------------------------------------------------------------------------------------------------- */
+/* --- reading -------------------------------------------------------------------------------------------- */
 
 /* World matrices of all nodes in the rest pose, node_count of them; free with mem_free. NULL when memory is gone. */
 mat4 *scene_world_matrices(const lmn_scene *scene);
 /* That of one node. */
-mat4  scene_world_matrix(const lmn_scene *scene, int32_t node_index);
-mat4  node_local_matrix(const node *n);
+mat4 scene_world_matrix(const lmn_scene *scene, int32_t node_index);
+mat4 node_local_matrix(const node *n);
 
-/* What --camera calls a camera: its name, else that of a node that has it (may be NULL), else "camera-N", counted from 1, in
- * `numbered`. */
+/* What --camera calls a camera: its name, else that of a node that has it (may be NULL), else "camera-N", counted
+ * from 1, in `numbered`. */
 enum { CAMERA_NAME_ROOM = 32 };
-const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name, char numbered[CAMERA_NAME_ROOM]);
+const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name,
+                              char numbered[CAMERA_NAME_ROOM]);
 
-/* The scene's bounds with these world matrices: skinned and morphed parts as they are drawn. Empty box when nothing. */
+/* The scene's bounds with these world matrices: skinned and morphed parts as they are drawn. Empty box when
+ * nothing. */
 box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
 box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
 
@@ -276,23 +292,24 @@ size_t scene_part_of_ghost(const lmn_scene *scene, size_t ghost_index);
 /* The scene as JSON text (docs/reference/info.md); free with mem_free. NULL when memory is gone. */
 char *scene_info_json(const lmn_scene *scene);
 /* How many times a node's mesh is drawn: its instances, or once. */
-size_t node_draw_count(const node *n);
+size_t   node_draw_count(const node *n);
 uint64_t mesh_triangle_count(const mesh *m);
 
 mat4 mat4_identity(void);
 mat4 mat4_multiply(const mat4 *a, const mat4 *b); /* a · b */
 vec3 mat4_transform_point(const mat4 *m, vec3 p);
-/* Cofactors of the upper left 3 by 3, column-major: what normals are turned by, up to the sign. Returns its determinant. */
+/* Cofactors of the upper left 3 by 3, column-major: what normals are turned by, up to the sign. Returns its
+ * determinant. */
 double mat4_cofactors(const mat4 *m, double out[9]);
-mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3]);
-box3 box3_empty(void);
-bool box3_is_empty(box3 b);
-box3 box3_union(box3 a, box3 b);
-void box3_middle(box3 b, double out[3]);
-double box3_diagonal(box3 b); /* its length */
-bool box3_overlap(box3 a, box3 b); /* do they share more than their borders? */
-box3 box3_intersection(box3 a, box3 b); /* empty unless they overlap */
-box3 box3_with_point(box3 b, vec3 p);
-box3 box3_transform(box3 b, const mat4 *m); /* the box around the 8 moved corners */
+mat4   mat4_from_trs(const double t[3], const double r[4], const double s[3]);
+box3   box3_empty(void);
+bool   box3_is_empty(box3 b);
+box3   box3_union(box3 a, box3 b);
+void   box3_middle(box3 b, double out[3]);
+double box3_diagonal(box3 b);             /* its length */
+bool   box3_overlap(box3 a, box3 b);      /* do they share more than their borders? */
+box3   box3_intersection(box3 a, box3 b); /* empty unless they overlap */
+box3   box3_with_point(box3 b, vec3 p);
+box3   box3_transform(box3 b, const mat4 *m); /* the box around the 8 moved corners */
 
 #endif

@@ -8,14 +8,22 @@
 
 int32_t solid_append(solid *s, int32_t parent, solid_kind kind)
 {
-    if (s->id_count >= INT32_MAX - 1 || !mem_grow((void **)&s->nodes, &s->node_capacity, s->node_count + 1, sizeof *s->nodes) ||
+    if (s->id_count >= INT32_MAX - 1 ||
+        !mem_grow((void **)&s->nodes, &s->node_capacity, s->node_count + 1, sizeof *s->nodes) ||
         !mem_grow((void **)&s->places, &s->place_capacity, s->id_count + 1, sizeof *s->places))
         return NONE;
     int32_t index = (int32_t)s->node_count++;
     s->places[s->id_count++] = index;
     s->operand_count += kind == SOLID_OPERAND;
-    s->nodes[index] = (solid_node){.kind = kind, .id = (uint32_t)s->id_count, .parent = parent, .first_child = NONE, .last_child = NONE,
-                                   .next_sibling = NONE, .matrix = mat4_identity(), .mesh = NONE, .box = box3_empty()};
+    s->nodes[index] = (solid_node){.kind = kind,
+                                   .id = (uint32_t)s->id_count,
+                                   .parent = parent,
+                                   .first_child = NONE,
+                                   .last_child = NONE,
+                                   .next_sibling = NONE,
+                                   .matrix = mat4_identity(),
+                                   .mesh = NONE,
+                                   .box = box3_empty()};
     if (parent == NONE)
         return index;
     solid_node *above = &s->nodes[parent];
@@ -66,7 +74,7 @@ static inherited *hand_down(const solid *s)
     inherited *out = mem_alloc(sizeof *out * s->node_count);
     for (size_t i = 0; out && i < s->node_count; i++) {
         const solid_node *n = &s->nodes[i];
-        const inherited *above = n->parent == NONE ? NULL : &out[n->parent];
+        const inherited  *above = n->parent == NONE ? NULL : &out[n->parent];
         out[i].matrix = above ? mat4_multiply(&above->matrix, &n->matrix) : n->matrix;
         out[i].has_colour = (above && above->has_colour) || n->has_colour;
         out[i].colour = above && above->has_colour ? above->colour : n->colour;
@@ -115,7 +123,7 @@ bool solid_measure(const lmn_scene *scene, solid *s)
 static mat4 place_of(const solid *s, int32_t index)
 {
     int32_t above[SOLID_DEPTH_MAX];
-    size_t depth = 0;
+    size_t  depth = 0;
     for (int32_t i = s->nodes[index].parent; i != NONE && depth < SOLID_DEPTH_MAX; i = s->nodes[i].parent)
         above[depth++] = i;
     if (depth == 0)
@@ -181,7 +189,7 @@ void solid_sum_up_above(solid *s, int32_t node)
 
 bool solid_operands(const solid *s, solid_operand **out, size_t *count)
 {
-    size_t room = s->operand_count, made = 0;
+    size_t     room = s->operand_count, made = 0;
     inherited *from = hand_down(s);
     *out = mem_calloc(room ? room : 1, sizeof **out);
     *count = 0;
@@ -196,8 +204,12 @@ bool solid_operands(const solid *s, solid_operand **out, size_t *count)
         const solid_node *n = &s->nodes[i];
         if (n->triangles == 0)
             continue;
-        (*out)[made++] = (solid_operand){.node = i, .mesh = n->mesh, .matrix = from[i].matrix, .has_colour = from[i].has_colour,
-                                         .colour = from[i].colour, .box = n->box};
+        (*out)[made++] = (solid_operand){.node = i,
+                                         .mesh = n->mesh,
+                                         .matrix = from[i].matrix,
+                                         .has_colour = from[i].has_colour,
+                                         .colour = from[i].colour,
+                                         .box = n->box};
     }
     mem_free(from);
     *count = made;

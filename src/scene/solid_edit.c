@@ -7,7 +7,7 @@
 #include "scene/parts.h"
 #include "scene/solid_links.h"
 
-/* --- after an edit ------------------------------------------------------------------------------------------------------ */
+/* --- after an edit -------------------------------------------------------------------------------------- */
 
 /* Do the parts, and behind them the ghosts, list just those solids that have triangles? */
 static bool parts_hold(const lmn_scene *scene)
@@ -36,8 +36,8 @@ static lmn_status list_parts(lmn_scene *scene, lmn_error *error)
     return LMN_OK;
 }
 
-/* Solids without triangles are no parts. Only where that changes is the list made again, and only then can this fail: parts are as they
- * were then. */
+/* Solids without triangles are no parts. Only where that changes is the list made again, and only then can this
+ * fail: parts are as they were then. */
 static lmn_status settle_part(lmn_scene *scene, size_t index, lmn_error *error)
 {
     if (!scene_update_removed(scene, index))
@@ -48,7 +48,7 @@ static lmn_status settle_part(lmn_scene *scene, size_t index, lmn_error *error)
             return status;
     }
     for (size_t i = 0; i < scene->part_count + scene->ghost_count; i++) {
-        part *p = &scene->parts[i];
+        part   *p = &scene->parts[i];
         int32_t own = scene->nodes[p->node].solid;
         if (own != (int32_t)index && (own == NONE || !scene->solids[own].ghost))
             continue;
@@ -86,7 +86,7 @@ static lmn_status settle_below(lmn_scene *scene, size_t index, int32_t node, lmn
     return settle_part(scene, index, error);
 }
 
-/* --- meshes ------------------------------------------------------------------------------------------------------------- */
+/* --- meshes --------------------------------------------------------------------------------------------- */
 
 static void spare_mesh(lmn_scene *scene, int32_t index)
 {
@@ -143,7 +143,7 @@ static lmn_status check_triangles(const lmn_scene *scene, uint64_t more, lmn_err
     return error_set(error, LMN_LIMIT, "the scene would have more than %zu triangles", LIMIT_TRIANGLES);
 }
 
-/* --- adding ------------------------------------------------------------------------------------------------------------- */
+/* --- adding --------------------------------------------------------------------------------------------- */
 
 static size_t depth_of(const solid *s, int32_t node)
 {
@@ -164,7 +164,8 @@ static size_t height_of(const solid *s, int32_t node)
     return height;
 }
 
-static lmn_status check_room(const solid *s, int32_t parent, size_t operands, size_t nodes, size_t levels, lmn_error *error)
+static lmn_status check_room(const solid *s, int32_t parent, size_t operands, size_t nodes, size_t levels,
+                             lmn_error *error)
 {
     if (s->operand_count + operands > SOLID_OPERANDS_MAX)
         return error_set(error, LMN_LIMIT, "the solid would have more than %d operands", SOLID_OPERANDS_MAX);
@@ -187,9 +188,9 @@ lmn_status solid_edit_create(lmn_scene *scene, solid_kind root, const char *name
 {
     if (scene->node_count >= LIMIT_NODES)
         return error_set(error, LMN_LIMIT, "the scene would have more than %zu nodes", LIMIT_NODES);
-    char *copy = name ? scene_clean_name(name, strlen(name)) : NULL;
+    char  *copy = name ? scene_clean_name(name, strlen(name)) : NULL;
     solid *s = name && !copy ? NULL : scene_append_solid(scene, root);
-    node *n = s ? scene_append_node(scene) : NULL;
+    node  *n = s ? scene_append_node(scene) : NULL;
     if (!n) {
         if (s)
             solid_release(&scene->solids[--scene->solid_count]);
@@ -206,11 +207,12 @@ lmn_status solid_edit_create(lmn_scene *scene, solid_kind root, const char *name
     return LMN_OK;
 }
 
-lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const solid_addition *what, uint32_t *id, lmn_error *error)
+lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const solid_addition *what, uint32_t *id,
+                          lmn_error *error)
 {
-    solid *s = &scene->solids[index];
-    size_t count = s->node_count;
-    int32_t mesh_index = NONE;
+    solid     *s = &scene->solids[index];
+    size_t     count = s->node_count;
+    int32_t    mesh_index = NONE;
     lmn_status status = check_room(s, parent, what->kind == SOLID_OPERAND, 1, 1, error);
     if (status == LMN_OK && what->mesh)
         status = check_triangles(scene, mesh_triangle_count(what->mesh), error);
@@ -222,7 +224,7 @@ lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const 
     char *name = what->name ? scene_clean_name(what->name, strlen(what->name)) : NULL;
     if (what->mesh)
         mesh_index = take_mesh(scene, what->mesh);
-    bool good = (!what->name || name) && (!what->mesh || mesh_index != NONE);
+    bool    good = (!what->name || name) && (!what->mesh || mesh_index != NONE);
     int32_t at = good ? solid_append(s, parent, what->kind) : NONE;
     if (at == NONE) {
         mem_free(name);
@@ -241,19 +243,20 @@ lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const 
     return status;
 }
 
-/* Appends what is below and with a node of `from`, which may be the same solid: only what was there before is copied. `meshes`: what
- * they are called here; NULL: the same. */
+/* Appends what is below and with a node of `from`, which may be the same solid: only what was there before is
+ * copied. `meshes`: what they are called here; NULL: the same. */
 static bool append_tree(solid *into, int32_t parent, const solid *from, int32_t source, const int32_t *meshes)
 {
-    bool good = true;
-    int32_t *places = mem_alloc(from->node_count * sizeof *places), *order = mem_alloc(from->node_count * sizeof *order);
+    bool     good = true;
+    int32_t *places = mem_alloc(from->node_count * sizeof *places),
+            *order = mem_alloc(from->node_count * sizeof *order);
     size_t count = 0;
     for (int32_t i = source; places && order && i != NONE; i = solid_next(from, source, i))
         order[count++] = i;
     good = places && order;
     for (size_t k = 0; k < count && good; k++) {
         solid_node n = from->nodes[order[k]];
-        int32_t at = solid_append(into, k == 0 ? parent : places[n.parent], n.kind);
+        int32_t    at = solid_append(into, k == 0 ? parent : places[n.parent], n.kind);
         good = at != NONE;
         if (!good)
             break;
@@ -282,14 +285,16 @@ static size_t operands_below(const solid *s, int32_t node, size_t *nodes)
     return operands;
 }
 
-lmn_status solid_edit_copy(lmn_scene *scene, size_t index, int32_t parent, int32_t source, uint32_t *id, lmn_error *error)
+lmn_status solid_edit_copy(lmn_scene *scene, size_t index, int32_t parent, int32_t source, uint32_t *id,
+                           lmn_error *error)
 {
-    solid *s = &scene->solids[index];
-    size_t count = s->node_count, nodes, operands = operands_below(s, source, &nodes);
+    solid     *s = &scene->solids[index];
+    size_t     count = s->node_count, nodes, operands = operands_below(s, source, &nodes);
     lmn_status status = check_room(s, parent, operands, nodes, height_of(s, source), error);
     if (status != LMN_OK)
         return status;
-    status = append_tree(s, parent, s, source, NULL) ? settle_below(scene, index, (int32_t)count, error) : error_memory(error);
+    status = append_tree(s, parent, s, source, NULL) ? settle_below(scene, index, (int32_t)count, error)
+                                                     : error_memory(error);
     if (status == LMN_OK)
         *id = s->nodes[count].id;
     else
@@ -297,11 +302,12 @@ lmn_status solid_edit_copy(lmn_scene *scene, size_t index, int32_t parent, int32
     return status;
 }
 
-/* --- another scene's solids --------------------------------------------------------------------------------------------- */
+/* --- another scene's solids ----------------------------------------------------------------------------- */
 
-static lmn_status check_graft(const lmn_scene *scene, const solid *s, int32_t parent, const lmn_scene *from, lmn_error *error)
+static lmn_status check_graft(const lmn_scene *scene, const solid *s, int32_t parent, const lmn_scene *from,
+                              lmn_error *error)
 {
-    size_t operands = 0, nodes = 1, levels = 1;
+    size_t   operands = 0, nodes = 1, levels = 1;
     uint64_t triangles = 0;
     for (size_t i = 0; i < from->solid_count; i++) {
         if (from->solids[i].ghost)
@@ -334,8 +340,8 @@ static bool append_solids(lmn_scene *scene, size_t index, int32_t top, const lmn
 {
     for (size_t i = 0; i < from->part_count; i++) {
         int32_t n = from->parts[i].node;
-        solid *s = &scene->solids[index];
-        size_t at = s->node_count;
+        solid  *s = &scene->solids[index];
+        size_t  at = s->node_count;
         if (from->nodes[n].solid == NONE)
             continue;
         if (!append_tree(s, top, &from->solids[from->nodes[n].solid], 0, meshes))
@@ -346,19 +352,19 @@ static bool append_solids(lmn_scene *scene, size_t index, int32_t top, const lmn
     return true;
 }
 
-lmn_status solid_edit_graft(lmn_scene *scene, size_t index, int32_t parent, lmn_scene *from, const solid_addition *what, uint32_t *id,
-                            lmn_error *error)
+lmn_status solid_edit_graft(lmn_scene *scene, size_t index, int32_t parent, lmn_scene *from, const solid_addition *what,
+                            uint32_t *id, lmn_error *error)
 {
-    solid *s = &scene->solids[index];
-    size_t count = s->node_count;
+    solid     *s = &scene->solids[index];
+    size_t     count = s->node_count;
     lmn_status status = check_graft(scene, s, parent, from, error);
     if (status != LMN_OK)
         return status;
-    char *name = what->name ? scene_clean_name(what->name, strlen(what->name)) : NULL;
+    char    *name = what->name ? scene_clean_name(what->name, strlen(what->name)) : NULL;
     int32_t *meshes = mem_alloc((from->mesh_count + 1) * sizeof *meshes);
     for (size_t i = 0; meshes && i < from->mesh_count; i++)
         meshes[i] = NONE;
-    bool good = (!what->name || name) && meshes && take_meshes(scene, from, meshes);
+    bool    good = (!what->name || name) && meshes && take_meshes(scene, from, meshes);
     int32_t top = good ? solid_append(s, parent, SOLID_UNION) : NONE;
     if (top != NONE) {
         s->nodes[top].name = name;
@@ -378,7 +384,7 @@ lmn_status solid_edit_graft(lmn_scene *scene, size_t index, int32_t parent, lmn_
     return status;
 }
 
-/* --- changing ----------------------------------------------------------------------------------------------------------- */
+/* --- changing ------------------------------------------------------------------------------------------- */
 
 /* Brings back what is below a node after an edit that was taken back; what was true once needs no check. */
 static void restore(lmn_scene *scene, size_t index, int32_t node)
@@ -389,9 +395,9 @@ static void restore(lmn_scene *scene, size_t index, int32_t node)
 
 lmn_status solid_edit_set_mesh(lmn_scene *scene, size_t index, int32_t node, mesh *shape, lmn_error *error)
 {
-    int32_t before = scene->solids[index].nodes[node].mesh;
+    int32_t    before = scene->solids[index].nodes[node].mesh;
     lmn_status status = check_triangles(scene, mesh_triangle_count(shape), error);
-    bool *dropped = status == LMN_OK ? mem_calloc(scene->mesh_count + 1, sizeof *dropped) : NULL;
+    bool      *dropped = status == LMN_OK ? mem_calloc(scene->mesh_count + 1, sizeof *dropped) : NULL;
     if (!dropped) {
         mesh_release(shape);
         return status == LMN_OK ? error_memory(error) : status;
@@ -415,7 +421,7 @@ lmn_status solid_edit_set_mesh(lmn_scene *scene, size_t index, int32_t node, mes
 lmn_status solid_edit_set_matrix(lmn_scene *scene, size_t index, int32_t node, const mat4 *matrix, lmn_error *error)
 {
     solid_node *n = &scene->solids[index].nodes[node];
-    mat4 before = n->matrix;
+    mat4        before = n->matrix;
     n->matrix = *matrix;
     lmn_status status = settle_below(scene, index, node, error);
     if (status != LMN_OK) {
@@ -461,7 +467,7 @@ static lmn_status rename_part(lmn_scene *scene, size_t index, const char *name, 
 lmn_status solid_edit_set_name(lmn_scene *scene, size_t index, int32_t node, const char *name, lmn_error *error)
 {
     solid_node *n = &scene->solids[index].nodes[node];
-    char *copy = name ? scene_clean_name(name, strlen(name)) : NULL;
+    char       *copy = name ? scene_clean_name(name, strlen(name)) : NULL;
     if (name && !copy)
         return error_memory(error);
     lmn_status status = node == 0 ? rename_part(scene, index, copy, error) : LMN_OK;
@@ -475,7 +481,7 @@ lmn_status solid_edit_set_name(lmn_scene *scene, size_t index, int32_t node, con
     return LMN_OK;
 }
 
-/* --- removing and moving ------------------------------------------------------------------------------------------------ */
+/* --- removing and moving -------------------------------------------------------------------------------- */
 
 static lmn_status remove_solid(lmn_scene *scene, size_t index, bool *dropped, lmn_error *error)
 {
@@ -503,7 +509,7 @@ static void release_names(solid *s, int32_t top)
 lmn_status solid_edit_remove(lmn_scene *scene, size_t index, int32_t node, lmn_error *error)
 {
     solid *s = &scene->solids[index], before = *s;
-    bool *dropped = mem_calloc(scene->mesh_count + 1, sizeof *dropped);
+    bool  *dropped = mem_calloc(scene->mesh_count + 1, sizeof *dropped);
     if (!dropped)
         return error_memory(error);
     for (int32_t i = node; i != NONE; i = solid_next(s, node, i))
@@ -545,7 +551,8 @@ static bool is_below(const solid *s, int32_t node, int32_t top)
     return node == top;
 }
 
-lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t parent, int32_t before, lmn_error *error)
+lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t parent, int32_t before,
+                           lmn_error *error)
 {
     solid *s = &scene->solids[index];
     if (is_below(s, parent, node)) {
@@ -557,12 +564,12 @@ lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t
         return error_set(error, LMN_LIMIT, "the solid would be more than %d levels deep", SOLID_DEPTH_MAX);
     if (before == node)
         return LMN_OK;
-    uint32_t id = s->nodes[node].id;
-    solid whole = *s;
+    uint32_t   id = s->nodes[node].id;
+    solid      whole = *s;
     solid_seat seat = solid_unlink(s, node);
     solid_link(s, node, (solid_seat){parent, before});
     lmn_status status = solid_arrange(s, error);
-    bool arranged = status == LMN_OK;
+    bool       arranged = status == LMN_OK;
     if (arranged) /* what it was taken from changes too */
         status = solid_measure_below(scene, s, s->places[id - 1]) ? settle(scene, index, error) : too_far(error);
     if (status == LMN_OK) {

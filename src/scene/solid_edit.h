@@ -1,6 +1,6 @@
-/* Editing solids in a scene: what a tree needs to stay true (boxes, counts, parts, revisions) is brought up to date with each edit.
- * Every function leaves the scene as it was when it fails. Nodes are given by their places in the solid; ids outlast edits, places do
- * not. Row K09. */
+/* Editing solids in a scene: what a tree needs to stay true (boxes, counts, parts, revisions) is brought up to date
+ * with each edit. Every function leaves the scene as it was when it fails. Nodes are given by their places in the
+ * solid; ids outlast edits, places do not. Row K09. */
 #ifndef LIMNER_SCENE_SOLID_EDIT_H
 #define LIMNER_SCENE_SOLID_EDIT_H
 
@@ -12,17 +12,19 @@ lmn_status solid_edit_create(lmn_scene *scene, solid_kind root, const char *name
 /* What is added. */
 typedef struct solid_addition {
     solid_kind  kind;
-    mesh       *mesh;   /* operand: moved into the scene, released when that fails; empty afterwards */
+    mesh       *mesh; /* operand: moved into the scene, released when that fails; empty afterwards */
     mat4        matrix;
-    const char *name;   /* copied; NULL: none */
+    const char *name; /* copied; NULL: none */
 } solid_addition;
 /* As the last child of `parent`. */
-lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const solid_addition *what, uint32_t *id, lmn_error *error);
+lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const solid_addition *what, uint32_t *id,
+                          lmn_error *error);
 /* A node with all below once more, as the last child of `parent`; meshes are shared. */
-lmn_status solid_edit_copy(lmn_scene *scene, size_t index, int32_t parent, int32_t source, uint32_t *id, lmn_error *error);
+lmn_status solid_edit_copy(lmn_scene *scene, size_t index, int32_t parent, int32_t source, uint32_t *id,
+                           lmn_error *error);
 /* A union, described by `what`, of all solids of another scene, which gives away their meshes. */
-lmn_status solid_edit_graft(lmn_scene *scene, size_t index, int32_t parent, lmn_scene *from, const solid_addition *what, uint32_t *id,
-                            lmn_error *error);
+lmn_status solid_edit_graft(lmn_scene *scene, size_t index, int32_t parent, lmn_scene *from, const solid_addition *what,
+                            uint32_t *id, lmn_error *error);
 
 /* Moved into the scene, released when that fails; empty afterwards. */
 lmn_status solid_edit_set_mesh(lmn_scene *scene, size_t index, int32_t node, mesh *shape, lmn_error *error);
@@ -34,6 +36,7 @@ lmn_status solid_edit_set_name(lmn_scene *scene, size_t index, int32_t node, con
 /* Removes a node with all below; the root takes the solid with it. Meshes that nothing uses any longer are freed. */
 lmn_status solid_edit_remove(lmn_scene *scene, size_t index, int32_t node, lmn_error *error);
 /* Under `parent`, in front of its child `before` (NONE: last). */
-lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t parent, int32_t before, lmn_error *error);
+lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t parent, int32_t before,
+                           lmn_error *error);
 
 #endif

@@ -14,7 +14,8 @@ static int32_t add_term(solid_form *f, term_kind kind)
 {
     if (!mem_grow((void **)&f->terms, &f->term_capacity, f->term_count + 1, sizeof *f->terms))
         return NO_MEMORY;
-    f->terms[f->term_count] = (term){.kind = kind, .operand = NONE, .first = NONE, .last = NONE, .next = NONE, .box = box3_empty()};
+    f->terms[f->term_count] =
+        (term){.kind = kind, .operand = NONE, .first = NONE, .last = NONE, .next = NONE, .box = box3_empty()};
     return (int32_t)f->term_count++;
 }
 
@@ -49,7 +50,7 @@ static void add_dissolved(solid_form *f, int32_t parent, int32_t child, bool neg
 static void set_box(solid_form *f, int32_t index)
 {
     term *t = &f->terms[index];
-    bool begun = false;
+    bool  begun = false;
     for (int32_t c = t->first; c != NONE; c = f->terms[c].next) {
         box3 box = f->terms[c].box;
         if (t->kind == TERM_OR)
@@ -81,7 +82,7 @@ static int32_t make_union(solid_form *f, const solid *s, int32_t node, const int
 /* Intersections, and differences as intersections with what is not there. */
 static int32_t make_intersection(solid_form *f, const solid *s, int32_t node, const int32_t *made)
 {
-    bool takes_away = s->nodes[node].kind == SOLID_DIFFERENCE;
+    bool    takes_away = s->nodes[node].kind == SOLID_DIFFERENCE;
     int32_t first = s->nodes[node].first_child;
     if (first == NONE || made[first] == EMPTY)
         return EMPTY;
@@ -131,7 +132,8 @@ static lmn_status make_terms(solid_form *f, const solid *s, lmn_error *error)
     return status;
 }
 
-/* The first operand of an intersection that is no longer there takes all with it. Returns what is left of a term inside `bound`. */
+/* The first operand of an intersection that is no longer there takes all with it. Returns what is left of a term
+ * inside `bound`. */
 static int32_t prune(solid_form *f, int32_t index, box3 bound)
 {
     box3 box = box3_intersection(f->terms[index].box, bound);
@@ -139,14 +141,14 @@ static int32_t prune(solid_form *f, int32_t index, box3 bound)
         return EMPTY;
     if (f->terms[index].kind == TERM_OPERAND)
         return index;
-    bool all = f->terms[index].kind == TERM_AND;
+    bool    all = f->terms[index].kind == TERM_AND;
     int32_t child = f->terms[index].first;
     f->terms[index].first = f->terms[index].last = NONE;
     f->terms[index].count = 0;
     f->terms[index].box = box3_empty();
     for (int32_t next; child != NONE; child = next) {
         next = f->terms[child].next;
-        bool negated = f->terms[child].negated;
+        bool    negated = f->terms[child].negated;
         int32_t left = prune(f, child, box);
         if (left == EMPTY && all && !negated)
             return EMPTY;

@@ -14,8 +14,8 @@ static int32_t sibling_before(const solid *s, int32_t parent, int32_t child)
 solid_seat solid_unlink(solid *s, int32_t node)
 {
     solid_node *n = &s->nodes[node], *above = &s->nodes[n->parent];
-    solid_seat seat = {n->parent, n->next_sibling};
-    int32_t before = sibling_before(s, n->parent, node);
+    solid_seat  seat = {n->parent, n->next_sibling};
+    int32_t     before = sibling_before(s, n->parent, node);
     if (before == NONE)
         above->first_child = n->next_sibling;
     else
@@ -49,7 +49,7 @@ static void translate(int32_t *link, const int32_t *now)
 lmn_status solid_arrange(solid *s, lmn_error *error)
 {
     solid_node *nodes = mem_alloc(s->node_count * sizeof *nodes);
-    int32_t *now = mem_alloc(s->node_count * sizeof *now), *places = mem_alloc(s->id_count * sizeof *places);
+    int32_t    *now = mem_alloc(s->node_count * sizeof *now), *places = mem_alloc(s->id_count * sizeof *places);
     if (!nodes || !now || !places) {
         mem_free(nodes);
         mem_free(now);

@@ -9,9 +9,9 @@
 /* What multiplying out needs to know. */
 typedef struct expansion {
     const solid_form *form;
-    bool   prune;
-    size_t total;  /* operands of all products made so far */
-    bool   failed; /* memory is gone */
+    bool              prune;
+    size_t            total;  /* operands of all products made so far */
+    bool              failed; /* memory is gone */
 } expansion;
 
 static const box3 everywhere = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -47,7 +47,9 @@ static void append(expansion *e, product_list *l, product p)
 
 static void append_literal(expansion *e, product_list *l, int32_t operand, bool negated)
 {
-    product p = {.operands = mem_alloc(sizeof *p.operands), .kept = !negated, .count = 1,
+    product p = {.operands = mem_alloc(sizeof *p.operands),
+                 .kept = !negated,
+                 .count = 1,
                  .box = negated ? everywhere : e->form->operands[operand].box};
     if (!p.operands) {
         e->failed = true;
@@ -66,7 +68,8 @@ static bool contains(const int32_t *operands, size_t count, int32_t which)
 }
 
 /* Adds to `out` what was not there before and is not pruned. */
-static size_t join(const expansion *e, int32_t *out, size_t count, const int32_t *more, size_t more_count, const box3 *bound)
+static size_t join(const expansion *e, int32_t *out, size_t count, const int32_t *more, size_t more_count,
+                   const box3 *bound)
 {
     size_t before = count;
     for (size_t i = 0; i < more_count; i++)
@@ -79,7 +82,7 @@ static size_t join(const expansion *e, int32_t *out, size_t count, const int32_t
 static void multiply_pair(expansion *e, product_list *out, const product *a, const product *b)
 {
     product p = {.box = box3_intersection(a->box, b->box)};
-    bool bounded = a->kept + b->kept > 0;
+    bool    bounded = a->kept + b->kept > 0;
     if (e->prune && bounded && box3_is_empty(p.box))
         return;
     p.operands = mem_alloc((a->count + b->count) * sizeof *p.operands);
@@ -91,7 +94,7 @@ static void multiply_pair(expansion *e, product_list *out, const product *a, con
     p.kept = join(e, p.operands, 0, a->operands, a->kept, NULL);
     p.kept = join(e, p.operands, p.kept, b->operands, b->kept, NULL);
     int32_t *taken = p.operands + p.kept;
-    size_t taken_count = join(e, taken, 0, a->operands + a->kept, a->count - a->kept, bound);
+    size_t   taken_count = join(e, taken, 0, a->operands + a->kept, a->count - a->kept, bound);
     taken_count = join(e, taken, taken_count, b->operands + b->kept, b->count - b->kept, bound);
     p.count = p.kept + taken_count;
     for (size_t i = 0; i < taken_count; i++)

@@ -1,16 +1,17 @@
-/* A solid as a union of partial products: each an intersection of operands, minus others. Goldfeather's normal form, found by
- * carrying negations down and multiplying out, with products and subtractions left out whose boxes do not touch. Nienhaus et al. 2006, section 2;
- * rows K01, C2. */
+/* A solid as a union of partial products: each an intersection of operands, minus others. Goldfeather's normal
+ * form, found by carrying negations down and multiplying out, with products and subtractions left out whose boxes
+ * do not touch. Nienhaus et al. 2006, section 2; rows K01, C2. */
 #ifndef LIMNER_SCENE_SOLID_PRODUCTS_H
 #define LIMNER_SCENE_SOLID_PRODUCTS_H
 
 #include "scene/solid_form.h"
 
-/* One product: the first `kept` of its operands are intersected, the others taken away; both in the order of the tree. */
+/* One product: the first `kept` of its operands are intersected, the others taken away; both in the order of the
+ * tree. */
 typedef struct product {
     int32_t *operands; /* in the form's operands */
     size_t   kept, count;
-    box3     box;      /* of what is kept, solid's space */
+    box3     box; /* of what is kept, solid's space */
 } product;
 
 typedef struct product_list {

@@ -1,4 +1,5 @@
-/* What a solid's differences take away, as a solid of its own: to show what was cut where. Nothing of it is drawn unless a look asks. */
+/* What a solid's differences take away, as a solid of its own: to show what was cut where. Nothing of it is drawn
+ * unless a look asks. */
 #include "scene/solid.h"
 
 #include "base/memory.h"
@@ -15,7 +16,8 @@ typedef struct removal {
 /* Is the node's whole subtree taken away by the operation above it? */
 static bool is_taken_away(const solid *s, const solid_node *n, int32_t index)
 {
-    return n->parent != NONE && s->nodes[n->parent].kind == SOLID_DIFFERENCE && s->nodes[n->parent].first_child != index;
+    return n->parent != NONE && s->nodes[n->parent].kind == SOLID_DIFFERENCE &&
+           s->nodes[n->parent].first_child != index;
 }
 
 static bool takes_away(const solid *s)
@@ -29,12 +31,12 @@ static bool takes_away(const solid *s)
 static bool copy_node(removal *r, int32_t index, int32_t parent)
 {
     const solid_node *n = &r->from->nodes[index];
-    int32_t copy = solid_append(r->into, parent, n->kind);
+    int32_t           copy = solid_append(r->into, parent, n->kind);
     if (copy == NONE)
         return false;
     solid_node *c = &r->into->nodes[copy];
-    bool outermost = parent == 0;
-    int32_t painter = outermost ? r->painter[index] : n->has_colour ? index : NONE;
+    bool        outermost = parent == 0;
+    int32_t     painter = outermost ? r->painter[index] : n->has_colour ? index : NONE;
     c->matrix = outermost ? r->places[index] : n->matrix;
     c->has_colour = painter != NONE;
     if (c->has_colour)
@@ -46,16 +48,19 @@ static bool copy_node(removal *r, int32_t index, int32_t parent)
     return !n->name || c->name;
 }
 
-/* Parents come before their children. What is taken away from something that is taken away itself stays, so subtrees are copied whole. */
+/* Parents come before their children. What is taken away from something that is taken away itself stays, so
+ * subtrees are copied whole. */
 static bool copy_nodes(removal *r)
 {
     for (size_t i = 0; i < r->from->node_count; i++) {
         const solid_node *n = &r->from->nodes[i];
-        int32_t up = n->parent;
+        int32_t           up = n->parent;
         r->places[i] = up == NONE ? n->matrix : mat4_multiply(&r->places[up], &n->matrix);
         r->painter[i] = up != NONE && r->painter[up] != NONE ? r->painter[up] : n->has_colour ? (int32_t)i : NONE;
         r->copies[i] = NONE;
-        int32_t parent = up != NONE && r->copies[up] != NONE ? r->copies[up] : is_taken_away(r->from, n, (int32_t)i) ? 0 : NONE;
+        int32_t parent = up != NONE && r->copies[up] != NONE     ? r->copies[up]
+                         : is_taken_away(r->from, n, (int32_t)i) ? 0
+                                                                 : NONE;
         if (parent != NONE && !copy_node(r, (int32_t)i, parent))
             return false;
     }
@@ -92,7 +97,7 @@ bool scene_append_removed(lmn_scene *scene, int32_t node_index)
         return true;
     }
     int32_t index = (int32_t)scene->node_count;
-    node *n = scene_append_node(scene);
+    node   *n = scene_append_node(scene);
     if (!n || !(n->name = mem_copy_text("removed")))
         return false;
     n->solid = (int32_t)scene->solid_count - 1;
@@ -120,9 +125,10 @@ bool scene_update_removed(lmn_scene *scene, size_t index)
     int32_t own, companion = companion_of(scene, index, &own);
     if (companion == NONE || scene->nodes[companion].solid == NONE)
         return own == NONE || scene_append_removed(scene, own);
-    solid fresh = {.ghost = true}, *kept = &scene->solids[scene->nodes[companion].solid];
+    solid   fresh = {.ghost = true}, *kept = &scene->solids[scene->nodes[companion].solid];
     removal r = {.from = &scene->solids[index], .into = &fresh};
-    if (solid_append(&fresh, NONE, SOLID_UNION) != 0 || (takes_away(r.from) && !fill(&r)) || !solid_measure(scene, &fresh)) {
+    if (solid_append(&fresh, NONE, SOLID_UNION) != 0 || (takes_away(r.from) && !fill(&r)) ||
+        !solid_measure(scene, &fresh)) {
         solid_release(&fresh);
         return false;
     }

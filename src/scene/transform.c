@@ -26,9 +26,9 @@ mat4 mat4_multiply(const mat4 *a, const mat4 *b)
 double mat4_cofactors(const mat4 *matrix, double out[9])
 {
     const double *m = matrix->m;
-    const double cofactors[9] = {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-                                 m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
-                                 m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
+    const double  cofactors[9] = {m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+                                  m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0],
+                                  m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
     for (int i = 0; i < 9; i++)
         out[i] = cofactors[i];
     return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
@@ -37,7 +37,7 @@ double mat4_cofactors(const mat4 *matrix, double out[9])
 vec3 mat4_transform_point(const mat4 *m, vec3 p)
 {
     const double *e = m->m;
-    double x = p.x, y = p.y, z = p.z;
+    double        x = p.x, y = p.y, z = p.z;
     return (vec3){(float)(e[0] * x + e[4] * y + e[8] * z + e[12]), (float)(e[1] * x + e[5] * y + e[9] * z + e[13]),
                   (float)(e[2] * x + e[6] * y + e[10] * z + e[14])};
 }
@@ -98,7 +98,8 @@ static float larger(float a, float b)
 
 bool box3_overlap(box3 a, box3 b)
 {
-    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
+    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z &&
+           b.min.z < a.max.z;
 }
 
 box3 box3_intersection(box3 a, box3 b)
@@ -118,7 +119,8 @@ void box3_middle(box3 b, double out[3])
 
 double box3_diagonal(box3 b)
 {
-    double x = (double)b.max.x - (double)b.min.x, y = (double)b.max.y - (double)b.min.y, z = (double)b.max.z - (double)b.min.z;
+    double x = (double)b.max.x - (double)b.min.x, y = (double)b.max.y - (double)b.min.y,
+           z = (double)b.max.z - (double)b.min.z;
     return sqrt(x * x + y * y + z * z);
 }
 

@@ -1,5 +1,5 @@
-/* Finding equal positions. An open-addressing table of vertex numbers; lookups are made in blocks whose memory is asked for
- * ahead, because on large meshes each would otherwise wait for it. */
+/* Finding equal positions. An open-addressing table of vertex numbers; lookups are made in blocks whose memory is
+ * asked for ahead, because on large meshes each would otherwise wait for it. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ typedef struct bits3 {
 /* −0 + 0 is +0, so that both zeros have the same bits. */
 static bits3 position_bits(vec3 p)
 {
-    vec3 sum = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
+    vec3  sum = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
     bits3 bits;
     memcpy(&bits, &sum, sizeof bits);
     return bits;
@@ -93,7 +93,7 @@ static uint32_t table_put(position_table *t, uint64_t hash, const vec3 *position
 static bool find_first(const vec3 *positions, uint32_t count, uint32_t *ids)
 {
     position_table table;
-    size_t slots = 64;
+    size_t         slots = 64;
     while (slots < count / 2)
         slots *= 2;
     if (!table_make(&table, slots))

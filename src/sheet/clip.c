@@ -7,10 +7,10 @@
 typedef struct clipper {
     const sheet *from;
     sheet_path  *paths;
-    float      (*points)[2];
-    size_t       path_count, path_capacity, point_count, point_capacity;
-    float        low[2], high[2];
-    bool         failed;
+    float (*points)[2];
+    size_t path_count, path_capacity, point_count, point_capacity;
+    float  low[2], high[2];
+    bool   failed;
 } clipper;
 
 static void put_point(clipper *c, float x, float y)
@@ -77,11 +77,11 @@ static bool cut_piece(const clipper *c, const float a[2], const float b[2], floa
 
 static void clip_line(clipper *c, const sheet_path *path)
 {
-    size_t first = c->point_count;
+    size_t   first = c->point_count;
     uint32_t pieces = path->closed ? path->count : path->count - 1;
     for (uint32_t i = 0; i < pieces; i++) {
         const float *a = c->from->points[path->first + i], *b = c->from->points[path->first + (i + 1) % path->count];
-        float cut[2];
+        float        cut[2];
         if (!cut_piece(c, a, b, cut)) {
             put_path(c, path, first, 2, false);
             first = c->point_count;
@@ -105,13 +105,13 @@ static void clip_area(clipper *c, const sheet_path *path)
     for (uint32_t i = 0; i < path->count; i++)
         put_point(c, c->from->points[path->first + i][0], c->from->points[path->first + i][1]);
     for (int side = 0; side < 4 && !c->failed; side++) {
-        int axis = side / 2;
-        float limit = side & 1 ? c->high[axis] : c->low[axis], sign = side & 1 ? -1 : 1;
+        int    axis = side / 2;
+        float  limit = side & 1 ? c->high[axis] : c->low[axis], sign = side & 1 ? -1 : 1;
         size_t from = begin, count = c->point_count - begin, next = c->point_count;
         for (size_t i = 0; i < count && !c->failed; i++) {
             const float a[2] = {c->points[from + i][0], c->points[from + i][1]};
             const float b[2] = {c->points[from + (i + 1) % count][0], c->points[from + (i + 1) % count][1]};
-            float before = sign * (a[axis] - limit), after = sign * (b[axis] - limit);
+            float       before = sign * (a[axis] - limit), after = sign * (b[axis] - limit);
             if (before >= 0)
                 put_point(c, a[0], a[1]);
             if ((before < 0) != (after < 0)) {
@@ -139,7 +139,7 @@ static bool reaches_out(const clipper *c, const sheet_path *path)
 bool sheet_clip(sheet *s, double x, double y, double width, double height)
 {
     clipper c = {.from = s, .low = {(float)x, (float)y}, .high = {(float)(x + width), (float)(y + height)}};
-    bool any = false;
+    bool    any = false;
     for (size_t i = 0; i < s->path_count && !any; i++)
         any = reaches_out(&c, &s->paths[i]);
     if (!any || s->failed)
@@ -147,8 +147,8 @@ bool sheet_clip(sheet *s, double x, double y, double width, double height)
     size_t kept = 0;
     for (size_t i = 0; i < s->item_count; i++) {
         sheet_item item = s->items[i];
-        size_t first = c.path_count;
-        bool has_paths = item.kind == SHEET_PATH || item.kind == SHEET_DOTS;
+        size_t     first = c.path_count;
+        bool       has_paths = item.kind == SHEET_PATH || item.kind == SHEET_DOTS;
         for (uint32_t k = 0; k < item.count && has_paths; k++) {
             const sheet_path *path = &s->paths[item.first + k];
             if (path->count == 0)

@@ -143,7 +143,8 @@ static bool fits(const double *values, size_t count)
     return true;
 }
 
-void sheet_add_image(sheet *s, uint32_t group, const unsigned char *png, size_t size, double x, double y, double width, double height)
+void sheet_add_image(sheet *s, uint32_t group, const unsigned char *png, size_t size, double x, double y, double width,
+                     double height)
 {
     const double box[4] = {x, y, width, height};
     if (!fits(box, 4) || !(width > 0) || !(height > 0))
@@ -170,7 +171,8 @@ void sheet_add_text(sheet *s, uint32_t group, colour ink, const char *utf8, doub
     item->anchor = anchor;
 }
 
-void sheet_add_rectangle(sheet *s, uint32_t group, colour ink, double x, double y, double width, double height, double line_width)
+void sheet_add_rectangle(sheet *s, uint32_t group, colour ink, double x, double y, double width, double height,
+                         double line_width)
 {
     const float left = (float)x, top = (float)y, right = (float)(x + width), bottom = (float)(y + height);
     const float corners[4][2] = {{left, top}, {right, top}, {right, bottom}, {left, bottom}};

@@ -1,8 +1,9 @@
-/* The nearest surface of products of convex operands, by depth and stencil tests alone: a depth buffer is moved backwards until no
- * operand that is taken away holds it. Operands are taken away in the order of their distance, so that what is seen through several holes
- * is mostly found in one round; rounds go on until nothing moves (sequenced convex subtraction, Stewart et al. 1998).
- * Products that do not meet on the page are done at the same time, and so are operands that do not. No shader runs before the last pass,
- * which asks whose surface lies at the depth that was found. Nienhaus et al. 2006, section 2; rows K02, C3. */
+/* The nearest surface of products of convex operands, by depth and stencil tests alone: a depth buffer is moved
+ * backwards until no operand that is taken away holds it. Operands are taken away in the order of their distance,
+ * so that what is seen through several holes is mostly found in one round; rounds go on until nothing moves
+ * (sequenced convex subtraction, Stewart et al. 1998). Products that do not meet on the page are done at the same
+ * time, and so are operands that do not. No shader runs before the last pass, which asks whose surface lies at the
+ * depth that was found. Nienhaus et al. 2006, section 2; rows K02, C3. */
 #include "solids/solids_private.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@ typedef struct literal {
     int              pixels[4];
     double           distance; /* of its middle */
     bool             meets;
-    int              level;    /* literals of a lower level that meet it on the page come first */
+    int              level; /* literals of a lower level that meet it on the page come first */
 } literal;
 
 typedef struct convex_product {
@@ -32,15 +33,15 @@ typedef struct convex_product {
 
 typedef struct convex_job {
     const solid_view *v;
-    solid_layers    *solids;
-    gpu_texture     *depth;     /* with stencil */
-    gpu_texture     *before;    /* depth of the batches before, while surfaces are identified; NULL: none */
-    bool             cleared;
-    literal         *literals;  /* of all products */
-    convex_product  *products;
-    size_t           product_count;
-    const literal  **chosen;    /* room for all of one draw */
-    uint32_t       (*runs)[2];
+    solid_layers     *solids;
+    gpu_texture      *depth;  /* with stencil */
+    gpu_texture      *before; /* depth of the batches before, while surfaces are identified; NULL: none */
+    bool              cleared;
+    literal          *literals; /* of all products */
+    convex_product   *products;
+    size_t            product_count;
+    const literal   **chosen; /* room for all of one draw */
+    uint32_t (*runs)[2];
 } convex_job;
 
 static bool overlap(const int a[4], const int b[4])
@@ -62,11 +63,11 @@ bool solids_have_convex(const solid_view *v, const bool *wanted, bool *all)
     return any;
 }
 
-/* --- what there is to do -------------------------------------------------------------------------------------------- */
+/* --- what there is to do -------------------------------------------------------------------------------- */
 
 static literal make_literal(const solid_view *v, const draw_item *item, const upload_solid *s, int32_t operand)
 {
-    box3 box = box3_transform(s->boxes[operand], &item->world);
+    box3    box = box3_transform(s->boxes[operand], &item->world);
     literal l = {.item = item, .run = {s->runs[operand][0], s->runs[operand][1]}, .meets = s->meets[operand]};
     camera_pixels(v->camera, box, v->width, v->height, 1, l.pixels);
     double nearest = INFINITY, farthest = -INFINITY;
@@ -87,7 +88,7 @@ static int by_distance(const void *a, const void *b)
 static void set_levels(convex_product *p)
 {
     literal *taken = p->literals + p->kept;
-    size_t count = p->count - p->kept;
+    size_t   count = p->count - p->kept;
     qsort(taken, count, sizeof *taken, by_distance);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < i; k++)
@@ -115,12 +116,12 @@ static bool one_batch(const convex_product *a, const convex_product *b)
     return plain == (b->count == 1) && (plain || a->kept == b->kept);
 }
 
-/* Products of one batch keep apart on the page and intersect the same number of operands; those of one operand alone need not keep apart.
- * Where surfaces may coincide, products that meet keep their order, since the first of them then has the surface. Returns how many batches
- * there are. */
+/* Products of one batch keep apart on the page and intersect the same number of operands; those of one operand
+ * alone need not keep apart. Where surfaces may coincide, products that meet keep their order, since the first of
+ * them then has the surface. Returns how many batches there are. */
 static int make_batches(convex_job *job, bool ordered)
 {
-    int batches = 0;
+    int                    batches = 0;
     const convex_product **first = mem_calloc(job->product_count + 1, sizeof *first); /* of each batch */
     if (!first) {
         gpu_fail(job->v->g, LMN_MEMORY, "out of memory");
@@ -134,8 +135,8 @@ static int make_batches(convex_job *job, bool ordered)
                 p->batch++;
             for (size_t k = 0; k < i; k++) {
                 const convex_product *other = &job->products[k];
-                bool stands_in_way = ordered ? other->batch >= p->batch : other->batch == p->batch;
-                bool may_share = other->batch == p->batch && p->count == 1 && other->count == 1;
+                bool                  stands_in_way = ordered ? other->batch >= p->batch : other->batch == p->batch;
+                bool                  may_share = other->batch == p->batch && p->count == 1 && other->count == 1;
                 if (stands_in_way && !may_share && overlap(other->pixels, p->pixels)) {
                     p->batch = ordered ? other->batch + 1 : p->batch + 1;
                     settled = false;
@@ -154,7 +155,7 @@ static int make_batches(convex_job *job, bool ordered)
 static bool job_open(convex_job *job, const bool *wanted)
 {
     const upload *u = job->v->up;
-    size_t literals = 1, products = 1;
+    size_t        literals = 1, products = 1;
     for (size_t i = 0; i < u->item_count; i++) {
         const product_list *l = wanted[i] ? &u->solids[u->items[i].solid].products : NULL;
         products += l ? l->count : 0;
@@ -172,7 +173,8 @@ static bool job_open(convex_job *job, const bool *wanted)
     literal *next = job->literals;
     for (size_t i = 0; i < u->item_count; i++)
         for (size_t k = 0; wanted[i] && k < u->solids[u->items[i].solid].products.count; k++)
-            add_product(job, &u->items[i], &u->solids[u->items[i].solid], &u->solids[u->items[i].solid].products.items[k], &next);
+            add_product(job, &u->items[i], &u->solids[u->items[i].solid],
+                        &u->solids[u->items[i].solid].products.items[k], &next);
     return true;
 }
 
@@ -185,7 +187,7 @@ static void job_close(convex_job *job)
     mem_free(job->runs);
 }
 
-/* --- drawing -------------------------------------------------------------------------------------------------------- */
+/* --- drawing -------------------------------------------------------------------------------------------- */
 
 /* Faces of the first `count` chosen literals, item by item. */
 static void draw_chosen(convex_job *job, size_t count, int faces, const char *fragment, gpu_state state)
@@ -196,7 +198,8 @@ static void draw_chosen(convex_job *job, size_t count, int faces, const char *fr
         for (end = first; end < count && job->chosen[end]->item == item; end++)
             memcpy(job->runs[end - first], job->chosen[end]->run, sizeof job->runs[0]);
         text prelude = {0};
-        text_append(&prelude, "%s%s", item->plane_count ? "#define SHARED_PLANES\n" : "", job->before ? "#define AMONG_OTHERS\n" : "");
+        text_append(&prelude, "%s%s", item->plane_count ? "#define SHARED_PLANES\n" : "",
+                    job->before ? "#define AMONG_OTHERS\n" : "");
         gpu_program *p = view_program(v->g, GPU_FLOOR, "csg/operand.vert", fragment, &prelude);
         state.depth_clamp = true;
         gpu_use(v->g, p, state);
@@ -212,9 +215,9 @@ static void draw_chosen(convex_job *job, size_t count, int faces, const char *fr
 static void draw_rectangles(convex_job *job, int batch, float depth, gpu_state state)
 {
     const solid_view *v = job->v;
-    text prelude = {0};
-    gpu_program *p = view_program(v->g, GPU_FLOOR, "csg/flat.vert", "csg/depth.frag", &prelude);
-    int (*boxes)[4] = mem_alloc((job->product_count + 1) * sizeof *boxes);
+    text              prelude = {0};
+    gpu_program      *p = view_program(v->g, GPU_FLOOR, "csg/flat.vert", "csg/depth.frag", &prelude);
+    int(*boxes)[4] = mem_alloc((job->product_count + 1) * sizeof *boxes);
     size_t count = 0;
     for (size_t i = 0; boxes && i < job->product_count; i++)
         if (job->products[i].batch == batch)
@@ -268,11 +271,14 @@ static void intersect(convex_job *job, int batch, size_t kept)
 /* Where the depth lies inside an operand, it moves to that operand's back. */
 static void take_away(convex_job *job, int batch, int level, bool again)
 {
-    gpu_state mark = {.depth_test = true, .depth_compare = GPU_LESS_EQUAL,
+    gpu_state mark = {.depth_test = true,
+                      .depth_compare = GPU_LESS_EQUAL,
                       .stencil = {true, GPU_ALWAYS, 1, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_REPLACE}};
-    gpu_state move = {.depth_test = true, .depth_write = true, .depth_compare = GPU_GREATER,
+    gpu_state move = {.depth_test = true,
+                      .depth_write = true,
+                      .depth_compare = GPU_GREATER,
                       .stencil = {true, GPU_EQUAL, 1, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO}};
-    size_t count = choose_level(job, batch, level, again);
+    size_t    count = choose_level(job, batch, level, again);
     draw_chosen(job, count, FACES_FRONT, "csg/depth.frag", mark);
     if (again)
         gpu_query_begin(job->v->g, level % GPU_QUERIES);
@@ -297,7 +303,7 @@ static bool take_away_again(convex_job *job, int batch, int levels)
 
 static void take_all_away(convex_job *job, int batch)
 {
-    int levels = 0;
+    int  levels = 0;
     bool meets = false;
     for (size_t i = 0; i < job->product_count; i++)
         for (size_t k = job->products[i].kept; job->products[i].batch == batch && k < job->products[i].count; k++) {
@@ -314,7 +320,8 @@ static void take_all_away(convex_job *job, int batch)
 /* Only where the backs of all that is intersected lie behind is there anything. */
 static void clip(convex_job *job, int batch, size_t kept)
 {
-    gpu_state count = {.depth_test = true, .depth_compare = GPU_GREATER,
+    gpu_state count = {.depth_test = true,
+                       .depth_compare = GPU_GREATER,
                        .stencil = {true, GPU_ALWAYS, 0, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_COUNT}};
     for (size_t i = 0, counted = 0; i < kept; i++) {
         draw_chosen(job, choose_kept(job, batch, i), FACES_BACK, "csg/depth.frag", count);
@@ -322,7 +329,8 @@ static void clip(convex_job *job, int batch, size_t kept)
         if (counted < COUNT_MAX && i + 1 < kept)
             continue;
         gpu_state drop = write_depth, forget = {.depth_test = true, .depth_compare = GPU_ALWAYS};
-        drop.stencil = (gpu_stencil){true, GPU_NOT_EQUAL, (int)counted, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP};
+        drop.stencil =
+            (gpu_stencil){true, GPU_NOT_EQUAL, (int)counted, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP, GPU_STENCIL_KEEP};
         forget.stencil = (gpu_stencil){true, GPU_ALWAYS, 0, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO, GPU_STENCIL_ZERO};
         draw_rectangles(job, batch, 1, drop);
         draw_rectangles(job, batch, 1, forget);
@@ -334,9 +342,9 @@ static void clip(convex_job *job, int batch, size_t kept)
 static void merge(convex_job *job, int batch, gpu_texture *into)
 {
     const solid_view *v = job->v;
-    int (*boxes)[4] = mem_alloc((job->product_count + 1) * sizeof *boxes);
-    size_t count = 0;
-    text prelude = {0};
+    int(*boxes)[4] = mem_alloc((job->product_count + 1) * sizeof *boxes);
+    size_t       count = 0;
+    text         prelude = {0};
     gpu_program *p = view_program(v->g, GPU_FLOOR, "gpu/boxes.vert", "csg/merge.frag", &prelude);
     for (size_t i = 0; boxes && i < job->product_count; i++)
         if (job->products[i].batch == batch)
@@ -366,7 +374,8 @@ static void draw_batch(convex_job *job, int batch)
     clip(job, batch, kept);
 }
 
-/* Whose surfaces they are: of each product what is taken away first, then what is kept; of what coincides the last stays. */
+/* Whose surfaces they are: of each product what is taken away first, then what is kept; of what coincides the last
+ * stays. */
 static void identify(convex_job *job, int batch, gpu_texture *depth, gpu_texture *before)
 {
     job->before = before;
@@ -378,7 +387,8 @@ static void identify(convex_job *job, int batch, gpu_texture *depth, gpu_texture
             for (size_t k = kept ? 0 : p->kept; p->batch == batch && k < (kept ? p->kept : p->count); k++)
                 job->chosen[count++] = &p->literals[k];
         }
-        draw_chosen(job, count, kept ? FACES_FRONT : FACES_BACK, "csg/identify.frag", (gpu_state){.depth_test = true, .depth_compare = GPU_EQUAL});
+        draw_chosen(job, count, kept ? FACES_FRONT : FACES_BACK, "csg/identify.frag",
+                    (gpu_state){.depth_test = true, .depth_compare = GPU_EQUAL});
     }
     job->before = NULL;
 }
@@ -413,7 +423,7 @@ static void draw_batches(convex_job *job, int batches, gpu_texture *all)
 
 gpu_texture *solids_draw_convex(const solid_view *v, solid_layers *s, const bool *wanted)
 {
-    convex_job job = {.v = v, .solids = s};
+    convex_job   job = {.v = v, .solids = s};
     gpu_texture *all = NULL;
     if (job_open(&job, wanted)) {
         bool planes = false, plain = false;

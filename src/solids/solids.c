@@ -1,6 +1,7 @@
-/* Solids: which surface lies at which pixel. One geometry pass puts every fragment of the operands into lists, one a pixel (GL 4.3 storage
- * blocks), and one pass over the picture sorts them and runs the trees: 16 bytes a fragment, 4 more where all layers are
- * wanted, and 20 a pixel. Where the lists have no room for all of the picture, it is done in bands. */
+/* Solids: which surface lies at which pixel. One geometry pass puts every fragment of the operands into lists, one
+ * a pixel (GL 4.3 storage blocks), and one pass over the picture sorts them and runs the trees: 16 bytes a
+ * fragment, 4 more where all layers are wanted, and 20 a pixel. Where the lists have no room for all of the
+ * picture, it is done in bands. */
 #include "solids/solids_private.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ enum { KEPT = 8, NODE_BYTES = 16, PLANES_A_ROW = 256, BANDS_MAX = 4096 };
 static void eye_plane(const mat4 *to_eye, const csg_plane *p, float out[4])
 {
     const double *m = to_eye->m;
-    double c[9], n[3], place[3], length = 0, distance = 0;
+    double        c[9], n[3], place[3], length = 0, distance = 0;
     mat4_cofactors(to_eye, c);
     for (int k = 0; k < 3; k++) {
         n[k] = c[k] * p->normal[0] + c[3 + k] * p->normal[1] + c[6 + k] * p->normal[2];
@@ -36,12 +37,12 @@ static void eye_plane(const mat4 *to_eye, const csg_plane *p, float out[4])
 static void open_planes(const solid_view *v, solid_layers *s, const bool *wanted)
 {
     const upload *u = v->up;
-    size_t count = 1;
+    size_t        count = 1;
     for (size_t i = 0; i < u->item_count; i++)
         count += wanted[i] ? u->items[i].plane_count : 0;
     count = count < CSG_PLANES_MAX ? count : CSG_PLANES_MAX;
     int rows = (int)((count + PLANES_A_ROW - 1) / PLANES_A_ROW);
-    float (*values)[4] = mem_calloc((size_t)rows * PLANES_A_ROW, sizeof *values);
+    float(*values)[4] = mem_calloc((size_t)rows * PLANES_A_ROW, sizeof *values);
     s->first_planes = mem_calloc(u->item_count, sizeof *s->first_planes);
     if (!values || !s->first_planes) {
         mem_free(values);
@@ -53,7 +54,9 @@ static void open_planes(const solid_view *v, solid_layers *s, const bool *wanted
         if (!wanted[i])
             continue;
         if (made + u->items[i].plane_count > CSG_PLANES_MAX) {
-            gpu_fail(v->g, LMN_LIMIT, "instances of solids have more than %d planes in which faces of several operands lie", CSG_PLANES_MAX);
+            gpu_fail(v->g, LMN_LIMIT,
+                     "instances of solids have more than %d planes in which faces of several operands lie",
+                     CSG_PLANES_MAX);
             break;
         }
         s->first_planes[i] = (uint32_t)made;
@@ -69,13 +72,13 @@ static void open_planes(const solid_view *v, solid_layers *s, const bool *wanted
 /* Where solids can be, and whether the eye may be in one of their operands. */
 static bool find_box(const solid_view *v, const bool *wanted, int box[4])
 {
-    const upload *u = v->up;
+    const upload           *u = v->up;
     const gpu_capabilities *facts = gpu_capabilities_of(v->g);
-    bool any = false, inside = false;
+    bool                    any = false, inside = false;
     for (size_t i = 0; i < u->item_count; i++) {
         if (!wanted[i])
             continue;
-        int own[4];
+        int    own[4];
         double nearest = INFINITY, farthest = -INFINITY;
         camera_depth_range(v->camera, u->items[i].reach, &nearest, &farthest);
         inside = inside || nearest <= (facts->depth_clamp ? 0 : v->camera->near);
@@ -115,7 +118,7 @@ static void draw_operands(const solid_view *v, const draw_item *item, bool produ
         gpu_draw_mesh(v->g, item->mesh);
         return;
     }
-    uint32_t (*runs)[2] = mem_alloc(s->count * sizeof *runs);
+    uint32_t(*runs)[2] = mem_alloc(s->count * sizeof *runs);
     size_t count = 0;
     for (size_t i = 0; runs && i < s->count; i++)
         if (!s->in_products[i])
@@ -141,7 +144,8 @@ static unsigned gather(const solid_view *v, solid_layers *s, const bool *wanted,
             continue;
         text prelude = {0};
         text_append(&prelude, "%s", v->up->items[i].plane_count ? "#define SHARED_PLANES\n" : "");
-        gpu_use(v->g, view_program(v->g, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude), (gpu_state){.depth_clamp = true});
+        gpu_use(v->g, view_program(v->g, GPU_FAST, "csg/operand.vert", "csg/gather.frag", &prelude),
+                (gpu_state){.depth_clamp = true});
         set_list_box(v, box);
         gpu_set_uint(v->g, "u_node_limit", limit);
         solids_set_operands(v, s, &v->up->items[i]);
@@ -173,17 +177,19 @@ static size_t power_of_two(size_t n)
 static void resolve(const solid_view *v, solid_layers *s, const int box[4], bool inside)
 {
     const csg_program *c = &v->up->program;
-    text prelude = {0};
-    text_append(&prelude, "#define KEPT %d\n#define OPERAND_WORDS %zu\n#define TERMS %zu\n%s%s%s", KEPT, power_of_two(c->operand_count / 32 + 1),
-                c->term_count ? power_of_two(c->term_count) : 0, s->first_only ? "#define FIRST_ONLY\n" : "",
-                inside ? "#define EYE_MAY_BE_INSIDE\n" : "", s->depth ? "#define DEPTH_TESTED\n" : "");
+    text               prelude = {0};
+    text_append(&prelude, "#define KEPT %d\n#define OPERAND_WORDS %zu\n#define TERMS %zu\n%s%s%s", KEPT,
+                power_of_two(c->operand_count / 32 + 1), c->term_count ? power_of_two(c->term_count) : 0,
+                s->first_only ? "#define FIRST_ONLY\n" : "", inside ? "#define EYE_MAY_BE_INSIDE\n" : "",
+                s->depth ? "#define DEPTH_TESTED\n" : "");
     gpu_program *p = view_program(v->g, GPU_FAST, "gpu/screen.vert", "csg/resolve.frag", &prelude);
     if (!p || gpu_failed(v->g))
         return;
     gpu_pass pass = {.colours = {s->surfaces}, .colour_count = 1, .depth = s->depth};
     memcpy(pass.scissor, box, sizeof pass.scissor);
     gpu_pass_begin(v->g, &pass);
-    gpu_use(v->g, p, (gpu_state){.depth_test = s->depth != NULL, .depth_write = s->depth != NULL, .depth_compare = GPU_LESS});
+    gpu_use(v->g, p,
+            (gpu_state){.depth_test = s->depth != NULL, .depth_write = s->depth != NULL, .depth_compare = GPU_LESS});
     set_list_box(v, box);
     solids_set_depth(v, s);
     gpu_set_uint(v->g, "u_beyond", bits_of((float)(v->camera->far - s->near)));
@@ -196,7 +202,7 @@ static void resolve(const solid_view *v, solid_layers *s, const int box[4], bool
 /* The surfaces behind those of one picture into another. */
 static void step(const solid_view *v, solid_layers *s, gpu_texture *from, gpu_texture *to, const int box[4])
 {
-    text prelude = {0};
+    text         prelude = {0};
     gpu_program *p = view_program(v->g, GPU_FAST, "gpu/screen.vert", "csg/next.frag", &prelude);
     if (!p || gpu_failed(v->g))
         return;
@@ -248,16 +254,17 @@ static void evaluate(const solid_view *v, solid_layers *s, const bool *wanted, b
 {
     int rows = s->box[3];
     for (int row = 0; row < s->box[3] && !gpu_failed(v->g);) {
-        int left = s->box[3] - row, band[4] = {s->box[0], s->box[1] + row, s->box[2], rows < left ? rows : left};
+        int       left = s->box[3] - row, band[4] = {s->box[0], s->box[1] + row, s->box[2], rows < left ? rows : left};
         stopwatch w = watch_start(v->profile);
-        unsigned times = gather(v, s, wanted, band, limit);
+        unsigned  times = gather(v, s, wanted, band, limit);
         watch_stop(v->profile, w, "solids", "gather");
         if (times > 1 && band[3] > 1) {
             rows = band[3] / (int)(times < (unsigned)band[3] ? times : (unsigned)band[3]);
             continue;
         }
         if (times > 1)
-            gpu_fail(v->g, LMN_LIMIT, "a row of the picture has more surfaces of operands than fit into the driver's storage block");
+            gpu_fail(v->g, LMN_LIMIT,
+                     "a row of the picture has more surfaces of operands than fit into the driver's storage block");
         w = watch_start(v->profile);
         resolve(v, s, band, inside);
         watch_stop(v->profile, w, "solids", "resolve");
@@ -277,8 +284,9 @@ static void evaluate(const solid_view *v, solid_layers *s, const bool *wanted, b
 static void open_lists(const solid_view *v, solid_layers *s, const bool *wanted, bool inside)
 {
     enum { ROOM = 128 << 20 };
-    size_t block = (size_t)gpu_capabilities_of(v->g)->max_storage_mib << 20, pixels = (size_t)s->box[2] * (size_t)s->box[3];
-    size_t room = block < ROOM ? block : ROOM;
+    size_t block = (size_t)gpu_capabilities_of(v->g)->max_storage_mib << 20,
+           pixels = (size_t)s->box[2] * (size_t)s->box[3];
+    size_t   room = block < ROOM ? block : ROOM;
     unsigned limit = (unsigned)(room / NODE_BYTES);
     s->heads = gpu_buffer_acquire(v->g, pixels * sizeof(uint32_t));
     s->nodes = gpu_buffer_acquire(v->g, room);
@@ -302,7 +310,8 @@ void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const
     open_planes(v, s, wanted);
     s->nearest = s->surfaces = blank_picture(v);
     s->count = s->first_only ? 1 : 0;
-    bool convex = s->first_only && !inside && options->evaluation != EVALUATION_LISTS && solids_have_convex(v, wanted, &all_convex);
+    bool convex = s->first_only && !inside && options->evaluation != EVALUATION_LISTS &&
+                  solids_have_convex(v, wanted, &all_convex);
     stopwatch w = watch_start(v->profile);
     if (convex && !gpu_failed(v->g))
         s->depth = solids_draw_convex(v, s, wanted);
@@ -311,13 +320,15 @@ void solids_open(const solid_view *v, solid_layers *s, const bool *wanted, const
     if (all_convex || gpu_failed(v->g))
         return;
     w = watch_start(v->profile);
-    bool swept = (!lists || options->evaluation == EVALUATION_PRODUCTS) && solids_sweep(v, s, wanted, inside, options->layers);
+    bool swept =
+        (!lists || options->evaluation == EVALUATION_PRODUCTS) && solids_sweep(v, s, wanted, inside, options->layers);
     if (swept)
         watch_stop(v->profile, w, "solids", "sweep");
     else if (lists)
         open_lists(v, s, wanted, inside);
     else
-        gpu_fail(v->g, LMN_UNSUPPORTED, "solids of more than 256 operands, or of a normal form of more than 4096 products, need OpenGL 4.3");
+        gpu_fail(v->g, LMN_UNSUPPORTED,
+                 "solids of more than 256 operands, or of a normal form of more than 4096 products, need OpenGL 4.3");
 }
 
 void solids_select(const solid_view *v, solid_layers *s, int index)

@@ -1,5 +1,5 @@
-/* Evaluation of solids on the GPU: which surface of the result of their set operations lies at which pixel. Three ways: lists (solids.c), products of convex operands (convex.c),
- * a sweep over operands (sweep.c). */
+/* Evaluation of solids on the GPU: which surface of the result of their set operations lies at which pixel. Three
+ * ways: lists (solids.c), products of convex operands (convex.c), a sweep over operands (sweep.c). */
 #ifndef LIMNER_SOLIDS_SOLIDS_H
 #define LIMNER_SOLIDS_SOLIDS_H
 
@@ -19,19 +19,19 @@ typedef struct solid_view {
 
 /* The surfaces of solids, layer after layer: what the evaluation of their trees found. */
 typedef struct solid_layers {
-    bool         ready;
-    bool         first_only;  /* nothing behind the nearest was looked for */
-    int          box[4];      /* pixels where solids can be */
-    double       near;        /* that the surfaces' depths are measured from */
-    int          count;       /* layers there are */
-    int          index;       /* of the current one */
-    gpu_texture *surfaces;    /* of the current layer: (any), depth, key, normal */
-    gpu_texture *nearest;     /* of layer 0 */
+    bool          ready;
+    bool          first_only; /* nothing behind the nearest was looked for */
+    int           box[4];     /* pixels where solids can be */
+    double        near;       /* that the surfaces' depths are measured from */
+    int           count;      /* layers there are */
+    int           index;      /* of the current one */
+    gpu_texture  *surfaces;   /* of the current layer: (any), depth, key, normal */
+    gpu_texture  *nearest;    /* of layer 0 */
     gpu_texture **kept;       /* all of them, when they did not fit into one list; else NULL */
-    gpu_texture *depth;       /* of the surfaces that products of convex operands have; NULL: none */
-    gpu_texture *planes;
-    uint32_t    *first_planes; /* per item: of its planes among them */
-    gpu_buffer  *heads, *nodes, *chain, *counter;
+    gpu_texture  *depth;      /* of the surfaces that products of convex operands have; NULL: none */
+    gpu_texture  *planes;
+    uint32_t     *first_planes; /* per item: of its planes among them */
+    gpu_buffer   *heads, *nodes, *chain, *counter;
 } solid_layers;
 
 typedef struct solid_options {

@@ -10,8 +10,8 @@
 void solids_set_operands(const solid_view *v, const solid_layers *s, const draw_item *item);
 
 /* --- sweep.c: any solids on any GL --- */
-/* The nearest surfaces, among those of convex products where there are any, or all layers at once. `inside`: the eye may be in an operand. False
- * when the normal form is too large. */
+/* The nearest surfaces, among those of convex products where there are any, or all layers at once. `inside`: the
+ * eye may be in an operand. False when the normal form is too large. */
 bool solids_sweep(const solid_view *v, solid_layers *s, const bool *wanted, bool inside, int layers);
 
 /* --- convex.c: products of convex operands --- */

@@ -1,7 +1,8 @@
-/* Surfaces of solids on every GL: the operands are peeled fragment by fragment, front faces and back faces, and after each one the normal form
- * says at each pixel whether the solid begins or ends there. One pass over the geometry and one over the picture for each fragment
- * of the deepest pixel; 128 bytes a pixel. Needs no storage blocks, no limit on how operands are shaped, and gives every layer.
- * Nienhaus et al. 2006, 5.1: the CSG calculation is done for each layer, for what faces to the camera and what faces away; rows K01, K03, C2, C5, C6. */
+/* Surfaces of solids on every GL: the operands are peeled fragment by fragment, front faces and back faces, and
+ * after each one the normal form says at each pixel whether the solid begins or ends there. One pass over the
+ * geometry and one over the picture for each fragment of the deepest pixel; 128 bytes a pixel. Needs no storage
+ * blocks, no limit on how operands are shaped, and gives every layer. Nienhaus et al. 2006, 5.1: the CSG
+ * calculation is done for each layer, for what faces to the camera and what faces away; rows K01, K03, C2, C5, C6. */
 #include "solids/solids_private.h"
 
 #include <string.h>
@@ -18,14 +19,14 @@ static const struct {
 
 typedef struct sweep {
     const solid_view *v;
-    solid_layers *solids;
-    const bool   *wanted;
-    bool          rest_only;  /* what no product of convex operands has */
-    bool          around_eye; /* only what holds around the eye is being found out */
-    gpu_texture  *facts, *products;
-    gpu_texture  *fragment, *depth;
-    gpu_texture  *now[PICTURES], *next[PICTURES]; /* state, bits, more bits, surfaces found */
-    uint32_t    (*runs)[2];
+    solid_layers     *solids;
+    const bool       *wanted;
+    bool              rest_only;  /* what no product of convex operands has */
+    bool              around_eye; /* only what holds around the eye is being found out */
+    gpu_texture      *facts, *products;
+    gpu_texture      *fragment, *depth;
+    gpu_texture      *now[PICTURES], *next[PICTURES]; /* state, bits, more bits, surfaces found */
+    uint32_t (*runs)[2];
 } sweep;
 
 static bool takes_part(const sweep *s, const upload_solid *solid, size_t operand)
@@ -33,19 +34,19 @@ static bool takes_part(const sweep *s, const upload_solid *solid, size_t operand
     return !s->rest_only || !solid->in_products[operand];
 }
 
-/* --- tables --------------------------------------------------------------------------------------------------------- */
+/* --- tables --------------------------------------------------------------------------------------------- */
 
 typedef struct tables {
     uint32_t (*facts)[4];
-    size_t   fact_rows, bits;
+    size_t fact_rows, bits;
     uint32_t (*products)[4];
-    size_t   product_count, product_rows;
+    size_t product_count, product_rows;
 } tables;
 
 static void add_products(tables *t, const product_list *l, size_t first_bit, const size_t *bits)
 {
     for (size_t i = 0; i < l->count; i++) {
-        uint32_t (*texels)[4] = &t->products[TEXELS_A_PRODUCT * t->product_count++];
+        uint32_t(*texels)[4] = &t->products[TEXELS_A_PRODUCT * t->product_count++];
         for (size_t k = 0; k < l->items[i].count; k++) {
             size_t bit = first_bit + bits[l->items[i].operands[k]], half = bit / 128 + (k < l->items[i].kept ? 0 : 2);
             texels[half][bit % 128 / 32] |= 1u << bit % 32;
@@ -56,14 +57,15 @@ static void add_products(tables *t, const product_list *l, size_t first_bit, con
 static bool room_for(const sweep *s, tables *t)
 {
     const upload *u = s->v->up;
-    size_t operands = 0, products = 0, bits = 0;
+    size_t        operands = 0, products = 0, bits = 0;
     for (size_t i = 0; i < u->item_count; i++) {
         if (!s->wanted[i])
             continue;
         const upload_solid *solid = &u->solids[u->items[i].solid];
         if (solid->rest.too_many)
             return false;
-        operands = u->items[i].first_operand + solid->count > operands ? u->items[i].first_operand + solid->count : operands;
+        operands =
+            u->items[i].first_operand + solid->count > operands ? u->items[i].first_operand + solid->count : operands;
         products += solid->rest.count + (s->rest_only ? 0 : solid->products.count);
         for (size_t k = 0; k < solid->count; k++)
             bits += takes_part(s, solid, k);
@@ -84,15 +86,16 @@ static size_t number_bits(const sweep *s, const upload_solid *solid, size_t *bit
 
 static void add_item(const sweep *s, tables *t, size_t index, size_t *bits)
 {
-    const draw_item *item = &s->v->up->items[index];
+    const draw_item    *item = &s->v->up->items[index];
     const upload_solid *solid = &s->v->up->solids[item->solid];
-    size_t first = t->product_count, count = number_bits(s, solid, bits);
+    size_t              first = t->product_count, count = number_bits(s, solid, bits);
     if (!s->rest_only)
         add_products(t, &solid->products, t->bits, bits);
     add_products(t, &solid->rest, t->bits, bits);
     for (size_t k = 0; k < solid->count; k++)
         memcpy(t->facts[item->first_operand + k],
-               (uint32_t[]){(uint32_t)(t->bits + bits[k]), (uint32_t)first, (uint32_t)(t->product_count - first), (uint32_t)index},
+               (uint32_t[]){(uint32_t)(t->bits + bits[k]), (uint32_t)first, (uint32_t)(t->product_count - first),
+                            (uint32_t)index},
                sizeof t->facts[0]);
     t->bits += count;
 }
@@ -100,7 +103,7 @@ static void add_item(const sweep *s, tables *t, size_t index, size_t *bits)
 /* False when the products or their operands are too many. */
 static bool make_tables(sweep *s)
 {
-    tables t = {.bits = 0};
+    tables            t = {.bits = 0};
     const solid_view *v = s->v;
     if (!room_for(s, &t))
         return false;
@@ -115,7 +118,8 @@ static bool make_tables(sweep *s)
         s->facts = gpu_target_acquire(v->g, FACTS_A_ROW, (int)t.fact_rows, GPU_RGBA32UI);
         s->products = gpu_target_acquire(v->g, PRODUCTS_A_ROW * TEXELS_A_PRODUCT, (int)t.product_rows, GPU_RGBA32UI);
         gpu_target_write(v->g, s->facts, (int[]){0, 0, FACTS_A_ROW, (int)t.fact_rows}, t.facts);
-        gpu_target_write(v->g, s->products, (int[]){0, 0, PRODUCTS_A_ROW * TEXELS_A_PRODUCT, (int)t.product_rows}, t.products);
+        gpu_target_write(v->g, s->products, (int[]){0, 0, PRODUCTS_A_ROW * TEXELS_A_PRODUCT, (int)t.product_rows},
+                         t.products);
     } else {
         gpu_fail(v->g, LMN_MEMORY, "out of memory");
     }
@@ -125,7 +129,7 @@ static bool make_tables(sweep *s)
     return true;
 }
 
-/* --- one fragment a pixel ------------------------------------------------------------------------------------------- */
+/* --- one fragment a pixel ------------------------------------------------------------------------------- */
 
 static gpu_pass pass_in(const sweep *s)
 {
@@ -137,10 +141,10 @@ static gpu_pass pass_in(const sweep *s)
 
 static void draw_class(sweep *s, size_t item_index, size_t which)
 {
-    const solid_view *v = s->v;
-    const draw_item *item = &v->up->items[item_index];
+    const solid_view   *v = s->v;
+    const draw_item    *item = &v->up->items[item_index];
     const upload_solid *solid = &v->up->solids[item->solid];
-    size_t count = 0;
+    size_t              count = 0;
     for (size_t k = 0; k < solid->count; k++)
         if (solid->taken_away[k] == classes[which].taken_away && takes_part(s, solid, k))
             memcpy(s->runs[count++], solid->runs[k], sizeof s->runs[0]);
@@ -153,7 +157,7 @@ static void draw_class(sweep *s, size_t item_index, size_t which)
 static bool draw_next(sweep *s)
 {
     const solid_view *v = s->v;
-    text prelude = {0};
+    text              prelude = {0};
     text_append(&prelude, "#define SHARED_PLANES\n%s", s->around_eye ? "#define AROUND_EYE\n" : "");
     gpu_program *p = view_program(v->g, GPU_FLOOR, "csg/operand.vert", "csg/sweep.frag", &prelude);
     if (!p || gpu_failed(v->g))
@@ -164,7 +168,8 @@ static bool draw_next(sweep *s)
     pass.depth = s->depth;
     pass.clear = true;
     gpu_pass_begin(v->g, &pass);
-    gpu_use(v->g, p, (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS, .depth_clamp = true});
+    gpu_use(v->g, p,
+            (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS, .depth_clamp = true});
     gpu_set_texture(v->g, "t_state", s->now[0], false);
     gpu_set_texture(v->g, "t_found", s->now[3], false);
     gpu_set_float(v->g, "u_solid_range", (float)(v->camera->far - s->solids->near));
@@ -182,8 +187,8 @@ static bool draw_next(sweep *s)
 static void take_fragment(sweep *s)
 {
     static const char *const names[PICTURES] = {"t_state", "t_inside", "t_inside_more", "t_found"};
-    const solid_view *v = s->v;
-    text prelude = {0};
+    const solid_view        *v = s->v;
+    text                     prelude = {0};
     text_append(&prelude, "%s", s->around_eye ? "#define AROUND_EYE\n" : "");
     gpu_program *p = view_program(v->g, GPU_FLOOR, "gpu/screen.vert", "csg/sweep_step.frag", &prelude);
     if (!p || gpu_failed(v->g))
@@ -211,7 +216,7 @@ static void take_fragment(sweep *s)
 static bool put_among(sweep *s, gpu_texture *surfaces, gpu_texture *into, gpu_texture *depth)
 {
     const solid_view *v = s->v;
-    text prelude = {0};
+    text              prelude = {0};
     text_append(&prelude, "%s", into ? "" : "#define COUNTED\n");
     gpu_program *p = view_program(v->g, GPU_FLOOR, "gpu/screen.vert", "csg/among.frag", &prelude);
     if (!p || gpu_failed(v->g))
@@ -230,7 +235,7 @@ static bool put_among(sweep *s, gpu_texture *surfaces, gpu_texture *into, gpu_te
     return gpu_query_any(v->g, 0);
 }
 
-/* --- layers --------------------------------------------------------------------------------------------------------- */
+/* --- layers --------------------------------------------------------------------------------------------- */
 
 static void sweep_open(sweep *s)
 {
@@ -289,8 +294,8 @@ static void look_around(sweep *s)
 static bool keep_layer(sweep *s)
 {
     const solid_view *v = s->v;
-    solid_layers *l = s->solids;
-    gpu_texture **grown = mem_realloc(l->kept, (size_t)(l->count + 1) * sizeof *grown);
+    solid_layers     *l = s->solids;
+    gpu_texture     **grown = mem_realloc(l->kept, (size_t)(l->count + 1) * sizeof *grown);
     if (!grown) {
         gpu_fail(v->g, LMN_MEMORY, "out of memory");
         return false;

@@ -37,7 +37,8 @@ void made_textures_trim(made_textures *all, gpu *g)
 }
 
 /* From the disk, or made and kept there. */
-static lmn_status bring(mip_chain *out, const texture_source *source, const void *values, const char *description, lmn_error *error)
+static lmn_status bring(mip_chain *out, const texture_source *source, const void *values, const char *description,
+                        lmn_error *error)
 {
     if (source->kept && store_find(out, description))
         return LMN_OK;
@@ -50,17 +51,24 @@ static lmn_status bring(mip_chain *out, const texture_source *source, const void
 static gpu_texture *put_up(gpu *g, const mip_chain *chain)
 {
     static const gpu_format formats[] = {[MIP_R8] = GPU_R8, [MIP_RG8] = GPU_RG8, [MIP_RG16F] = GPU_RG16F};
-    const void *data[MIP_LEVELS_MAX];
+    const void             *data[MIP_LEVELS_MAX];
     for (int k = 0; k < chain->levels; k++)
         data[k] = chain->data[k];
-    return gpu_texture_of_levels(g, &(gpu_levels){.width = chain->width, .height = chain->height, .layers = chain->layers, .levels = chain->levels,
-                                                  .format = formats[chain->format], .nearest = chain->nearest, .stepped = chain->stepped, .clamped = chain->clamped, .data = data});
+    return gpu_texture_of_levels(g, &(gpu_levels){.width = chain->width,
+                                                  .height = chain->height,
+                                                  .layers = chain->layers,
+                                                  .levels = chain->levels,
+                                                  .format = formats[chain->format],
+                                                  .nearest = chain->nearest,
+                                                  .stepped = chain->stepped,
+                                                  .clamped = chain->clamped,
+                                                  .data = data});
 }
 
 static bool is_blank(const mip_chain *chain)
 {
     const uint8_t *bytes = chain->data[0];
-    size_t count = chain->format == MIP_R8 ? mip_level_bytes(chain, 0) : 0;
+    size_t         count = chain->format == MIP_R8 ? mip_level_bytes(chain, 0) : 0;
     for (size_t i = 0; i < count; i++)
         if (bytes[i] != 255)
             return false;
@@ -68,16 +76,18 @@ static bool is_blank(const mip_chain *chain)
 }
 
 /* Takes over the description. */
-static lmn_status add(made_textures *all, gpu *g, const texture_source *source, const void *values, char *description, lmn_error *error)
+static lmn_status add(made_textures *all, gpu *g, const texture_source *source, const void *values, char *description,
+                      lmn_error *error)
 {
-    mip_chain chain = {0};
+    mip_chain  chain = {0};
     lmn_status status = bring(&chain, source, values, description, error);
     if (status == LMN_OK && !mem_grow((void **)&all->items, &all->capacity, all->count + 1, sizeof *all->items))
         status = error_memory(error);
     made_texture item = {.description = description};
     if (status == LMN_OK) {
         item.texture = put_up(g, &chain);
-        const float facts[4] = {(float)(chain.width > chain.height ? chain.width : chain.height), (float)chain.layers, (float)chain.levels, chain.fact};
+        const float facts[4] = {(float)(chain.width > chain.height ? chain.width : chain.height), (float)chain.layers,
+                                (float)chain.levels, chain.fact};
         memcpy(item.facts, facts, sizeof facts);
         item.similar = chain.similar;
         item.nearest = chain.nearest;
@@ -105,7 +115,8 @@ static bool applies(const texture_source *source, const technique_use *use)
     return params_condition(source->when, use->technique->params, use->technique->param_count, use->values);
 }
 
-lmn_status made_textures_find(made_textures *all, gpu *g, const technique_use *use, used_textures *out, lmn_error *error)
+lmn_status made_textures_find(made_textures *all, gpu *g, const technique_use *use, used_textures *out,
+                              lmn_error *error)
 {
     *out = (used_textures){.textures = {NULL}};
     for (size_t i = 0; use && i < use->technique->texture_count; i++) {
@@ -144,7 +155,8 @@ void used_textures_declare(text *prelude, const technique_use *use, const used_t
             continue;
         char capitals[CAPITALS_SIZE];
         uniforms_capitals(name, capitals);
-        text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name, name);
+        text_append(prelude, "#define HAS_%s\nuniform sampler2DArray t_%s;\nuniform vec4 u_%s_facts;\n", capitals, name,
+                    name);
         if (used->similar[i])
             text_append(prelude, "#define SIMILAR_%s\n", capitals);
         if (used->nearest[i])

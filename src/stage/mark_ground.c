@@ -29,10 +29,13 @@ void mark_ground_release(mark_ground *g)
 static bool make_room(ground_job *j, size_t vertices, size_t triangles)
 {
     mark_ground *g = j->out;
-    size_t v = g->surface.vertex_count + vertices, t = g->surface.triangle_count + triangles;
-    return v < UINT32_MAX && t < UINT32_MAX / 3 && mem_grow((void **)&g->places, &j->vertex_capacity, v, sizeof *g->places) &&
-           mem_grow((void **)&g->normals, &j->normal_capacity, v, sizeof *g->normals) && mem_grow((void **)&g->uvs, &j->uv_capacity, v, sizeof *g->uvs) &&
-           mem_grow((void **)&g->indices, &j->index_capacity, 3 * t, sizeof *g->indices) && mem_grow((void **)&g->parts, &j->part_capacity, t, sizeof *g->parts) &&
+    size_t       v = g->surface.vertex_count + vertices, t = g->surface.triangle_count + triangles;
+    return v < UINT32_MAX && t < UINT32_MAX / 3 &&
+           mem_grow((void **)&g->places, &j->vertex_capacity, v, sizeof *g->places) &&
+           mem_grow((void **)&g->normals, &j->normal_capacity, v, sizeof *g->normals) &&
+           mem_grow((void **)&g->uvs, &j->uv_capacity, v, sizeof *g->uvs) &&
+           mem_grow((void **)&g->indices, &j->index_capacity, 3 * t, sizeof *g->indices) &&
+           mem_grow((void **)&g->parts, &j->part_capacity, t, sizeof *g->parts) &&
            mem_grow((void **)&g->brightness, &j->brightness_capacity, 3 * t, sizeof *g->brightness);
 }
 
@@ -52,9 +55,11 @@ static double picture_at(const lmn_scene *scene, const texture_use *use, vec2 uv
     double u = c * x + s * y + (double)use->offset[0], v = c * y - s * x + (double)use->offset[1];
     if (!isfinite(u) || !isfinite(v))
         return 1;
-    uint32_t column = (uint32_t)((u - floor(u)) * i->width) % i->width, row = (uint32_t)((v - floor(v)) * i->height) % i->height;
+    uint32_t column = (uint32_t)((u - floor(u)) * i->width) % i->width,
+             row = (uint32_t)((v - floor(v)) * i->height) % i->height;
     const uint8_t *p = &i->pixels[4 * ((size_t)row * i->width + column)];
-    return luminance((double)colour_to_linear(p[0] / 255.0f), (double)colour_to_linear(p[1] / 255.0f), (double)colour_to_linear(p[2] / 255.0f));
+    return luminance((double)colour_to_linear(p[0] / 255.0f), (double)colour_to_linear(p[1] / 255.0f),
+                     (double)colour_to_linear(p[2] / 255.0f));
 }
 
 /* Of a corner; formats without materials are a light neutral grey. */
@@ -77,33 +82,39 @@ static float brightness_at(const ground_job *j, const primitive *p, const vertex
 static void add_vertices(ground_job *j, const vertex_arrays *data, const mat4 *world)
 {
     mark_ground *g = j->out;
-    uint32_t first = g->surface.vertex_count;
-    double cofactors[9], side = mat4_cofactors(world, cofactors) < 0 ? -1 : 1;
+    uint32_t     first = g->surface.vertex_count;
+    double       cofactors[9], side = mat4_cofactors(world, cofactors) < 0 ? -1 : 1;
     for (uint32_t i = 0; i < data->vertex_count; i++) {
         const float *p = &data->positions[3 * (size_t)i], *n = &data->normals[3 * (size_t)i];
-        double place[3], normal[3], length = 0;
+        double       place[3], normal[3], length = 0;
         for (int k = 0; k < 3; k++) {
-            place[k] = world->m[k] * (double)p[0] + world->m[4 + k] * (double)p[1] + world->m[8 + k] * (double)p[2] + world->m[12 + k] - g->origin[k];
-            normal[k] = side * (cofactors[k] * (double)n[0] + cofactors[3 + k] * (double)n[1] + cofactors[6 + k] * (double)n[2]);
+            place[k] = world->m[k] * (double)p[0] + world->m[4 + k] * (double)p[1] + world->m[8 + k] * (double)p[2] +
+                       world->m[12 + k] - g->origin[k];
+            normal[k] = side * (cofactors[k] * (double)n[0] + cofactors[3 + k] * (double)n[1] +
+                                cofactors[6 + k] * (double)n[2]);
             length += normal[k] * normal[k];
         }
         length = length > 0 ? sqrt(length) : 1;
         g->places[first + i] = (vec3){(float)place[0], (float)place[1], (float)place[2]};
-        g->normals[first + i] = (vec3){(float)(normal[0] / length), (float)(normal[1] / length), (float)(normal[2] / length)};
-        g->uvs[first + i] = data->uvs[0] ? (vec2){data->uvs[0][2 * (size_t)i], -data->uvs[0][2 * (size_t)i + 1]} : (vec2){0, 0};
+        g->normals[first + i] =
+            (vec3){(float)(normal[0] / length), (float)(normal[1] / length), (float)(normal[2] / length)};
+        g->uvs[first + i] =
+            data->uvs[0] ? (vec2){data->uvs[0][2 * (size_t)i], -data->uvs[0][2 * (size_t)i + 1]} : (vec2){0, 0};
     }
     g->surface.vertex_count += data->vertex_count;
 }
 
 /* A primitive at one place. What is mirrored has its triangles turned around. */
-static bool add_primitive(ground_job *j, const primitive *p, const vertex_arrays *data, const mat4 *world, uint32_t part)
+static bool add_primitive(ground_job *j, const primitive *p, const vertex_arrays *data, const mat4 *world,
+                          uint32_t part)
 {
-    uint32_t first = j->out->surface.vertex_count, triangle = j->out->surface.triangle_count, count = data->index_count / 3;
+    uint32_t first = j->out->surface.vertex_count, triangle = j->out->surface.triangle_count,
+             count = data->index_count / 3;
     if (!make_room(j, data->vertex_count, count))
         return false;
     mark_ground *g = j->out;
-    double cofactors[9];
-    bool mirrored = mat4_cofactors(world, cofactors) < 0;
+    double       cofactors[9];
+    bool         mirrored = mat4_cofactors(world, cofactors) < 0;
     add_vertices(j, data, world);
     for (uint32_t t = 0; t < count; t++, triangle++) {
         g->parts[triangle] = part;
@@ -124,7 +135,7 @@ static lmn_status add_part(ground_job *j, size_t part, lmn_error *error)
     if (n->mesh < 0)
         return LMN_OK;
     const mesh *m = &j->scene->meshes[n->mesh];
-    lmn_status status = LMN_OK;
+    lmn_status  status = LMN_OK;
     for (size_t i = 0; i < m->primitive_count && status == LMN_OK; i++) {
         posed_mesh posed;
         if (m->primitives[i].index_count == 0)
@@ -140,11 +151,12 @@ static lmn_status add_part(ground_job *j, size_t part, lmn_error *error)
     return status;
 }
 
-lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count, double crease_angle, lmn_error *error)
+lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count,
+                              double crease_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     ground_job j = {.out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle};
-    box3 box = box3_empty();
+    box3       box = box3_empty();
     for (size_t i = 0; i < part_count; i++)
         if (!parts || parts[i])
             box = box3_union(box, pose->part_boxes[i]);
@@ -169,15 +181,15 @@ lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_u
 {
     lmn_status status = surface->technique->surface->marks->make(out, &g->surface, g->extent, surface->values, error);
     for (size_t i = 0; status == LMN_OK && i < out->dot_count; i++) {
-        mark_dot *d = &out->dots[i];
+        mark_dot    *d = &out->dots[i];
         const float *b = &g->brightness[3 * (size_t)d->triangle];
         d->bright = (1 - d->share[0] - d->share[1]) * b[0] + d->share[0] * b[1] + d->share[1] * b[2];
     }
     for (size_t i = 0; status == LMN_OK && i < out->line_count; i++) {
         /* A stroke has one brightness: of its first piece. */
-        mark_line *l = &out->lines[i];
+        mark_line   *l = &out->lines[i];
         const float *b = &g->brightness[3 * (size_t)l->triangle];
-        bool goes_on = i > 0 && l[-1].stroke == l->stroke;
+        bool         goes_on = i > 0 && l[-1].stroke == l->stroke;
         l->bright = goes_on ? l[-1].bright : (b[0] + b[1] + b[2]) / 3;
     }
     return status;

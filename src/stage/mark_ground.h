@@ -1,4 +1,5 @@
-/* Marks of figures: dots and strokes on the surfaces of their parts, made once a scene and look, drawn each frame. Needs no GPU but for marks_draw. */
+/* Marks of figures: dots and strokes on the surfaces of their parts, made once a scene and look, drawn each frame.
+ * Needs no GPU but for marks_draw. */
 #ifndef LIMNER_STAGE_MARK_GROUND_H
 #define LIMNER_STAGE_MARK_GROUND_H
 
@@ -12,27 +13,31 @@
 typedef struct mark_ground {
     mark_surface surface;
     double       origin[3];
-    double       extent;      /* diagonal of it all */
+    double       extent; /* diagonal of it all */
     vec3        *places, *normals;
-    vec2        *uvs;         /* v upwards; 0 in parts that have none */
+    vec2        *uvs; /* v upwards; 0 in parts that have none */
     uint32_t    *indices;
-    uint32_t    *parts;       /* per triangle: index of its part */
-    float       *brightness;  /* per corner of each triangle: of its material, linear, 0 … 1 */
+    uint32_t    *parts;      /* per triangle: index of its part */
+    float       *brightness; /* per corner of each triangle: of its material, linear, 0 … 1 */
 } mark_ground;
 
 /* Of the parts with `parts[index]` (NULL: all) in their pose; solids have no triangles. Errors: LMN_MEMORY. */
-lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count, double crease_angle, lmn_error *error);
+lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count,
+                              double crease_angle, lmn_error *error);
 void       mark_ground_release(mark_ground *g);
 
-/* The marks that a surface technique puts there, with the brightness of what they lie on. Errors: those of the technique. */
+/* The marks that a surface technique puts there, with the brightness of what they lie on. Errors: those of the
+ * technique. */
 lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error);
 
-/* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the look's lights (no shadows) and the technique's ink. `surface` must have marks
- * (technique->surface->marks), its lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs no GPU. Errors: LMN_MEMORY, those of the technique. */
+/* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the
+ * look's lights (no shadows) and the technique's ink. `surface` must have marks (technique->surface->marks), its
+ * lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs
+ * no GPU. Errors: LMN_MEMORY, those of the technique. */
 typedef struct mark_page_options {
     const pose          *pose;
     const lmn_look      *look;
-    const bool          *parts;      /* NULL: all */
+    const bool          *parts; /* NULL: all */
     size_t               part_count;
     double               crease_angle;
     const technique_use *surface;

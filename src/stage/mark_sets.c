@@ -39,7 +39,7 @@ static uint64_t key_of(gpu *g, const mark_set_options *w)
     text_append(&t, " %.17g %d ", w->crease_angle, w->points);
     for (size_t i = 0; i < w->part_count; i++)
         text_append(&t, "%c", w->parts[i] ? 'x' : '.');
-    char *words = text_take(&t);
+    char    *words = text_take(&t);
     uint64_t key = words ? store_hash(words, strlen(words)) : 0;
     if (!words)
         gpu_fail(g, LMN_MEMORY, "out of memory");
@@ -49,11 +49,12 @@ static uint64_t key_of(gpu *g, const mark_set_options *w)
 
 static gpu_marks *upload_dots(gpu *g, const marks *m, bool points)
 {
-    float (*records)[4] = mem_alloc(m->dot_count * DOT_VECTORS * sizeof *records);
+    float(*records)[4] = mem_alloc(m->dot_count * DOT_VECTORS * sizeof *records);
     for (size_t i = 0; records && i < m->dot_count; i++) {
         const mark_dot *d = &m->dots[i];
         memcpy(records[DOT_VECTORS * i], (float[]){d->place.x, d->place.y, d->place.z, d->priority}, sizeof *records);
-        memcpy(records[DOT_VECTORS * i + 1], (float[]){d->normal.x, d->normal.y, d->normal.z, d->bright}, sizeof *records);
+        memcpy(records[DOT_VECTORS * i + 1], (float[]){d->normal.x, d->normal.y, d->normal.z, d->bright},
+               sizeof *records);
     }
     gpu_marks *(*create)(gpu *, int, const float *, size_t) = points ? gpu_marks_create_points : gpu_marks_create;
     gpu_marks *out = records ? create(g, DOT_VECTORS, records[0], m->dot_count) : NULL;
@@ -83,7 +84,7 @@ static void write_line(float (*r)[4], const mark_line *l)
 /* Those that stay longest with distance come first, so that from far away only the first need to be looked at. */
 static void upload_lines(gpu *g, const marks *m, mark_set *out)
 {
-    float (*records)[4] = mem_alloc(m->line_count * LINE_VECTORS * sizeof *records);
+    float(*records)[4] = mem_alloc(m->line_count * LINE_VECTORS * sizeof *records);
     const mark_line **order = mem_alloc(m->line_count * sizeof *order);
     out->ranks = mem_alloc(m->line_count * sizeof *out->ranks);
     out->lines = true;
@@ -108,9 +109,9 @@ static void upload_lines(gpu *g, const marks *m, mark_set *out)
 static void make_set(gpu *g, const mark_set_options *w, mark_set *out)
 {
     mark_ground ground;
-    marks made = {.dots = NULL};
-    lmn_error error;
-    lmn_status status = mark_ground_create(&ground, w->pose, w->parts, w->part_count, w->crease_angle, &error);
+    marks       made = {.dots = NULL};
+    lmn_error   error;
+    lmn_status  status = mark_ground_create(&ground, w->pose, w->parts, w->part_count, w->crease_angle, &error);
     if (status == LMN_OK) {
         status = mark_ground_marks(&made, &ground, w->surface, &error);
         memcpy(out->origin, ground.origin, sizeof out->origin);
@@ -137,8 +138,8 @@ mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_options *w)
         return NULL;
     }
     mark_sets *all = *slot;
-    uint64_t key = key_of(g, w);
-    mark_set *oldest = &all->sets[0];
+    uint64_t   key = key_of(g, w);
+    mark_set  *oldest = &all->sets[0];
     for (size_t i = 0; i < SETS_MAX; i++) {
         mark_set *s = &all->sets[i];
         if (s->used && s->key == key) {

@@ -1,4 +1,5 @@
-/* Marks on the surfaces of figures, on the GPU: kept with the upload as long as what they are made from stays the same. */
+/* Marks on the surfaces of figures, on the GPU: kept with the upload as long as what they are made from stays the
+ * same. */
 #ifndef LIMNER_STAGE_MARK_SETS_H
 #define LIMNER_STAGE_MARK_SETS_H
 
@@ -11,8 +12,8 @@ typedef struct mark_set {
     uint64_t   key, used; /* of what they are made from; when they were drawn last */
     gpu_marks *marks;     /* NULL: there are none */
     double     origin[3];
-    double     density;  /* dots to a unit of area; strokes: the least length of them to one */
-    float     *ranks;    /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
+    double     density; /* dots to a unit of area; strokes: the least length of them to one */
+    float     *ranks;   /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
     size_t     count;
     bool       lines;
 } mark_set;
@@ -21,14 +22,15 @@ typedef struct mark_sets mark_sets;
 
 typedef struct mark_set_options {
     const pose          *pose;
-    const bool          *parts;   /* per part: is marked */
+    const bool          *parts; /* per part: is marked */
     size_t               part_count;
     double               crease_angle;
     const technique_use *surface; /* whose marks they are */
     bool                 points;  /* dots are drawn as points */
 } mark_set_options;
 
-/* Finds or makes a set; that which was not drawn for longest goes. *slot is made when it is NULL. NULL after an error, which sticks to the GPU. */
+/* Finds or makes a set; that which was not drawn for longest goes. *slot is made when it is NULL. NULL after an
+ * error, which sticks to the GPU. */
 mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_options *options);
 void      mark_sets_release(mark_sets **all, gpu *g);
 

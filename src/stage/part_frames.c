@@ -1,5 +1,5 @@
-/* Frames of parts: where a part is at rest, whatever its node does with it. What is tied to an object is computed in its frame. Parts that
- * always move together share one, so that what is drawn runs on from part to part. */
+/* Frames of parts: where a part is at rest, whatever its node does with it. What is tied to an object is computed
+ * in its frame. Parts that always move together share one, so that what is drawn runs on from part to part. */
 #include "stage/upload.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static bool inverse_transpose(const double m[9], double out[9])
 {
     const double *a = m, *b = m + 3, *c = m + 6;
     const double *columns[3][2] = {{b, c}, {c, a}, {a, b}};
-    double determinant = 0;
+    double        determinant = 0;
     for (int i = 0; i < 3; i++) {
         const double *p = columns[i][0], *q = columns[i][1];
         for (int k = 0; k < 3; k++)
@@ -29,12 +29,12 @@ static bool inverse_transpose(const double m[9], double out[9])
     return true;
 }
 
-/* The rotation (or reflection) of a matrix: what is left without scale and shear. Newton's iteration for the polar decomposition,
- * on a matrix of unit size. */
+/* The rotation (or reflection) of a matrix: what is left without scale and shear. Newton's iteration for the polar
+ * decomposition, on a matrix of unit size. */
 static void rotation_of(const mat4 *world, double out[9])
 {
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    double size = 0;
+    double              size = 0;
     for (int column = 0; column < 3; column++)
         for (int row = 0; row < 3; row++) {
             out[3 * column + row] = world->m[4 * column + row];
@@ -64,8 +64,8 @@ static vec3 middle_of(const lmn_scene *scene, const node *n)
     return (vec3){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
 }
 
-/* Whom a node moves with: the lowest node above all that has no animated node between. So a model that is turned as a whole is followed, and
- * so is whatever is animated. */
+/* Whom a node moves with: the lowest node above all that has no animated node between. So a model that is turned as
+ * a whole is followed, and so is whatever is animated. */
 typedef struct mover {
     double turn[9]; /* columns; its rotation */
     box3   box;     /* of its parts' middles, in its axes and the scene's unit */
@@ -76,8 +76,9 @@ static int32_t mover_of(const lmn_scene *scene, const bool *animated, int32_t in
 {
     while (!animated[index] && scene->nodes[index].parent != NONE)
         index = scene->nodes[index].parent;
-    for (const node *n = &scene->nodes[index]; n->mesh == NONE && n->solid == NONE && n->first_child != NONE && n->first_child == n->last_child &&
-                                               !animated[n->first_child]; n = &scene->nodes[index])
+    for (const node *n = &scene->nodes[index]; n->mesh == NONE && n->solid == NONE && n->first_child != NONE &&
+                                               n->first_child == n->last_child && !animated[n->first_child];
+         n = &scene->nodes[index])
         index = n->first_child;
     return index;
 }
@@ -86,17 +87,18 @@ static void mark_animated(const lmn_scene *scene, bool *animated)
 {
     for (size_t i = 0; i < scene->animation_count; i++)
         for (size_t k = 0; k < scene->animations[i].channel_count; k++)
-            if (scene->animations[i].channels[k].node >= 0 && (size_t)scene->animations[i].channels[k].node < scene->node_count)
+            if (scene->animations[i].channels[k].node >= 0 &&
+                (size_t)scene->animations[i].channels[k].node < scene->node_count)
                 animated[scene->animations[i].channels[k].node] = true;
 }
 
 /* A part's middle in its mover's axes, which stays where it is when the mover moves and turns. */
 static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, int32_t mover_index, size_t part_index)
 {
-    const mat4 *own = &u->pose->worlds[mover_index], *world = &u->pose->worlds[scene->parts[part_index].node];
-    vec3 local = middle_of(scene, &scene->nodes[scene->parts[part_index].node]);
+    const mat4  *own = &u->pose->worlds[mover_index], *world = &u->pose->worlds[scene->parts[part_index].node];
+    vec3         local = middle_of(scene, &scene->nodes[scene->parts[part_index].node]);
     const double middle[3] = {(double)local.x, (double)local.y, (double)local.z};
-    double way[3], out[3];
+    double       way[3], out[3];
     for (int k = 0; k < 3; k++) {
         way[k] = world->m[12 + k] - own->m[12 + k];
         for (int c = 0; c < 3; c++)
@@ -127,10 +129,13 @@ static void level_axis(const mat4 *world, int up, double out[3])
     }
 }
 
-/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, the mover's number, and which way is up in it. */
-static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3], float *rows)
+/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, the mover's number,
+ * and which way is up in it. */
+static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3],
+                        float *rows)
 {
-    const float middle[3] = {(m->box.min.x + m->box.max.x) / 2, (m->box.min.y + m->box.max.y) / 2, (m->box.min.z + m->box.max.z) / 2};
+    const float middle[3] = {(m->box.min.x + m->box.max.x) / 2, (m->box.min.y + m->box.max.y) / 2,
+                             (m->box.min.z + m->box.max.z) / 2};
     for (int row = 0; row < 3; row++) {
         double moved = -(double)middle[row];
         for (int k = 0; k < 3; k++) {
@@ -159,7 +164,7 @@ static void write_frames(const upload *u, const lmn_scene *scene, mover *movers,
     }
     for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
-        float *rows = &values[4 * TEXELS_A_PART * i];
+        float  *rows = &values[4 * TEXELS_A_PART * i];
         write_frame(u, &movers[index], index, scene->up == 'y', u->frame_origin, rows);
         double level[3] = {0, 0, 0};
         level_axis(&u->pose->worlds[scene->parts[i].node], scene->up == 'y' ? 1 : 2, level);
@@ -175,11 +180,11 @@ gpu_texture *upload_part_frames(upload *u, gpu *g)
     const lmn_scene *scene = u->pose->scene;
     if (u->part_frames || gpu_failed(g))
         return u->part_frames;
-    int rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
+    int    rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
     float *values = mem_calloc((size_t)rows * (size_t)width, 4 * sizeof *values);
     mover *movers = mem_calloc(scene->node_count, sizeof *movers);
     bool  *animated = mem_calloc(scene->node_count, sizeof *animated);
-    box3 box = box3_empty();
+    box3   box = box3_empty();
     for (size_t i = 0; i < u->part_count; i++)
         box = box3_union(box, u->pose->part_boxes[i]);
     if (!box3_is_empty(box))

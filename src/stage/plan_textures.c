@@ -5,7 +5,8 @@
 #include "base/memory.h"
 
 /* Where materials have strokes of their own, each gets its textures. */
-static lmn_status make_by_material(struct figure_textures *out, made_textures *all, gpu *g, const technique_use *surface, const lmn_scene *scene, lmn_error *error)
+static lmn_status make_by_material(struct figure_textures *out, made_textures *all, gpu *g,
+                                   const technique_use *surface, const lmn_scene *scene, lmn_error *error)
 {
     void *values = mem_copy(surface->values, surface->technique->params_size);
     out->by_material = mem_calloc(scene->material_count, sizeof *out->by_material);
@@ -27,17 +28,21 @@ static void note_textures(const struct figure_textures *t, const technique_use *
     for (size_t i = 0; i < p->scene->image_count; i++)
         none = none && !p->scene->images[i].strokes;
     if (none)
-        warnings_add(notes, WARNING_UNUSED, "no material has strokes beside its picture (.stx): all are drawn with the standard ones");
+        warnings_add(notes, WARNING_UNUSED,
+                     "no material has strokes beside its picture (.stx): all are drawn with the standard ones");
     for (size_t i = 0; surface && i < surface->technique->texture_count; i++)
         if (t->surface.textures[i] && t->surface.blank[i])
-            warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere", surface->technique->textures[i].name, surface->technique->name);
+            warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere",
+                         surface->technique->textures[i].name, surface->technique->name);
 }
 
-static lmn_status make_of_figure(struct figure_textures *out, made_textures *all, gpu *g, const figure *fig, const plan *p, warnings *notes, lmn_error *error)
+static lmn_status make_of_figure(struct figure_textures *out, made_textures *all, gpu *g, const figure *fig,
+                                 const plan *p, warnings *notes, lmn_error *error)
 {
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
     technique_use        plain = {surface ? surface->technique : NULL, NULL};
-    bool differ = surface && surface->technique->surface->by_material && (plain.values = mem_copy(surface->values, surface->technique->params_size)) &&
+    bool                 differ = surface && surface->technique->surface->by_material &&
+                  (plain.values = mem_copy(surface->values, surface->technique->params_size)) &&
                   surface->technique->surface->by_material(plain.values, NULL);
     lmn_status status = made_textures_find(all, g, differ ? &plain : surface, &out->surface, error);
     if (status == LMN_OK && differ)
@@ -50,7 +55,8 @@ static lmn_status make_of_figure(struct figure_textures *out, made_textures *all
     return status;
 }
 
-lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, plan *p, bool with_sheet, warnings *notes, lmn_error *error)
+lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, plan *p, bool with_sheet, warnings *notes,
+                              lmn_error *error)
 {
     *out = (plan_textures){.figures = mem_calloc(p->figure_count, sizeof *out->figures), .count = p->figure_count};
     if (!out->figures)

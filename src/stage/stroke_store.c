@@ -31,7 +31,8 @@ void stroke_store_destroy(stroke_store **store, gpu *g)
 
 static bool is_as_wished(const stroke_store *s, const stroke_store_options *w)
 {
-    return s->part_count == w->part_count && s->refine == w->refine && memcmp(s->parts, w->hides, w->part_count * sizeof *s->parts) == 0;
+    return s->part_count == w->part_count && s->refine == w->refine &&
+           memcmp(s->parts, w->hides, w->part_count * sizeof *s->parts) == 0;
 }
 
 static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn_error *error)
@@ -41,7 +42,8 @@ static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn
     s->parts = mem_copy(w->hides, w->part_count * sizeof *s->parts);
     lmn_status status = s->parts ? LMN_OK : error_memory(error);
     if (status == LMN_OK)
-        status = stroke_scene_create_refined(&s->scene, w->pose, s->parts, w->crease_angle, w->refine, NULL, NULL, error);
+        status =
+            stroke_scene_create_refined(&s->scene, w->pose, s->parts, w->crease_angle, w->refine, NULL, NULL, error);
     if (status != LMN_OK)
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
@@ -54,9 +56,9 @@ stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_
     if (*slot && is_as_wished(*slot, options))
         return *slot;
     stroke_store_destroy(slot, g);
-    lmn_error error = {0};
+    lmn_error     error = {0};
     stroke_store *s = mem_calloc(1, sizeof *s);
-    lmn_status status = s ? fill_store(s, options, &error) : error_memory(&error);
+    lmn_status    status = s ? fill_store(s, options, &error) : error_memory(&error);
     if (status != LMN_OK) {
         stroke_store_destroy(&s, g);
         gpu_fail(g, status, "%s", error.message);
@@ -67,7 +69,7 @@ stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_
 
 void stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends)
 {
-    lmn_error error = {0};
+    lmn_error  error = {0};
     lmn_status status = crossings ? stroke_scene_cross(&s->scene, NULL, NULL, &error) : LMN_OK;
     if (status == LMN_OK && bends)
         status = stroke_scene_bend(&s->scene, NULL, NULL, &error);

@@ -1,4 +1,5 @@
-/* A scene as strokes see it, for one set of parts that may hide lines: kept with the upload, made when first asked for; the edges of its meshes on the GPU; and what the last camera saw of it. */
+/* A scene as strokes see it, for one set of parts that may hide lines: kept with the upload, made when first asked
+ * for; the edges of its meshes on the GPU; and what the last camera saw of it. */
 #ifndef LIMNER_STAGE_STROKE_STORE_H
 #define LIMNER_STAGE_STROKE_STORE_H
 
@@ -6,14 +7,14 @@
 #include "stroke/stroke.h"
 
 typedef struct stroke_store {
-    bool          *parts; /* that the scene has; all that may hide lines */
-    size_t         part_count;
-    int32_t        refine; /* how often its surfaces are */
-    stroke_scene   scene;
-    gpu_marks    **edges;     /* per mesh of the scene; NULL: not made yet */
-    gpu_marks    **crossings; /* per item, the same */
-    stroke_view   *view;      /* of the last camera; NULL: none */
-    stroke_camera  camera;
+    bool         *parts; /* that the scene has; all that may hide lines */
+    size_t        part_count;
+    int32_t       refine; /* how often its surfaces are */
+    stroke_scene  scene;
+    gpu_marks   **edges;     /* per mesh of the scene; NULL: not made yet */
+    gpu_marks   **crossings; /* per item, the same */
+    stroke_view  *view;      /* of the last camera; NULL: none */
+    stroke_camera camera;
 } stroke_store;
 
 typedef struct stroke_store_options {
@@ -27,9 +28,9 @@ typedef struct stroke_store_options {
 /* What *slot holds when it is as wished, else a new one in its place; NULL after an error, which sticks to the GPU. */
 stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_options *options);
 /* Where surfaces cross and how they bend does not depend on the view: it is found once. Errors stick to the GPU. */
-void          stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends);
+void stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends);
 /* What the camera sees, unless that is there. Errors: those of stroke_view_create. */
-lmn_status    stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_error *error);
-void          stroke_store_destroy(stroke_store **s, gpu *g);
+lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_error *error);
+void       stroke_store_destroy(stroke_store **s, gpu *g);
 
 #endif

@@ -26,7 +26,7 @@ static void declare_variant(text *prelude, const param *p, const void *values)
     char name[CAPITALS_SIZE];
     uniforms_capitals(p->key, name);
     const void *field = param_field(p, values);
-    int value = p->type == PARAM_BOOL ? *(const bool *)field : *(const int32_t *)field;
+    int         value = p->type == PARAM_BOOL ? *(const bool *)field : *(const int32_t *)field;
     text_append(prelude, "#define %s %d\n", name, value);
 }
 
@@ -41,7 +41,7 @@ static void declare_toggle(text *prelude, const param *p, const void *values)
 void uniforms_declare(text *prelude, param_set set)
 {
     static const char *const types[] = {
-        [PARAM_INT] = "int",   [PARAM_FLOAT] = "float", [PARAM_BOOL] = "bool",    [PARAM_ENUM] = "int",
+        [PARAM_INT] = "int",     [PARAM_FLOAT] = "float",    [PARAM_BOOL] = "bool",    [PARAM_ENUM] = "int",
         [PARAM_COLOUR] = "vec4", [PARAM_DIRECTION] = "vec3", [PARAM_PALETTE] = "vec4", [PARAM_TEXT] = "int",
     };
     for (size_t i = 0; i < set.count; i++) {
@@ -53,7 +53,8 @@ void uniforms_declare(text *prelude, param_set set)
         if (p->variant)
             declare_variant(prelude, p, set.values);
         else if (p->type == PARAM_PALETTE)
-            text_append(prelude, "uniform vec4 %s%s[%d];\nuniform int %s%s_count;\n", set.prefix, p->key, PALETTE_MAX, set.prefix, p->key);
+            text_append(prelude, "uniform vec4 %s%s[%d];\nuniform int %s%s_count;\n", set.prefix, p->key, PALETTE_MAX,
+                        set.prefix, p->key);
         else
             text_append(prelude, "uniform %s %s%s;\n", p->as_turn ? "vec2" : types[p->type], set.prefix, p->key);
     }
@@ -110,7 +111,7 @@ void uniforms_set(gpu *g, param_set set)
         char name[72];
         snprintf(name, sizeof name, "%s%s", set.prefix, p->key);
         const void *field = param_field(p, set.values);
-        float linear[4];
+        float       linear[4];
         switch (p->type) {
         case PARAM_INT:
         case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;

@@ -5,7 +5,8 @@
 
 #include "base/memory.h"
 
-static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const primitive *p, const part_pose *pose, lmn_error *error)
+static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const primitive *p,
+                                   const part_pose *pose, lmn_error *error)
 {
     posed_mesh m;
     lmn_status status = posed_make(&m, p, u->crease_angle, pose, error);
@@ -24,7 +25,7 @@ static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh *
 static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, const mat4 *world, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
-    lmn_status status = LMN_OK;
+    lmn_status       status = LMN_OK;
     if (p->index_count == 0)
         return LMN_OK;
     if (!job->meshes[i])
@@ -43,10 +44,10 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
 static lmn_status add_instances(upload *u, gpu *g, upload_part_job *job, lmn_error *error)
 {
     const lmn_scene *scene = u->pose->scene;
-    const node *n = &scene->nodes[scene->parts[job->part_index].node];
-    lmn_status status = LMN_OK;
+    const node      *n = &scene->nodes[scene->parts[job->part_index].node];
+    lmn_status       status = LMN_OK;
     for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
-        mat4 world = pose_instance(u->pose, job->part_index, k);
+        mat4        world = pose_instance(u->pose, job->part_index, k);
         cut_verdict verdict = CUT_WHOLE;
         status = upload_cut(u, g, job, &world, &verdict, error);
         for (size_t i = 0; i < job->mesh->primitive_count && status == LMN_OK && verdict == CUT_WHOLE; i++)
@@ -55,12 +56,12 @@ static lmn_status add_instances(upload *u, gpu *g, upload_part_job *job, lmn_err
     return status;
 }
 
-/* Where parts overlap, their cut faces lie in the same place: the smaller part's is seen, as within a part. Steps are a few
- * times what interpolated depth is off. */
+/* Where parts overlap, their cut faces lie in the same place: the smaller part's is seen, as within a part. Steps
+ * are a few times what interpolated depth is off. */
 static float nearer_of(const upload *u, size_t part_index)
 {
     double share = u->extent > 0 ? box3_diagonal(u->pose->part_boxes[part_index]) / u->extent : 1;
-    int level = (int)(6 * (1 - sqrt(fmin(fmax(share, 0), 1))));
+    int    level = (int)(6 * (1 - sqrt(fmin(fmax(share, 0), 1))));
     return (float)(8 * level + (int)(part_index % 8)) * 3e-7f;
 }
 
@@ -78,10 +79,12 @@ static bool make_room(upload_mesh *m, const mesh *source)
 static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *error)
 {
     const lmn_scene *scene = u->pose->scene;
-    const node *n = &scene->nodes[scene->parts[part_index].node];
+    const node      *n = &scene->nodes[scene->parts[part_index].node];
     const part_pose *pose = &u->pose->parts[part_index];
-    upload_part_job job = {.part_index = part_index, .mesh = &scene->meshes[n->mesh], .pose = pose, .nearer = nearer_of(u, part_index)};
-    upload_mesh *made = pose->joints || pose->weight_count > 0 ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
+    upload_part_job  job = {
+         .part_index = part_index, .mesh = &scene->meshes[n->mesh], .pose = pose, .nearer = nearer_of(u, part_index)};
+    upload_mesh *made =
+        pose->joints || pose->weight_count > 0 ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
     lmn_status status = LMN_OK;
     if (make_room(made, job.mesh)) {
         job.meshes = made->primitives;
@@ -94,7 +97,7 @@ static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *e
     return status;
 }
 
-/* --- all parts ----------------------------------------------------------------------------------------------------------- */
+/* --- all parts ------------------------------------------------------------------------------------------ */
 
 static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *desc, lmn_error *error)
 {
@@ -127,8 +130,8 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Moves what still holds. A scene never takes anything out of its arrays, and what is at a place there and has the same revision is the
- * same; nodes and images do not change at all. */
+/* Moves what still holds. A scene never takes anything out of its arrays, and what is at a place there and has the
+ * same revision is the same; nodes and images do not change at all. */
 static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
 {
     for (size_t i = 0; i < smaller(u->texture_count, earlier->texture_count); i++) {
@@ -151,11 +154,11 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
     }
 }
 
-lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_desc *desc, upload *earlier, lmn_progress_fn progress, void *user,
-                         lmn_error *error)
+lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_desc *desc, upload *earlier,
+                         lmn_progress_fn progress, void *user, lmn_error *error)
 {
     const lmn_scene *scene = pose->scene;
-    lmn_status status = open_upload(out, pose, desc, error);
+    lmn_status       status = open_upload(out, pose, desc, error);
     if (status == LMN_OK && earlier)
         take_over(out, earlier, scene);
     for (size_t i = 0; i < out->part_count && status == LMN_OK; i++) {
@@ -224,9 +227,9 @@ gpu_texture *upload_texture(upload *u, gpu *g, const texture_use *use, bool line
     if (use->image < 0 || !scene->images[use->image].pixels)
         return NULL;
     gpu_texture **slot = &u->textures[2 * (size_t)use->image + linear];
-    const image *i = &scene->images[use->image];
+    const image  *i = &scene->images[use->image];
     if (!*slot)
-        *slot = gpu_texture_create(g, (int)i->width, (int)i->height, linear ? GPU_RGBA8 : GPU_SRGB8, i->pixels, use->nearest,
-                                   wrap_of(use->wrap_u), wrap_of(use->wrap_v));
+        *slot = gpu_texture_create(g, (int)i->width, (int)i->height, linear ? GPU_RGBA8 : GPU_SRGB8, i->pixels,
+                                   use->nearest, wrap_of(use->wrap_u), wrap_of(use->wrap_v));
     return *slot;
 }

@@ -13,24 +13,25 @@
 #include "scene/scene.h"
 #include "scene/solid_products.h"
 
-/* A solid ready to be drawn. Operands are numbered from 0 on in the order of the tree, those alone that pruning left. */
+/* A solid ready to be drawn. Operands are numbered from 0 on in the order of the tree, those alone that pruning
+ * left. */
 typedef struct upload_solid {
-    solid_form   form;
-    int32_t     *used;        /* per operand: its number in the form */
-    uint32_t    *cut_bits;    /* per operand of the form: bits of a cut face's surface id, 0: none */
-    size_t       count;
-    uint32_t   (*runs)[2];    /* per operand: its indices in the mesh, first and count */
-    box3        *boxes;       /* per operand: solid's axes */
-    bool        *taken_away;  /* per operand */
-    bool        *in_products; /* per operand: belongs to a branch of the tree that is given by products of convex operands */
-    product_list products;    /* of those branches; of operands as they are numbered here */
-    bool        *meets;       /* per operand: is taken away from where another one is taken away too */
-    bool         ghost;       /* what another one takes away */
-    bool         all_convex;  /* there is nothing but these products */
-    product_list rest;        /* of the other branches */
-    int32_t      source;      /* in the scene's solids */
-    uint64_t     revision;    /* of that one */
-    gpu_mesh    *mesh;        /* of all operands; NULL: nothing is left to draw */
+    solid_form form;
+    int32_t   *used;     /* per operand: its number in the form */
+    uint32_t  *cut_bits; /* per operand of the form: bits of a cut face's surface id, 0: none */
+    size_t     count;
+    uint32_t (*runs)[2]; /* per operand: its indices in the mesh, first and count */
+    box3 *boxes;         /* per operand: solid's axes */
+    bool *taken_away;    /* per operand */
+    bool *in_products;   /* per operand: belongs to a branch of the tree that is given by products of convex operands */
+    product_list products;   /* of those branches; of operands as they are numbered here */
+    bool        *meets;      /* per operand: is taken away from where another one is taken away too */
+    bool         ghost;      /* what another one takes away */
+    bool         all_convex; /* there is nothing but these products */
+    product_list rest;       /* of the other branches */
+    int32_t      source;     /* in the scene's solids */
+    uint64_t     revision;   /* of that one */
+    gpu_mesh    *mesh;       /* of all operands; NULL: nothing is left to draw */
     uint64_t     triangles;
     csg_plane   *planes;
     size_t       plane_count, planes_found; /* there may have been no room for all */
@@ -61,75 +62,78 @@ typedef struct draw_item {
     size_t    part_index;
     int32_t   material;
     bool      has_uvs, has_uv1, has_colours;
-    bool      is_solid; /* operands of a solid: nothing of them is drawn as it is */
-    size_t    solid;    /* in the upload's solids */
+    bool      is_solid;                     /* operands of a solid: nothing of them is drawn as it is */
+    size_t    solid;                        /* in the upload's solids */
     uint32_t  first_operand, operand_count; /* solids: numbers from first_operand + 1 on */
     uint32_t  first_plane, plane_count;
     box3      reach;  /* world axes; of all operands, what is taken away too */
     bool      is_cut; /* a cut face: unlit, hatched */
-    float     nearer; /* window depth by which it is drawn nearer, so that cut faces of parts that overlap do not flicker */
+    float nearer; /* window depth by which it is drawn nearer, so that cut faces of parts that overlap do not flicker */
 } draw_item;
 
 typedef struct upload {
     uint64_t      revision, identity; /* of the scene */
-    double        crease_angle; /* radians */
-    mesh_needs   needs;       /* of all techniques */
+    double        crease_angle;       /* radians */
+    mesh_needs    needs;              /* of all techniques */
     section       section;
-    size_t        open_parts; /* some of whose sections are not closed */
-    bool          has_cut;    /* there are cut faces */
-    double        extent;     /* of the scene as it is posed */
-    const pose   *pose;         /* that it was made of; lent */
-    size_t        part_count; /* with the ghosts when the look asks for them */
+    size_t        open_parts;  /* some of whose sections are not closed */
+    bool          has_cut;     /* there are cut faces */
+    double        extent;      /* of the scene as it is posed */
+    const pose   *pose;        /* that it was made of; lent */
+    size_t        part_count;  /* with the ghosts when the look asks for them */
     bool          has_removed; /* it does */
     draw_item    *items;
     size_t        item_count, item_capacity;
-    gpu_mesh    **pieces;     /* what sections left */
+    gpu_mesh    **pieces; /* what sections left */
     size_t        piece_count, piece_capacity;
-    upload_mesh  *meshes;     /* per mesh of the scene, for parts in no pose */
-    upload_mesh  *posed;      /* per node of the scene */
-    upload_shape *shapes;     /* per mesh of the scene, and behind them that of the half-spaces of sections */
+    upload_mesh  *meshes; /* per mesh of the scene, for parts in no pose */
+    upload_mesh  *posed;  /* per node of the scene */
+    upload_shape *shapes; /* per mesh of the scene, and behind them that of the half-spaces of sections */
     size_t        mesh_count, node_count;
     gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
     size_t        texture_count;
     upload_solid *solids;
     size_t        solid_count, solid_capacity;
-    csg_program   program;     /* of all solids */
-    csg_plane    *planes;      /* of all solids, in their own axes; items know theirs */
+    csg_program   program; /* of all solids */
+    csg_plane    *planes;  /* of all solids, in their own axes; items know theirs */
     size_t        plane_count, plane_capacity;
-    float       (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
+    float (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
-    gpu_texture  *operand_table; /* the same, two texels an operand, 512 operands a row; NULL: no solids */
-    gpu_buffer   *program_buffer; /* NULL where there are no storage blocks */
-    gpu_texture  *part_frames; /* NULL: not asked for yet */
+    gpu_texture  *operand_table;     /* the same, two texels an operand, 512 operands a row; NULL: no solids */
+    gpu_buffer   *program_buffer;    /* NULL where there are no storage blocks */
+    gpu_texture  *part_frames;       /* NULL: not asked for yet */
     float        *part_frame_values; /* what is in it */
     double        frame_origin[3];
     mark_sets    *marks;      /* NULL: none yet */
-    stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not asked for yet */
-    uint64_t      triangles; /* drawn, instances counted */
+    stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not
+                                 asked for yet */
+    uint64_t triangles;       /* drawn, instances counted */
 } upload;
 
 /* How a scene is put on the GPU. */
 typedef struct upload_desc {
     double         crease_angle;
     bool           removed; /* what solids take away, too */
-    mesh_needs    needs;
+    mesh_needs     needs;
     const section *section; /* copied */
 } upload_desc;
 
-/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The pose is lent. What an earlier upload
- * (may be NULL) of the same scene and crease angle has that still holds is taken over: after an edit, meshes, textures and solids that did
- * not change. Release that one too. */
-lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_desc *desc, upload *earlier, lmn_progress_fn progress, void *user,
-                         lmn_error *error);
+/* Fails by returning LMN_MEMORY or the GPU's error; the upload can be released in any case. The pose is lent. What
+ * an earlier upload (may be NULL) of the same scene and crease angle has that still holds is taken over: after an
+ * edit, meshes, textures and solids that did not change. Release that one too. */
+lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_desc *desc, upload *earlier,
+                         lmn_progress_fn progress, void *user, lmn_error *error);
 void       upload_release(upload *u, gpu *g);
 /* The texture of a use, made when first asked for; NULL when the image is missing. `linear`: not a colour. */
 gpu_texture *upload_texture(upload *u, gpu *g, const texture_use *use, bool linear);
 
 enum { PART_FRAME_FLOATS = 20 };
 
-/* Five texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from `frame_origin`, to where it is
- * when nothing has moved, in the scene's unit; in the fourth one a number, and which way is up there; in the fifth a level axis of the part. Parts of one file without animated nodes between
- * have the same frame and number; when what they hang on moves or turns, they keep these places. Made when first asked for; NULL after an error. */
+/* Five texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from
+ * `frame_origin`, to where it is when nothing has moved, in the scene's unit; in the fourth one a number, and which
+ * way is up there; in the fifth a level axis of the part. Parts of one file without animated nodes between have the
+ * same frame and number; when what they hang on moves or turns, they keep these places. Made when first asked for;
+ * NULL after an error. */
 gpu_texture *upload_part_frames(upload *u, gpu *g);
 
 #endif

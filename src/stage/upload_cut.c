@@ -8,28 +8,35 @@
 #include "layer/layer.h"
 
 /* Bits of a cut face's surface id, from the lowest: positive side, plane, nearest axis, body (light/cut.glsl). */
-enum { ID_PLANE_SHIFT = 1, ID_AXIS_SHIFT = 6, ID_BODY_SHIFT = 8, ID_BODY_MASK = (1 << (SURFACE_INDEX_BITS - ID_BODY_SHIFT)) - 1 };
+enum {
+    ID_PLANE_SHIFT = 1,
+    ID_AXIS_SHIFT = 6,
+    ID_BODY_SHIFT = 8,
+    ID_BODY_MASK = (1 << (SURFACE_INDEX_BITS - ID_BODY_SHIFT)) - 1
+};
 
 uint32_t cut_face_bits(const cut *c, int32_t plane, uint32_t body, bool positive)
 {
     const double *n = c->planes[plane].normal;
-    double x = fabs(n[0]), y = fabs(n[1]), z = fabs(n[2]);
-    uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-    return SURFACE_CUT | (body & ID_BODY_MASK) << ID_BODY_SHIFT | axis << ID_AXIS_SHIFT | (uint32_t)plane << ID_PLANE_SHIFT | (uint32_t)positive;
+    double        x = fabs(n[0]), y = fabs(n[1]), z = fabs(n[2]);
+    uint32_t      axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    return SURFACE_CUT | (body & ID_BODY_MASK) << ID_BODY_SHIFT | axis << ID_AXIS_SHIFT |
+           (uint32_t)plane << ID_PLANE_SHIFT | (uint32_t)positive;
 }
 
-/* --- what cutting reads -------------------------------------------------------------------------------------------- */
+/* --- what cutting reads --------------------------------------------------------------------------------- */
 
 static lmn_status open_input(upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
     const part_pose *pose = job->pose;
-    const vec3 *positions = p->positions;
+    const vec3      *positions = p->positions;
     if (pose->joints || (pose->weights && p->morph_count)) {
         vec3 *moved = job->input_positions[i] = mem_alloc(p->vertex_count * sizeof *moved);
         if (!moved)
             return error_memory(error);
-        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count, moved, NULL);
+        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count,
+                  moved, NULL);
         for (uint32_t k = 0; k < p->vertex_count; k++)
             job->box = box3_with_point(job->box, moved[k]);
         positions = moved;
@@ -69,7 +76,7 @@ void upload_part_close(upload_part_job *job)
     mem_free(job->posed);
 }
 
-/* --- surfaces ------------------------------------------------------------------------------------------------------ */
+/* --- surfaces ------------------------------------------------------------------------------------------- */
 
 /* An attribute with new vertices behind the old ones; NULL when there is none or memory is gone. */
 static float *extend(const vertex_arrays *from, const float *values, size_t width, const cut_surface *s, bool *done)
@@ -83,10 +90,11 @@ static float *extend(const vertex_arrays *from, const float *values, size_t widt
     memcpy(out, values, from->vertex_count * width * sizeof *out);
     for (size_t i = 0; i < s->corner_count; i++) {
         const cut_corner *c = &s->corners[i];
-        const uint32_t *t = &from->indices[3 * c->triangle];
-        float *at = out + (from->vertex_count + i) * width;
+        const uint32_t   *t = &from->indices[3 * c->triangle];
+        float            *at = out + (from->vertex_count + i) * width;
         for (size_t k = 0; k < width; k++)
-            at[k] = c->weights[0] * values[t[0] * width + k] + c->weights[1] * values[t[1] * width + k] + c->weights[2] * values[t[2] * width + k];
+            at[k] = c->weights[0] * values[t[0] * width + k] + c->weights[1] * values[t[1] * width + k] +
+                    c->weights[2] * values[t[2] * width + k];
     }
     return out;
 }
@@ -96,19 +104,20 @@ static void mend_normals(float *normals, const vertex_arrays *from, const cut_su
 {
     for (size_t i = 0; i < s->corner_count; i++) {
         float *n = normals + 3 * (from->vertex_count + i);
-        float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        float  length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         if (length > 1e-4f) {
             for (int k = 0; k < 3; k++)
                 n[k] /= length;
             continue;
         }
         const float *w = s->corners[i].weights;
-        int nearest = w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2);
+        int          nearest = w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2);
         memcpy(n, from->normals + 3 * from->indices[3 * s->corners[i].triangle + (uint32_t)nearest], 3 * sizeof *n);
     }
 }
 
-static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i, const cut_surface *s, const mat4 *world, lmn_error *error)
+static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i, const cut_surface *s,
+                              const mat4 *world, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     if (s->whole_count + s->corner_count == 0)
@@ -119,7 +128,7 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
     if (status != LMN_OK)
         return status;
     const vertex_arrays *from = &posed->data;
-    bool done = true;
+    bool                 done = true;
     float *positions = extend(from, from->positions, 3, s, &done), *normals = extend(from, from->normals, 3, s, &done);
     float *uvs[2] = {extend(from, from->uvs[0], 2, s, &done), extend(from, from->uvs[1], 2, s, &done)};
     float *colours = extend(from, from->colours, 4, s, &done);
@@ -135,9 +144,14 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
         }
         for (size_t k = 0; k < s->whole_count; k++)
             memcpy(indices + 3 * k, from->indices + 3 * s->whole[k], 3 * sizeof *indices);
-        gpu_mesh_data data = {.vertex_count = from->vertex_count + (uint32_t)s->corner_count, .index_count = (uint32_t)count,
-                              .positions = positions, .normals = normals, .uvs = {uvs[0], uvs[1]}, .colours = colours, .indices = indices};
-        draw_item item = upload_item(job, i);
+        gpu_mesh_data data = {.vertex_count = from->vertex_count + (uint32_t)s->corner_count,
+                              .index_count = (uint32_t)count,
+                              .positions = positions,
+                              .normals = normals,
+                              .uvs = {uvs[0], uvs[1]},
+                              .colours = colours,
+                              .indices = indices};
+        draw_item     item = upload_item(job, i);
         item.world = *world;
         status = upload_add_piece(u, g, &item.mesh, &data, error);
         u->triangles += count / 3;
@@ -153,20 +167,24 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
     return status;
 }
 
-/* --- cut faces ----------------------------------------------------------------------------------------------------- */
+/* --- cut faces ------------------------------------------------------------------------------------------ */
 
-static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap *cap, const mat4 *world, lmn_error *error)
+static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap *cap, const mat4 *world,
+                          lmn_error *error)
 {
-    vec3 *normals = mem_alloc(cap->count * sizeof *normals);
-    uint32_t *indices = mem_alloc(cap->count * sizeof *indices);
+    vec3      *normals = mem_alloc(cap->count * sizeof *normals);
+    uint32_t  *indices = mem_alloc(cap->count * sizeof *indices);
     lmn_status status = normals && indices ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < cap->count && status == LMN_OK; i++) {
         normals[i] = cap->normal;
         indices[i] = (uint32_t)i;
     }
-    gpu_mesh_data data = {.vertex_count = (uint32_t)cap->count, .index_count = (uint32_t)cap->count, .positions = (const float *)cap->positions,
-                          .normals = (const float *)normals, .indices = indices};
-    draw_item item = upload_item(job, cap->primitive);
+    gpu_mesh_data data = {.vertex_count = (uint32_t)cap->count,
+                          .index_count = (uint32_t)cap->count,
+                          .positions = (const float *)cap->positions,
+                          .normals = (const float *)normals,
+                          .indices = indices};
+    draw_item     item = upload_item(job, cap->primitive);
     item.world = *world;
     item.is_cut = true;
     item.nearer = job->nearer;
@@ -183,7 +201,8 @@ static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap
     return status;
 }
 
-lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world, cut_verdict *verdict, lmn_error *error)
+lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world, cut_verdict *verdict,
+                      lmn_error *error)
 {
     const cut *c = &u->section.cut;
     *verdict = CUT_WHOLE;

@@ -1,4 +1,5 @@
-/* Meshes with the way their surfaces bend, and covered with patches: what strokes are laid along where a model has no texture coordinates. */
+/* Meshes with the way their surfaces bend, and covered with patches: what strokes are laid along where a model has
+ * no texture coordinates. */
 #include "stage/upload_private.h"
 
 #include <math.h>
@@ -18,8 +19,12 @@ float upload_patch_radius(const upload *u, box3 b)
 /* As fields and patches are made of: of vertices as they are drawn. It borrows. */
 static primitive primitive_of(const vertex_arrays *data)
 {
-    primitive p = {.vertex_count = data->vertex_count, .index_count = data->index_count, .positions = (vec3 *)(uintptr_t)data->positions,
-                   .normals = (vec3 *)(uintptr_t)data->normals, .indices = (uint32_t *)(uintptr_t)data->indices, .bounds = box3_empty()};
+    primitive p = {.vertex_count = data->vertex_count,
+                   .index_count = data->index_count,
+                   .positions = (vec3 *)(uintptr_t)data->positions,
+                   .normals = (vec3 *)(uintptr_t)data->normals,
+                   .indices = (uint32_t *)(uintptr_t)data->indices,
+                   .bounds = box3_empty()};
     for (uint32_t i = 0; i < p.vertex_count; i++)
         p.bounds = box3_union(p.bounds, (box3){p.positions[i], p.positions[i]});
     return p;
@@ -28,22 +33,31 @@ static primitive primitive_of(const vertex_arrays *data)
 /* One tensor a vertex: that of a corner. */
 static float (*tensors_of(const direction_field *field, const primitive *p))[6]
 {
-    float (*out)[6] = mem_calloc(p->vertex_count, sizeof *out);
+    float(*out)[6] = mem_calloc(p->vertex_count, sizeof *out);
     for (uint32_t i = 0; out && i < p->index_count; i++)
         memcpy(out[p->indices[i]], direction_field_at(field, p, i), sizeof *out);
     return out;
 }
 
-static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *l, const vertex_arrays *data, lmn_error *error)
+static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *l, const vertex_arrays *data,
+                                     lmn_error *error)
 {
-    float *positions = posed_gather(data->positions, l->source, l->vertex_count, 3 * sizeof(float)), *normals = posed_gather(data->normals, l->source, l->vertex_count, 3 * sizeof(float));
+    float *positions = posed_gather(data->positions, l->source, l->vertex_count, 3 * sizeof(float)),
+          *normals = posed_gather(data->normals, l->source, l->vertex_count, 3 * sizeof(float));
     float *colours = posed_gather(data->colours, l->source, l->vertex_count, 4 * sizeof(float)), *uvs[2];
     for (int i = 0; i < 2; i++)
         uvs[i] = posed_gather(data->uvs[i], l->source, l->vertex_count, 2 * sizeof(float));
-    bool done = positions && normals && (colours || !data->colours) && (uvs[0] || !data->uvs[0]) && (uvs[1] || !data->uvs[1]);
+    bool done =
+        positions && normals && (colours || !data->colours) && (uvs[0] || !data->uvs[0]) && (uvs[1] || !data->uvs[1]);
     if (done)
-        *out = gpu_mesh_create(g, &(gpu_mesh_data){.vertex_count = l->vertex_count, .index_count = l->index_count, .positions = positions, .normals = normals,
-                                                   .colours = colours, .uvs = {uvs[0], uvs[1]}, .patches = (const float *)l->places, .indices = l->indices});
+        *out = gpu_mesh_create(g, &(gpu_mesh_data){.vertex_count = l->vertex_count,
+                                                   .index_count = l->index_count,
+                                                   .positions = positions,
+                                                   .normals = normals,
+                                                   .colours = colours,
+                                                   .uvs = {uvs[0], uvs[1]},
+                                                   .patches = (const float *)l->places,
+                                                   .indices = l->indices});
     mem_free(positions);
     mem_free(normals);
     mem_free(colours);
@@ -52,13 +66,14 @@ static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *
     return done ? LMN_OK : error_memory(error);
 }
 
-lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data, lmn_error *error)
+lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
+                             lmn_error *error)
 {
-    primitive p = primitive_of(data);
+    primitive       p = primitive_of(data);
     direction_field field = {0};
-    lapped_mesh patches = {0};
-    lmn_status status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
-    float (*tensors)[6] = status == LMN_OK ? tensors_of(&field, &p) : NULL;
+    lapped_mesh     patches = {0};
+    lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
+    float(*tensors)[6] = status == LMN_OK ? tensors_of(&field, &p) : NULL;
     if (status == LMN_OK && !tensors)
         status = error_memory(error);
     if (status == LMN_OK) {

@@ -7,8 +7,13 @@
 
 gpu_mesh_data upload_data_of(const vertex_arrays *from)
 {
-    return (gpu_mesh_data){.vertex_count = from->vertex_count, .index_count = from->index_count, .positions = from->positions, .normals = from->normals,
-                           .uvs = {from->uvs[0], from->uvs[1]}, .colours = from->colours, .indices = from->indices};
+    return (gpu_mesh_data){.vertex_count = from->vertex_count,
+                           .index_count = from->index_count,
+                           .positions = from->positions,
+                           .normals = from->normals,
+                           .uvs = {from->uvs[0], from->uvs[1]},
+                           .colours = from->colours,
+                           .indices = from->indices};
 }
 
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)
@@ -37,6 +42,11 @@ bool upload_add_item(upload *u, const draw_item *item)
 draw_item upload_item(const upload_part_job *job, size_t primitive_index)
 {
     const primitive *p = &job->mesh->primitives[primitive_index];
-    return (draw_item){.part_id = (uint32_t)job->part_index + 1, .surface_id = (uint32_t)primitive_index + 1, .part_index = job->part_index,
-                       .material = p->material, .has_uvs = p->uvs[0] || p->uvs[1], .has_uv1 = p->uvs[1] != NULL, .has_colours = p->colours != NULL};
+    return (draw_item){.part_id = (uint32_t)job->part_index + 1,
+                       .surface_id = (uint32_t)primitive_index + 1,
+                       .part_index = job->part_index,
+                       .material = p->material,
+                       .has_uvs = p->uvs[0] || p->uvs[1],
+                       .has_uv1 = p->uvs[1] != NULL,
+                       .has_colours = p->colours != NULL};
 }

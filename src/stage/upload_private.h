@@ -7,16 +7,16 @@
 
 /* One part while it is put on the GPU. */
 typedef struct upload_part_job {
-    size_t      part_index;
-    const mesh *mesh;
+    size_t           part_index;
+    const mesh      *mesh;
     const part_pose *pose;
-    gpu_mesh  **meshes, **lapped; /* per primitive, NULL: not made yet */
-    posed_mesh *posed;  /* per primitive, what cutting needs; NULL: not made yet */
-    cut_input  *inputs;
-    vec3      **input_positions;
-    box3        box;    /* of the pose */
-    float       nearer; /* of its cut faces */
-    bool        open;
+    gpu_mesh       **meshes, **lapped; /* per primitive, NULL: not made yet */
+    posed_mesh      *posed;            /* per primitive, what cutting needs; NULL: not made yet */
+    cut_input       *inputs;
+    vec3           **input_positions;
+    box3             box;    /* of the pose */
+    float            nearer; /* of its cut faces */
+    bool             open;
 } upload_part_job;
 
 /* --- upload_mesh.c --- */
@@ -27,10 +27,12 @@ bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_field.c --- */
-/* The mesh with the way it bends, and when wished for once more with patches that cover it (else *lapped stays NULL). */
-lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data, lmn_error *error);
+/* The mesh with the way it bends, and when wished for once more with patches that cover it (else *lapped stays
+ * NULL). */
+lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
+                             lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
-float      upload_patch_radius(const upload *u, box3 bounds);
+float upload_patch_radius(const upload *u, box3 bounds);
 
 /* --- upload_solid.c --- */
 lmn_status upload_solid_part(upload *u, gpu *g, size_t part_index, upload *earlier, lmn_error *error);
@@ -40,16 +42,18 @@ void       upload_shape_release(upload_shape *s);
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
 
 /* --- upload_solid_cut.c --- */
-/* Takes what is cut away from the form of a solid at this place; `half_space_mesh`: the number that its new operands give as their mesh, a box from 0
- * to 1 in each direction. *bits, one an operand of the form, are 0 or those of a cut face's surface id, and are made here. */
-lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh, uint32_t **bits,
-                            lmn_error *error);
+/* Takes what is cut away from the form of a solid at this place; `half_space_mesh`: the number that its new
+ * operands give as their mesh, a box from 0 to 1 in each direction. *bits, one an operand of the form, are 0 or
+ * those of a cut face's surface id, and are made here. */
+lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh,
+                            uint32_t **bits, lmn_error *error);
 
 /* --- upload_cut.c --- */
 /* Bits of a cut face's surface id. */
-uint32_t   cut_face_bits(const cut *c, int32_t plane, uint32_t body, bool positive);
+uint32_t cut_face_bits(const cut *c, int32_t plane, uint32_t body, bool positive);
 /* Cuts one instance; what is left of it is added unless it stays whole. */
-lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world, cut_verdict *verdict, lmn_error *error);
+lmn_status upload_cut(upload *u, gpu *g, upload_part_job *job, const mat4 *world, cut_verdict *verdict,
+                      lmn_error *error);
 void       upload_part_close(upload_part_job *job);
 
 #endif

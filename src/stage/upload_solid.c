@@ -1,5 +1,5 @@
-/* Solids on the GPU: the triangles of all operands as one mesh, each with its operand's number and its plane, and the trees as a
- * program. What the set operations leave of them is found when they are drawn. */
+/* Solids on the GPU: the triangles of all operands as one mesh, each with its operand's number and its plane, and
+ * the trees as a program. What the set operations leave of them is found when they are drawn. */
 #include "stage/upload_private.h"
 
 #include <math.h>
@@ -29,10 +29,16 @@ typedef struct baker {
 /* A box from 0 to 1; its arrays are constant and not owned. */
 static void make_half_space(mesh *out, primitive *p)
 {
-    static const vec3 corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-    *p = (primitive){.vertex_count = 8, .index_count = 36, .positions = (vec3 *)(uintptr_t)corners, .indices = (uint32_t *)(uintptr_t)indices,
-                     .material = NONE, .bounds = {{0, 0, 0}, {1, 1, 1}}};
+    static const vec3     corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                                         1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    *p = (primitive){.vertex_count = 8,
+                     .index_count = 36,
+                     .positions = (vec3 *)(uintptr_t)corners,
+                     .indices = (uint32_t *)(uintptr_t)indices,
+                     .material = NONE,
+                     .bounds = {{0, 0, 0}, {1, 1, 1}}};
     *out = (mesh){.primitives = p, .primitive_count = 1};
 }
 
@@ -60,7 +66,7 @@ void upload_shape_release(upload_shape *s)
 /* The vertices of a mesh's primitives, split at creases. NULL after an error. */
 static const render_vertices *vertices_of(baker *b, int32_t mesh_index, lmn_error *error)
 {
-    const mesh *m = mesh_of(b, mesh_index);
+    const mesh   *m = mesh_of(b, mesh_index);
     upload_shape *s = &b->shapes[mesh_index];
     if (s->vertices)
         return s->vertices;
@@ -72,8 +78,10 @@ static const render_vertices *vertices_of(baker *b, int32_t mesh_index, lmn_erro
     s->count = m->primitive_count;
     s->revision = m->revision;
     for (size_t i = 0; i < m->primitive_count; i++) {
-        s->vertices[i] = (render_vertices){.vertex_count = m->primitives[i].vertex_count, .index_count = m->primitives[i].index_count};
-        if (!m->primitives[i].normals && mesh_make_normals(&s->vertices[i], &m->primitives[i], b->crease_angle, error) != LMN_OK)
+        s->vertices[i] = (render_vertices){.vertex_count = m->primitives[i].vertex_count,
+                                           .index_count = m->primitives[i].index_count};
+        if (!m->primitives[i].normals &&
+            mesh_make_normals(&s->vertices[i], &m->primitives[i], b->crease_angle, error) != LMN_OK)
             return NULL;
     }
     return s->vertices;
@@ -85,7 +93,7 @@ static double signed_volume(const mesh *m)
     double sum = 0;
     for (size_t k = 0; k < m->primitive_count; k++) {
         const primitive *p = &m->primitives[k];
-        vec3 o = p->positions[0];
+        vec3             o = p->positions[0];
         for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
             double c[3][3];
             for (uint32_t j = 0; j < 3; j++) {
@@ -94,7 +102,8 @@ static double signed_volume(const mesh *m)
                 c[j][1] = (double)v.y - (double)o.y;
                 c[j][2] = (double)v.z - (double)o.z;
             }
-            sum += c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) + c[0][1] * (c[1][2] * c[2][0] - c[1][0] * c[2][2]) +
+            sum += c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) +
+                   c[0][1] * (c[1][2] * c[2][0] - c[1][0] * c[2][2]) +
                    c[0][2] * (c[1][0] * c[2][1] - c[1][1] * c[2][0]);
         }
     }
@@ -125,7 +134,7 @@ typedef struct turning {
 static turning turning_of(const mat4 *matrix, bool inside_out)
 {
     turning t;
-    double determinant = mat4_cofactors(matrix, t.cofactor);
+    double  determinant = mat4_cofactors(matrix, t.cofactor);
     t.flips = (determinant < 0) != inside_out;
     if (t.flips)
         for (int i = 0; i < 9; i++)
@@ -136,7 +145,8 @@ static turning turning_of(const mat4 *matrix, bool inside_out)
 static vec3 turned_normal(const turning *t, vec3 n)
 {
     const double *c = t->cofactor;
-    double x = c[0] * (double)n.x + c[3] * (double)n.y + c[6] * (double)n.z, y = c[1] * (double)n.x + c[4] * (double)n.y + c[7] * (double)n.z,
+    double        x = c[0] * (double)n.x + c[3] * (double)n.y + c[6] * (double)n.z,
+           y = c[1] * (double)n.x + c[4] * (double)n.y + c[7] * (double)n.z,
            z = c[2] * (double)n.x + c[5] * (double)n.y + c[8] * (double)n.z, length = sqrt(x * x + y * y + z * z);
     if (!(length > 0))
         return (vec3){0, 0, 1};
@@ -153,11 +163,12 @@ static bool make_room(baker *b, size_t vertices, size_t indices)
            mem_grow((void **)&b->owners, &b->owner_capacity, (b->index_count + indices) / 3, sizeof *b->owners);
 }
 
-static void bake_primitive(baker *b, const primitive *p, const render_vertices *v, const mat4 *matrix, const turning *t, uint32_t number, bool taken_away)
+static void bake_primitive(baker *b, const primitive *p, const render_vertices *v, const mat4 *matrix, const turning *t,
+                           uint32_t number, bool taken_away)
 {
-    const vec3 *normals = v->normals ? v->normals : p->normals;
+    const vec3     *normals = v->normals ? v->normals : p->normals;
     const uint32_t *indices = v->indices ? v->indices : p->indices;
-    uint32_t first = (uint32_t)b->vertex_count;
+    uint32_t        first = (uint32_t)b->vertex_count;
     for (uint32_t i = 0; i < v->vertex_count; i++) {
         size_t at = b->vertex_count++;
         b->positions[at] = mat4_transform_point(matrix, p->positions[v->source ? v->source[i] : i]);
@@ -173,7 +184,7 @@ static void bake_primitive(baker *b, const primitive *p, const render_vertices *
 
 static lmn_status bake_operand(baker *b, const solid_operand *o, uint32_t number, bool taken_away, lmn_error *error)
 {
-    const mesh *m = mesh_of(b, o->mesh);
+    const mesh            *m = mesh_of(b, o->mesh);
     const render_vertices *v = vertices_of(b, o->mesh, error);
     if (!v)
         return LMN_MEMORY;
@@ -198,7 +209,7 @@ static lmn_status mark_planes(baker *b, const uint16_t *numbers, lmn_error *erro
         if (!numbers[i])
             continue;
         uint32_t *last = &b->indices[3 * i + 2];
-        size_t own = b->vertex_count++;
+        size_t    own = b->vertex_count++;
         b->positions[own] = b->positions[*last];
         b->normals[own] = b->normals[*last];
         b->keys[own] = b->keys[*last] | numbers[i];
@@ -216,14 +227,15 @@ static size_t room_for_planes(const upload *u)
 /* Of what can be left of the solid: cutters may be far longer. */
 static double extent_of(const upload_solid *s)
 {
-    box3 box = s->form.root == NONE ? box3_empty() : s->form.terms[s->form.root].box;
-    double x = (double)box.max.x - (double)box.min.x, y = (double)box.max.y - (double)box.min.y, z = (double)box.max.z - (double)box.min.z;
+    box3   box = s->form.root == NONE ? box3_empty() : s->form.terms[s->form.root].box;
+    double x = (double)box.max.x - (double)box.min.x, y = (double)box.max.y - (double)box.min.y,
+           z = (double)box.max.z - (double)box.min.z;
     return box3_is_empty(box) ? 0 : sqrt(x * x + y * y + z * z);
 }
 
 static lmn_status find_planes(upload_solid *s, baker *b, size_t room, lmn_error *error)
 {
-    csg_soup soup = {b->positions, b->indices, b->owners, b->index_count / 3, extent_of(s)};
+    csg_soup  soup = {b->positions, b->indices, b->owners, b->index_count / 3, extent_of(s)};
     uint16_t *numbers = NULL;
     if (!csg_find_planes(&soup, &numbers, &s->planes, &s->planes_found))
         return error_memory(error);
@@ -250,17 +262,21 @@ static lmn_status add_program(upload *u, const upload_solid *s, size_t part_inde
 {
     size_t first = u->program.operand_count, count = s->count;
     if (first + count > CSG_OPERANDS_MAX)
-        return error_set(error, LMN_LIMIT, "the solids of the scene have more than %d operands in all", CSG_OPERANDS_MAX);
-    if (!csg_program_add(&u->program, &s->form) || !mem_grow((void **)&u->operands, &u->operand_capacity, first + count, sizeof *u->operands))
+        return error_set(error, LMN_LIMIT, "the solids of the scene have more than %d operands in all",
+                         CSG_OPERANDS_MAX);
+    if (!csg_program_add(&u->program, &s->form) ||
+        !mem_grow((void **)&u->operands, &u->operand_capacity, first + count, sizeof *u->operands))
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
         const solid_operand *o = &s->form.operands[s->used[i]];
         /* Cut faces have the colour of what the solid begins with. */
         if (s->cut_bits[s->used[i]])
             o = &s->form.operands[s->used[0]];
-        vec4 c = o->has_colour ? o->colour : s->ghost ? removed_red : plain_grey;
+        vec4     c = o->has_colour ? o->colour : s->ghost ? removed_red : plain_grey;
         uint32_t bits = s->ghost ? 0 : s->cut_bits[s->used[i]]; /* nothing is hatched that is not there */
-        memcpy(u->operands[first + i], (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(bits & ~SURFACE_CUT), bits ? 1 : 0, 0}, sizeof u->operands[0]);
+        memcpy(u->operands[first + i],
+               (float[]){c.x, c.y, c.z, c.w, (float)part_index + 1, (float)(bits & ~SURFACE_CUT), bits ? 1 : 0, 0},
+               sizeof u->operands[0]);
     }
     return LMN_OK;
 }
@@ -277,8 +293,8 @@ static size_t find_meetings(upload_solid *s, const product *p)
     return count;
 }
 
-/* Convex operands alone; and, since lists are faster where there are any, few that have to be taken away again and again, and not many times
- * more in products than in the tree. */
+/* Convex operands alone; and, since lists are faster where there are any, few that have to be taken away again and
+ * again, and not many times more in products than in the tree. */
 static bool suits(upload_solid *s, baker *b, const product_list *own)
 {
     enum { MEETINGS_MAX = 64, REPEATED_MAX = 4 };
@@ -300,14 +316,15 @@ static bool suits(upload_solid *s, baker *b, const product_list *own)
 static lmn_status take_branch(upload_solid *s, baker *b, int32_t term_index, const int32_t *numbers, lmn_error *error)
 {
     product_list own;
-    lmn_status status = solid_products_create(&own, &s->form, term_index, true, error);
+    lmn_status   status = solid_products_create(&own, &s->form, term_index, true, error);
     for (size_t i = 0; i < own.count; i++)
         for (size_t k = 0; k < own.items[i].count; k++)
             own.items[i].operands[k] = numbers[own.items[i].operands[k]];
-    bool convex = !own.too_many && suits(s, b, &own);
+    bool          convex = !own.too_many && suits(s, b, &own);
     product_list *into = convex ? &s->products : &s->rest;
     s->rest.too_many = s->rest.too_many || own.too_many;
-    if (status == LMN_OK && !mem_grow((void **)&into->items, &into->capacity, into->count + own.count, sizeof *own.items))
+    if (status == LMN_OK &&
+        !mem_grow((void **)&into->items, &into->capacity, into->count + own.count, sizeof *own.items))
         status = error_memory(error);
     for (size_t i = 0; i < own.count && status == LMN_OK; i++) {
         for (size_t k = 0; k < own.items[i].count; k++)
@@ -329,7 +346,7 @@ static lmn_status find_products(upload_solid *s, baker *b, lmn_error *error)
     for (size_t i = 0; i < s->count; i++)
         numbers[s->used[i]] = (int32_t)i;
     const term *root = &s->form.terms[s->form.root];
-    lmn_status status = LMN_OK;
+    lmn_status  status = LMN_OK;
     s->all_convex = true;
     if (root->kind != TERM_OR) {
         status = take_branch(s, b, s->form.root, numbers, error);
@@ -368,13 +385,14 @@ void upload_solids_release(upload *u, gpu *g)
 static lmn_status bake(upload_solid *s, baker *b, lmn_error *error)
 {
     csg_program program = {.operands = NULL};
-    size_t room = s->count ? s->count : 1;
+    size_t      room = s->count ? s->count : 1;
     s->runs = mem_calloc(room, sizeof *s->runs);
     s->boxes = mem_calloc(room, sizeof *s->boxes);
     s->taken_away = mem_calloc(room, sizeof *s->taken_away);
     s->in_products = mem_calloc(room, sizeof *s->in_products);
     s->meets = mem_calloc(room, sizeof *s->meets);
-    bool good = s->runs && s->boxes && s->taken_away && s->in_products && s->meets && csg_program_add(&program, &s->form);
+    bool good =
+        s->runs && s->boxes && s->taken_away && s->in_products && s->meets && csg_program_add(&program, &s->form);
     lmn_status status = good ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < s->count && status == LMN_OK; i++) {
         s->runs[i][0] = (uint32_t)b->index_count;
@@ -395,13 +413,21 @@ static box3 reach_of(const upload_solid *s, const mat4 *world)
     return reach;
 }
 
-static lmn_status add_items(upload *u, size_t part_index, size_t solid_index, const mat4 *worlds, size_t count, lmn_error *error)
+static lmn_status add_items(upload *u, size_t part_index, size_t solid_index, const mat4 *worlds, size_t count,
+                            lmn_error *error)
 {
     upload_solid *s = &u->solids[solid_index];
-    draw_item item = {.is_solid = true, .part_index = part_index, .part_id = (uint32_t)part_index + 1, .surface_id = 1, .material = NONE,
-                      .solid = solid_index, .operand_count = (uint32_t)s->count, .first_plane = (uint32_t)u->plane_count,
-                      .plane_count = (uint32_t)s->plane_count, .mesh = s->mesh};
-    lmn_status status = add_planes(u, s) ? LMN_OK : error_memory(error);
+    draw_item     item = {.is_solid = true,
+                          .part_index = part_index,
+                          .part_id = (uint32_t)part_index + 1,
+                          .surface_id = 1,
+                          .material = NONE,
+                          .solid = solid_index,
+                          .operand_count = (uint32_t)s->count,
+                          .first_plane = (uint32_t)u->plane_count,
+                          .plane_count = (uint32_t)s->plane_count,
+                          .mesh = s->mesh};
+    lmn_status    status = add_planes(u, s) ? LMN_OK : error_memory(error);
     for (size_t k = 0; k < count && status == LMN_OK; k++) {
         item.world = worlds[k];
         item.first_operand = (uint32_t)u->program.operand_count;
@@ -416,18 +442,26 @@ static lmn_status add_items(upload *u, size_t part_index, size_t solid_index, co
 
 static lmn_status send(upload_solid *s, gpu *g, const baker *b, lmn_error *error)
 {
-    gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count, .index_count = (uint32_t)b->index_count, .indices = b->indices,
-                          .positions = (const float *)b->positions, .normals = (const float *)b->normals, .keys = b->keys};
+    gpu_mesh_data data = {.vertex_count = (uint32_t)b->vertex_count,
+                          .index_count = (uint32_t)b->index_count,
+                          .indices = b->indices,
+                          .positions = (const float *)b->positions,
+                          .normals = (const float *)b->normals,
+                          .keys = b->keys};
     s->mesh = gpu_mesh_create(g, &data);
     s->triangles = b->index_count / 3;
     return gpu_check(g, error);
 }
 
-static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene *scene, size_t part_index, const mat4 *world, lmn_error *error)
+static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene *scene, size_t part_index,
+                             const mat4 *world, lmn_error *error)
 {
     s->ghost = scene->parts[part_index].ghost;
     primitive half_space;
-    baker b = {.scene = scene, .crease_angle = u->crease_angle, .shapes = u->shapes, .has_lists = gpu_capabilities_of(g)->lists};
+    baker     b = {.scene = scene,
+                   .crease_angle = u->crease_angle,
+                   .shapes = u->shapes,
+                   .has_lists = gpu_capabilities_of(g)->lists};
     make_half_space(&b.half_space, &half_space);
     lmn_status status = solid_form_create(&s->form, &scene->solids[s->source], true, error);
     if (status == LMN_OK)
@@ -450,14 +484,15 @@ static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene
     return status;
 }
 
-/* Takes a solid that has not changed from an earlier upload, unless it would have more or fewer planes here. Sections change it too. */
+/* Takes a solid that has not changed from an earlier upload, unless it would have more or fewer planes here.
+ * Sections change it too. */
 static bool take_solid(upload *u, upload_solid *s, upload *earlier)
 {
     if (!earlier || u->section.cut.cell_count || earlier->section.cut.cell_count)
         return false;
     for (size_t i = 0; i < earlier->solid_count; i++) {
         upload_solid *old = &earlier->solids[i];
-        size_t room = room_for_planes(u), planes = old->planes_found < room ? old->planes_found : room;
+        size_t        room = room_for_planes(u), planes = old->planes_found < room ? old->planes_found : room;
         if (old->source != s->source || old->revision != s->revision || old->plane_count != planes)
             continue;
         *s = *old;
@@ -468,14 +503,14 @@ static bool take_solid(upload *u, upload_solid *s, upload *earlier)
 }
 
 /* Instances that share one solid; with a section, which cuts each elsewhere, there is one only. */
-static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier, const mat4 *worlds,
-                                   size_t count, lmn_error *error)
+static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, size_t part_index, upload *earlier,
+                                   const mat4 *worlds, size_t count, lmn_error *error)
 {
     if (!mem_grow((void **)&u->solids, &u->solid_capacity, u->solid_count + 1, sizeof *u->solids))
         return error_memory(error);
     upload_solid *s = &u->solids[u->solid_count];
-    size_t index = u->solid_count++;
-    int32_t source = scene->nodes[scene->parts[part_index].node].solid;
+    size_t        index = u->solid_count++;
+    int32_t       source = scene->nodes[scene->parts[part_index].node].solid;
     memset(s, 0, sizeof *s);
     s->source = source;
     s->revision = scene->solids[source].revision;
@@ -486,8 +521,9 @@ static lmn_status upload_instances(upload *u, gpu *g, const lmn_scene *scene, si
 lmn_status upload_solid_part(upload *u, gpu *g, size_t part_index, upload *earlier, lmn_error *error)
 {
     const lmn_scene *scene = u->pose->scene;
-    size_t count = node_draw_count(&scene->nodes[scene->parts[part_index].node]), together = u->section.cut.cell_count ? 1 : count;
-    mat4 *worlds = mem_alloc(count * sizeof *worlds);
+    size_t           count = node_draw_count(&scene->nodes[scene->parts[part_index].node]),
+           together = u->section.cut.cell_count ? 1 : count;
+    mat4      *worlds = mem_alloc(count * sizeof *worlds);
     lmn_status status = worlds ? LMN_OK : error_memory(error);
     for (size_t k = 0; k < count && status == LMN_OK; k++)
         worlds[k] = pose_instance(u->pose, part_index, k);
@@ -503,9 +539,9 @@ lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error)
     size_t count = u->program.operand_count, terms = u->program.term_count;
     if (!count)
         return LMN_OK;
-    int rows = (int)((count + OPERANDS_A_ROW - 1) / OPERANDS_A_ROW);
-    float *values = mem_calloc((size_t)rows * OPERANDS_A_ROW, sizeof *u->operands);
-    uint32_t *links = mem_alloc((count + terms) * sizeof *u->program.operands);
+    int        rows = (int)((count + OPERANDS_A_ROW - 1) / OPERANDS_A_ROW);
+    float     *values = mem_calloc((size_t)rows * OPERANDS_A_ROW, sizeof *u->operands);
+    uint32_t  *links = mem_alloc((count + terms) * sizeof *u->program.operands);
     lmn_status status = values && links ? LMN_OK : error_memory(error);
     if (status == LMN_OK) {
         memcpy(values, u->operands, count * sizeof *u->operands);

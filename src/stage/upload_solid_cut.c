@@ -1,5 +1,6 @@
-/* Sections of solids: what is cut away is one more thing to take away, so that cut faces come out of the set operations like any other
- * surface. Each half-space is a box with one face in its plane and the others far outside. */
+/* Sections of solids: what is cut away is one more thing to take away, so that cut faces come out of the set
+ * operations like any other surface. Each half-space is a box with one face in its plane and the others far
+ * outside. */
 #include "stage/upload_private.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 static bool inverse_of(const mat4 *matrix, mat4 *out)
 {
     const double *m = matrix->m;
-    double c[9], determinant = mat4_cofactors(matrix, c);
+    double        c[9], determinant = mat4_cofactors(matrix, c);
     *out = mat4_identity();
     if (!(fabs(determinant) > 0))
         return false;
@@ -27,8 +28,8 @@ static bool inverse_of(const mat4 *matrix, mat4 *out)
 static mat4 half_space(const cut *c, const cut_face *face, const double middle[3], double reach)
 {
     const cut_plane *p = &c->planes[face->plane];
-    double sign = face->positive ? 1 : -1, n[3], u[3], v[3], least = 2, away = -p->offset;
-    int axis = 0;
+    double           sign = face->positive ? 1 : -1, n[3], u[3], v[3], least = 2, away = -p->offset;
+    int              axis = 0;
     for (int k = 0; k < 3; k++) {
         n[k] = p->normal[k] * sign;
         away += p->normal[k] * middle[k];
@@ -52,13 +53,14 @@ static mat4 half_space(const cut *c, const cut_face *face, const double middle[3
     return m;
 }
 
-static lmn_status take_cell(solid_form *form, const cut *c, const cut_cell *cell, const mat4 *world, const mat4 *inverse, int32_t mesh,
-                            lmn_error *error)
+static lmn_status take_cell(solid_form *form, const cut *c, const cut_cell *cell, const mat4 *world,
+                            const mat4 *inverse, int32_t mesh, lmn_error *error)
 {
     static const box3 unit = {{0, 0, 0}, {1, 1, 1}};
-    solid_operand operands[CUT_CELL_FACES_MAX];
-    box3 box = box3_transform(form->terms[form->root].box, world);
-    const double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z}, high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
+    solid_operand     operands[CUT_CELL_FACES_MAX];
+    box3              box = box3_transform(form->terms[form->root].box, world);
+    const double      low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z},
+                 high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
     double middle[3], reach = 0;
     for (int k = 0; k < 3; k++) {
         middle[k] = (low[k] + high[k]) / 2;
@@ -73,12 +75,12 @@ static lmn_status take_cell(solid_form *form, const cut *c, const cut_cell *cell
     return solid_form_take_away(form, operands, (size_t)cell->count, error);
 }
 
-lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh, uint32_t **bits,
-                            lmn_error *error)
+lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh,
+                            uint32_t **bits, lmn_error *error)
 {
     const cut *c = &u->section.cut;
-    mat4 inverse;
-    size_t own = form->operand_count, room = own + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
+    mat4       inverse;
+    size_t     own = form->operand_count, room = own + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
     *bits = mem_calloc(room, sizeof **bits);
     if (!*bits)
         return error_memory(error);

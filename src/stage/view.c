@@ -8,7 +8,7 @@
 
 void view_set_transform(gpu *g, const view_camera *camera, const mat4 *world)
 {
-    mat4 both = mat4_multiply(&camera->view, world);
+    mat4  both = mat4_multiply(&camera->view, world);
     float model_view[16], normal[9];
     for (int i = 0; i < 16; i++)
         model_view[i] = (float)both.m[i];
@@ -47,22 +47,27 @@ void view_world_from_eye(const view_camera *camera, const double origin[3], doub
 /* Names for the bits of the surface id, as src/layer/layer.h has them. */
 static void declare_id_bits(text *prelude)
 {
-    text_append(prelude, "#define SURFACE_INDEX_BITS %d\n#define SURFACE_INDEX_MASK %uu\n#define SURFACE_FIGURE_MASK %uu\n", SURFACE_INDEX_BITS,
-                (1u << SURFACE_INDEX_BITS) - 1, (unsigned)FIGURES_TOGETHER_MAX);
-    text_append(prelude, "#define SURFACE_COMPLEMENT %uu\n#define SURFACE_TURNED %uu\n#define SURFACE_CUT %uu\n#define SURFACE_BACK %uu\n"
-                         "#define SURFACE_OPERAND %uu\n", SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK, SURFACE_OPERAND);
+    text_append(prelude,
+                "#define SURFACE_INDEX_BITS %d\n#define SURFACE_INDEX_MASK %uu\n#define SURFACE_FIGURE_MASK %uu\n",
+                SURFACE_INDEX_BITS, (1u << SURFACE_INDEX_BITS) - 1, (unsigned)FIGURES_TOGETHER_MAX);
+    text_append(prelude,
+                "#define SURFACE_COMPLEMENT %uu\n#define SURFACE_TURNED %uu\n#define SURFACE_CUT %uu\n#define "
+                "SURFACE_BACK %uu\n"
+                "#define SURFACE_OPERAND %uu\n",
+                SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK, SURFACE_OPERAND);
 }
 
 /* Before each shader: what frame_set_common and its kin set. */
 #define FRAME_UNIFORMS "technique/frame.glsl"
 
 /* The program of two stages, behind the frame's uniforms. */
-static gpu_program *with_frame(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude)
+static gpu_program *with_frame(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment,
+                               const char *prelude)
 {
     text stages[2] = {{0}};
     text_append(&stages[0], FRAME_UNIFORMS "+%s", vertex);
     text_append(&stages[1], FRAME_UNIFORMS "+%s", fragment);
-    char *first = text_take(&stages[0]), *second = text_take(&stages[1]);
+    char        *first = text_take(&stages[0]), *second = text_take(&stages[1]);
     gpu_program *p = first && second ? gpu_program_of(g, dialect, first, second, prelude) : NULL;
     if (!first || !second)
         gpu_fail(g, LMN_MEMORY, "out of memory");
@@ -74,7 +79,7 @@ static gpu_program *with_frame(gpu *g, gpu_dialect dialect, const char *vertex, 
 gpu_program *view_program(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     declare_id_bits(prelude);
-    char *finished = text_take(prelude);
+    char        *finished = text_take(prelude);
     gpu_program *p = finished ? with_frame(g, dialect, vertex, fragment, finished) : NULL;
     if (!finished)
         gpu_fail(g, LMN_MEMORY, "out of memory");

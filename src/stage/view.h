@@ -13,7 +13,8 @@ void view_set_projection(gpu *g, const view_camera *camera);
 /* From eye space to the world, measured from `origin`: columns. */
 void view_world_from_eye(const view_camera *camera, const double origin[3], double out[16]);
 
-/* The program of these files with this prelude, which is used up; it knows the bits of surface ids. NULL after an error. */
+/* The program of these files with this prelude, which is used up; it knows the bits of surface ids. NULL after an
+ * error. */
 gpu_program *view_program(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
 
 #endif

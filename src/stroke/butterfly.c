@@ -1,5 +1,6 @@
-/* New vertices lie at the middles of edges, moved by their neighbourhood. Where the neighbourhood would reach over a sharp edge, a reflected vertex stands for what lies beyond, so
- * that each side is refined as if the other one were not there. */
+/* New vertices lie at the middles of edges, moved by their neighbourhood. Where the neighbourhood would reach over
+ * a sharp edge, a reflected vertex stands for what lies beyond, so that each side is refined as if the other one
+ * were not there. */
 #include "stroke/butterfly.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 
 /* Two sharp edges that turn by more than this make a corner: cosine of 75°. */
 #define CORNER_COSINE 0.25881904510252074
-#define PI 3.14159265358979323846
+#define PI            3.14159265358979323846
 enum { SHORT_BUCKET = 24, FACES_MAX = 1 << 27, FAN_MAX = 1 << 16 };
 
 typedef struct place {
@@ -26,10 +27,10 @@ typedef struct bucket_entry {
 typedef struct refiner {
     const vec3      *places;
     butterfly_level *level;
-    uint32_t        *edges;      /* per half-edge: the number of its edge */
+    uint32_t        *edges; /* per half-edge: the number of its edge */
     uint32_t         edge_count;
-    uint32_t       (*along)[2];  /* per vertex: those that sharp edges lead to */
-    uint8_t         *sharp_count; /* per vertex, 3 for more */
+    uint32_t (*along)[2]; /* per vertex: those that sharp edges lead to */
+    uint8_t *sharp_count; /* per vertex, 3 for more */
 } refiner;
 
 static place place_of(const refiner *r, uint32_t v)
@@ -57,7 +58,7 @@ static uint32_t third_of(const butterfly_level *l, uint32_t h)
     return begin_of(l, half_edge_before(h));
 }
 
-/* --- edges --------------------------------------------------------------------------------------------------------- */
+/* --- edges ---------------------------------------------------------------------------------------------- */
 
 static int compare_entries(const void *a, const void *b)
 {
@@ -75,7 +76,7 @@ static void sort_bucket(bucket_entry *entries, size_t count)
     }
     for (size_t i = 1; i < count; i++) {
         bucket_entry moved = entries[i];
-        size_t k = i;
+        size_t       k = i;
         for (; k > 0 && entries[k - 1].high > moved.high; k--)
             entries[k] = entries[k - 1];
         entries[k] = moved;
@@ -85,7 +86,8 @@ static void sort_bucket(bucket_entry *entries, size_t count)
 /* All half-edges of one edge: two in opposite directions belong together. */
 static void take_edge(butterfly_level *l, const bucket_entry *group, size_t count)
 {
-    bool pair = count == 2 && begin_of(l, group[0].half) == end_of(l, group[1].half) && begin_of(l, group[0].half) != begin_of(l, group[1].half);
+    bool pair = count == 2 && begin_of(l, group[0].half) == end_of(l, group[1].half) &&
+                begin_of(l, group[0].half) != begin_of(l, group[1].half);
     bool sharp = !pair;
     for (size_t i = 0; i < count; i++) {
         sharp = sharp || l->sharp[group[i].half];
@@ -100,7 +102,7 @@ static void take_edges(refiner *r, const uint32_t *starts, bucket_entry *entries
     butterfly_level *l = r->level;
     for (uint32_t v = 0; v < l->vertex_count; v++) {
         bucket_entry *bucket = entries + starts[v];
-        size_t size = starts[v + 1] - starts[v];
+        size_t        size = starts[v + 1] - starts[v];
         sort_bucket(bucket, size);
         for (size_t begin = 0, end = 0; begin < size; begin = end) {
             while (end < size && bucket[end].high == bucket[begin].high)
@@ -115,10 +117,10 @@ static void take_edges(refiner *r, const uint32_t *starts, bucket_entry *entries
 static bool find_edges(refiner *r)
 {
     butterfly_level *l = r->level;
-    uint32_t halves = 3 * l->face_count;
-    uint32_t *starts = mem_calloc((size_t)l->vertex_count + 2, sizeof *starts);
-    bucket_entry *entries = mem_alloc((size_t)halves * sizeof *entries);
-    bool good = starts && entries;
+    uint32_t         halves = 3 * l->face_count;
+    uint32_t        *starts = mem_calloc((size_t)l->vertex_count + 2, sizeof *starts);
+    bucket_entry    *entries = mem_alloc((size_t)halves * sizeof *entries);
+    bool             good = starts && entries;
     for (uint32_t h = 0; h < halves && good; h++) {
         uint32_t a = begin_of(l, h), b = end_of(l, h);
         starts[(a < b ? a : b) + 2]++;
@@ -137,7 +139,7 @@ static bool find_edges(refiner *r)
     return good;
 }
 
-/* --- sharp edges --------------------------------------------------------------------------------------------------- */
+/* --- sharp edges ---------------------------------------------------------------------------------------- */
 
 static void note_sharp(refiner *r, uint32_t v, uint32_t to)
 {
@@ -167,8 +169,8 @@ static uint32_t goes_on(const refiner *r, uint32_t from, uint32_t v)
     if (r->sharp_count[v] != 2)
         return v;
     uint32_t to = r->along[v][0] == from ? r->along[v][1] : r->along[v][0];
-    place p = place_of(r, v), in = add(p, -1, place_of(r, from)), out = add(place_of(r, to), -1, p);
-    double cosine = in.x * out.x + in.y * out.y + in.z * out.z;
+    place    p = place_of(r, v), in = add(p, -1, place_of(r, from)), out = add(place_of(r, to), -1, p);
+    double   cosine = in.x * out.x + in.y * out.y + in.z * out.z;
     double lengths = sqrt((in.x * in.x + in.y * in.y + in.z * in.z) * (out.x * out.x + out.y * out.y + out.z * out.z));
     return cosine < CORNER_COSINE * lengths ? v : to;
 }
@@ -183,7 +185,7 @@ static place middle_of_sharp(const refiner *r, uint32_t a, uint32_t b)
     return add(sum, -1.0 / 16, place_of(r, goes_on(r, a, b)));
 }
 
-/* --- smooth edges -------------------------------------------------------------------------------------------------- */
+/* --- smooth edges --------------------------------------------------------------------------------------- */
 
 /* The vertex beyond a half-edge of a triangle, seen from it; a reflected one where nothing is or counts. */
 static place wing(const refiner *r, uint32_t h)
@@ -199,8 +201,8 @@ static place wing(const refiner *r, uint32_t h)
 static place middle_of_regular(const refiner *r, uint32_t h)
 {
     const butterfly_level *l = r->level;
-    uint32_t o = l->opposite[h];
-    place sum = {0, 0, 0};
+    uint32_t               o = l->opposite[h];
+    place                  sum = {0, 0, 0};
     sum = add(sum, 0.5, place_of(r, begin_of(l, h)));
     sum = add(sum, 0.5, place_of(r, end_of(l, h)));
     sum = add(sum, 0.125, place_of(r, third_of(l, h)));
@@ -211,7 +213,8 @@ static place middle_of_regular(const refiner *r, uint32_t h)
     return add(sum, -0.0625, wing(r, half_edge_before(o)));
 }
 
-/* How many faces stand around the vertex that a half-edge begins at; 6 for those on sharp edges, which are taken as regular. */
+/* How many faces stand around the vertex that a half-edge begins at; 6 for those on sharp edges, which are taken as
+ * regular. */
 static uint32_t valence(const refiner *r, uint32_t h)
 {
     const butterfly_level *l = r->level;
@@ -241,9 +244,9 @@ static double ring_share(uint32_t j, uint32_t k)
 static place middle_from_ring(const refiner *r, uint32_t h, uint32_t count)
 {
     const butterfly_level *l = r->level;
-    place sum = {0, 0, 0};
-    double shares = 0;
-    uint32_t at = h;
+    place                  sum = {0, 0, 0};
+    double                 shares = 0;
+    uint32_t               at = h;
     for (uint32_t j = 0; j < count; j++) {
         double share = ring_share(j, count);
         sum = add(sum, share, place_of(r, end_of(l, at)));
@@ -256,7 +259,7 @@ static place middle_from_ring(const refiner *r, uint32_t h, uint32_t count)
 static place middle_of_smooth(const refiner *r, uint32_t h)
 {
     uint32_t o = r->level->opposite[h], here = valence(r, h), there = valence(r, o);
-    bool odd_here = here != 6 && here >= 3, odd_there = there != 6 && there >= 3;
+    bool     odd_here = here != 6 && here >= 3, odd_there = there != 6 && there >= 3;
     if (!odd_here && !odd_there)
         return middle_of_regular(r, h);
     if (!odd_there)
@@ -268,7 +271,7 @@ static place middle_of_smooth(const refiner *r, uint32_t h)
     return add(sum, 0.5, middle_from_ring(r, o, there));
 }
 
-/* --- levels -------------------------------------------------------------------------------------------------------- */
+/* --- levels --------------------------------------------------------------------------------------------- */
 
 static bool make_arrays(butterfly_level *l)
 {
@@ -331,8 +334,8 @@ static bool refiner_open(refiner *r, const vec3 *places, butterfly_level *l)
 static bool refine_once(butterfly *b)
 {
     butterfly_level *l = &b->levels[b->level_count - 1], *finer = l + 1;
-    refiner r;
-    bool good = refiner_open(&r, b->places, l);
+    refiner          r;
+    bool             good = refiner_open(&r, b->places, l);
     if (good) {
         *finer = (butterfly_level){.vertex_count = l->vertex_count + r.edge_count, .face_count = 4 * l->face_count};
         b->level_count++;
@@ -353,17 +356,19 @@ static bool refine_once(butterfly *b)
 static bool finish_last(butterfly *b)
 {
     refiner r;
-    bool good = refiner_open(&r, b->places, &b->levels[b->level_count - 1]);
+    bool    good = refiner_open(&r, b->places, &b->levels[b->level_count - 1]);
     refiner_release(&r);
     return good;
 }
 
-lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_count, const uint32_t (*faces)[3], uint32_t face_count, const uint8_t *sharp,
-                            int steps, lmn_error *error)
+lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_count, const uint32_t (*faces)[3],
+                            uint32_t face_count, const uint8_t *sharp, int steps, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     if (steps < 0 || steps > BUTTERFLY_STEPS_MAX || (uint64_t)face_count << 2 * steps > FACES_MAX)
-        return error_set(error, LMN_LIMIT, "a mesh of %u triangles cannot be refined %d times: that would be more than %d", face_count, steps, FACES_MAX);
+        return error_set(error, LMN_LIMIT,
+                         "a mesh of %u triangles cannot be refined %d times: that would be more than %d", face_count,
+                         steps, FACES_MAX);
     butterfly_level *first = &out->levels[0];
     *first = (butterfly_level){.vertex_count = vertex_count, .face_count = face_count};
     out->level_count = 1;

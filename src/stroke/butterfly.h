@@ -1,4 +1,5 @@
-/* Modified butterfly subdivision (Zorin, Schröder, Sweldens 1996): a finer mesh through the vertices of a coarse one. Freudenberg 2003, section 7.3.1; row OE-09. */
+/* Modified butterfly subdivision (Zorin, Schröder, Sweldens 1996): a finer mesh through the vertices of a coarse
+ * one. Freudenberg 2003, section 7.3.1; row OE-09. */
 #ifndef LIMNER_STROKE_BUTTERFLY_H
 #define LIMNER_STROKE_BUTTERFLY_H
 
@@ -7,13 +8,16 @@
 #define BUTTERFLY_NONE UINT32_MAX
 enum { BUTTERFLY_STEPS_MAX = 6 };
 
-/* One level. Half-edges are numbered 3 · face + corner that they begin at. The children of face f are 4f … 4f + 3: those at its three corners, which keep the numbers of
- * their corners, and the middle one, whose corner k is the middle of the edge opposite to corner k. */
+/* One level. Half-edges are numbered 3 · face + corner that they begin at. The children of face f are 4f … 4f + 3:
+ * those at its three corners, which keep the numbers of their corners, and the middle one, whose corner k is the
+ * middle of the edge opposite to corner k. */
 typedef struct butterfly_level {
-    uint32_t   vertex_count, face_count;
+    uint32_t vertex_count, face_count;
     uint32_t (*faces)[3];
-    uint32_t  *opposite; /* per half-edge: the other one of its edge; BUTTERFLY_NONE unless it has exactly two faces, which pass it in opposite directions */
-    uint8_t   *sharp;    /* per half-edge: the surface does not go on smoothly over it; always 1 where there is no opposite */
+    uint32_t *opposite; /* per half-edge: the other one of its edge; BUTTERFLY_NONE unless it has exactly two faces,
+                           which pass it in opposite directions */
+    uint8_t
+        *sharp; /* per half-edge: the surface does not go on smoothly over it; always 1 where there is no opposite */
 } butterfly_level;
 
 typedef struct butterfly {
@@ -22,10 +26,11 @@ typedef struct butterfly {
     uint32_t        level_count; /* levels[0] is the mesh that was given */
 } butterfly;
 
-/* Refines `steps` times. `sharp` (may be NULL) says per half-edge what stays sharp; one side is enough. Sharp edges are refined as curves of their own, by vertices along them alone, as far as corners: where
- * not exactly two of them meet, or these two turn by more than 75°. Errors: LMN_MEMORY, LMN_LIMIT. End with butterfly_release. */
-lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_count, const uint32_t (*faces)[3], uint32_t face_count, const uint8_t *sharp,
-                            int steps, lmn_error *error);
+/* Refines `steps` times. `sharp` (may be NULL) says per half-edge what stays sharp; one side is enough. Sharp edges
+ * are refined as curves of their own, by vertices along them alone, as far as corners: where not exactly two of
+ * them meet, or these two turn by more than 75°. Errors: LMN_MEMORY, LMN_LIMIT. End with butterfly_release. */
+lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_count, const uint32_t (*faces)[3],
+                            uint32_t face_count, const uint8_t *sharp, int steps, lmn_error *error);
 void       butterfly_release(butterfly *b);
 
 static inline uint32_t half_edge_next(uint32_t h)

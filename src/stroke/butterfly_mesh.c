@@ -27,14 +27,15 @@ static uint8_t said_of(const edge_mesh *m, uint32_t h)
 /* Which edges stay sharp, by angle and by what the file says. Half-edges are paired for it first. */
 static lmn_status find_sharp(const edge_mesh *m, double crease_angle, uint8_t *sharp, lmn_error *error)
 {
-    butterfly coarse;
-    lmn_status status = butterfly_refine(&coarse, m->places, m->vertex_count, (const uint32_t (*)[3])m->faces, m->face_count, NULL, 0, error);
+    butterfly  coarse;
+    lmn_status status = butterfly_refine(&coarse, m->places, m->vertex_count, (const uint32_t(*)[3])m->faces,
+                                         m->face_count, NULL, 0, error);
     if (status != LMN_OK)
         return status;
     float cosine = (float)cos(crease_angle);
     for (uint32_t h = 0; h < 3 * m->face_count; h++) {
         uint32_t o = coarse.levels[0].opposite[h];
-        uint8_t said = said_of(m, h);
+        uint8_t  said = said_of(m, h);
         sharp[h] = said == SAID_HARD || said == SAID_REPEATED;
         if (o != BUTTERFLY_NONE) {
             vec3 a = m->normals[h / 3], b = m->normals[o / 3];
@@ -45,7 +46,8 @@ static lmn_status find_sharp(const edge_mesh *m, double crease_angle, uint8_t *s
     return LMN_OK;
 }
 
-/* What is said of the last level's edges: halves take over from whole ones, and what stays sharp is hard; of edges inside old faces nothing is said. */
+/* What is said of the last level's edges: halves take over from whole ones, and what stays sharp is hard; of edges
+ * inside old faces nothing is said. */
 static uint8_t *carry_sayings(const edge_mesh *m, const butterfly *b)
 {
     uint8_t *said = mem_alloc((size_t)m->face_count * 3);
@@ -56,7 +58,7 @@ static uint8_t *carry_sayings(const edge_mesh *m, const butterfly *b)
             said[h] = SAID_HARD;
     }
     for (uint32_t i = 0; said && i + 1 < b->level_count; i++) {
-        size_t halves = (size_t)b->levels[i].face_count * 3;
+        size_t   halves = (size_t)b->levels[i].face_count * 3;
         uint8_t *finer = mem_alloc(4 * halves);
         if (finer)
             memset(finer, SAID_NOTHING, 4 * halves);
@@ -71,7 +73,7 @@ static uint8_t *carry_sayings(const edge_mesh *m, const butterfly *b)
 static int32_t *carry_materials(const edge_mesh *m, const butterfly *b)
 {
     const butterfly_level *last = &b->levels[b->level_count - 1];
-    int32_t *out = mem_alloc(last->face_count * sizeof *out);
+    int32_t               *out = mem_alloc(last->face_count * sizeof *out);
     for (uint32_t f = 0; out && f < last->face_count; f++)
         out[f] = m->materials[f >> 2 * (b->level_count - 1)];
     return out;
@@ -81,8 +83,8 @@ static int32_t *carry_materials(const edge_mesh *m, const butterfly *b)
 static bool number_edges(edge_refinement *r, const edge_mesh *m)
 {
     const butterfly_level *last = &r->surface.levels[r->surface.level_count - 1];
-    uint32_t *origins = mem_alloc((size_t)m->face_count * sizeof *origins);
-    size_t halves = (size_t)last->face_count * 3;
+    uint32_t              *origins = mem_alloc((size_t)m->face_count * sizeof *origins);
+    size_t                 halves = (size_t)last->face_count * 3;
     r->edges = mem_alloc(halves * sizeof *r->edges);
     bool good = origins && r->edges;
     if (good)
@@ -92,7 +94,7 @@ static bool number_edges(edge_refinement *r, const edge_mesh *m)
             origins[r->faces[f]] = f;
     for (uint32_t i = 0; i < m->edge_count && good; i++) {
         const mesh_edge *e = &m->edges[i];
-        uint32_t f = origins[e->face[0]], h = 3 * f;
+        uint32_t         f = origins[e->face[0]], h = 3 * f;
         while (h < 3 * f + 2 && last->faces[f][h % 3] != e->vertex[0])
             h++;
         r->edges[h] = i;
@@ -106,13 +108,14 @@ static bool number_edges(edge_refinement *r, const edge_mesh *m)
 /* The mesh of the last level. */
 static lmn_status make_finer(edge_mesh *finer, const edge_mesh *m, edge_refinement *r, lmn_error *error)
 {
-    const butterfly *b = &r->surface;
+    const butterfly       *b = &r->surface;
     const butterfly_level *last = &b->levels[b->level_count - 1];
-    uint8_t *said = carry_sayings(m, b);
-    int32_t *materials = m->materials ? carry_materials(m, b) : NULL;
+    uint8_t               *said = carry_sayings(m, b);
+    int32_t               *materials = m->materials ? carry_materials(m, b) : NULL;
     r->faces = mem_alloc(last->face_count * sizeof *r->faces);
-    lmn_status status = said && r->faces && (materials || !m->materials) ? LMN_OK : error_memory(error);
-    edge_faces in = {b->places, (const uint32_t (*)[3])last->faces, materials, said, last->vertex_count, last->face_count};
+    lmn_status   status = said && r->faces && (materials || !m->materials) ? LMN_OK : error_memory(error);
+    edge_faces   in = {b->places,       (const uint32_t(*)[3])last->faces, materials, said, last->vertex_count,
+                       last->face_count};
     const double none_by_angle = 3.14159265358979323846; /* what is sharp has been said */
     if (status == LMN_OK)
         status = edge_mesh_create_from(finer, &in, none_by_angle, r->faces, error);
@@ -130,11 +133,12 @@ lmn_status edge_mesh_refine(edge_mesh *m, int steps, double crease_angle, lmn_er
     if (steps <= 0)
         return LMN_OK;
     edge_refinement *r = mem_calloc(1, sizeof *r);
-    uint8_t *sharp = mem_alloc((size_t)m->face_count * 3);
-    edge_mesh finer = {0};
-    lmn_status status = r && sharp ? find_sharp(m, crease_angle, sharp, error) : error_memory(error);
+    uint8_t         *sharp = mem_alloc((size_t)m->face_count * 3);
+    edge_mesh        finer = {0};
+    lmn_status       status = r && sharp ? find_sharp(m, crease_angle, sharp, error) : error_memory(error);
     if (status == LMN_OK)
-        status = butterfly_refine(&r->surface, m->places, m->vertex_count, (const uint32_t (*)[3])m->faces, m->face_count, sharp, steps, error);
+        status = butterfly_refine(&r->surface, m->places, m->vertex_count, (const uint32_t(*)[3])m->faces,
+                                  m->face_count, sharp, steps, error);
     if (status == LMN_OK)
         status = make_finer(&finer, m, r, error);
     mem_free(sharp);
@@ -149,11 +153,12 @@ lmn_status edge_mesh_refine(edge_mesh *m, int steps, double crease_angle, lmn_er
     return LMN_OK;
 }
 
-lmn_status edge_mesh_silhouette(const edge_mesh *m, propagate_front is_front, void *user, uint8_t *marks, uint64_t *tested, lmn_error *error)
+lmn_status edge_mesh_silhouette(const edge_mesh *m, propagate_front is_front, void *user, uint8_t *marks,
+                                uint64_t *tested, lmn_error *error)
 {
     const edge_refinement *r = m->refinement;
-    silhouette s;
-    lmn_status status = silhouette_propagate(&s, &r->surface, ALL_FACES_OF, is_front, user, error);
+    silhouette             s;
+    lmn_status             status = silhouette_propagate(&s, &r->surface, ALL_FACES_OF, is_front, user, error);
     if (status != LMN_OK)
         return status;
     memset(marks, 0, m->edge_count);

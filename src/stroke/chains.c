@@ -1,4 +1,5 @@
-/* Lines joined into long chains, chains cut where the number of surfaces in front changes, and points left out that change nothing. Freudenberg 2003, section 7.3.3; row OE-11. */
+/* Lines joined into long chains, chains cut where the number of surfaces in front changes, and points left out that
+ * change nothing. Freudenberg 2003, section 7.3.3; row OE-11. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -9,13 +10,18 @@
 
 /* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
 #define FLICKER 0.9
-/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both hidden, they may turn more. */
+/* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both
+ * hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
-#define TURNS_BACK -0.7
+#define TURNS_BACK  -0.7
 /* Lines of form must be longer than others by this factor, but no longer than this share of the page. */
 #define FORM_SHORTEST 16.0
-#define FORM_SHARE (1.0 / 64)
-enum { OUTSIDE = -1, MEETING_MAX = 24, MARKS_MAX = 8 }; /* of the page; lines at one end that are looked at; edges that a chain is known by */
+#define FORM_SHARE    (1.0 / 64)
+enum {
+    OUTSIDE = -1,
+    MEETING_MAX = 24,
+    MARKS_MAX = 8
+}; /* of the page; lines at one end that are looked at; edges that a chain is known by */
 
 /* A point of a chain and how many surfaces lie in front from here to the next one. */
 typedef struct chain_point {
@@ -25,31 +31,31 @@ typedef struct chain_point {
 } chain_point;
 
 typedef struct chainer {
-    stroke_set          *out;
-    const stroke_view   *v;
-    const view_lines    *lines;
-    const visibility    *seen;
+    stroke_set           *out;
+    const stroke_view    *v;
+    const view_lines     *lines;
+    const visibility     *seen;
     const stroke_options *options;
-    double               focal;  /* pixels to a unit of length, at depth 1 in perspective */
-    uint32_t            *heads; /* per end: a half-line 2 · line + end there, NO_VERTEX */
-    uint32_t            *nexts; /* per half-line: another one at the same end */
-    uint32_t            *partners; /* per half-line: the one that goes on where it begins, NO_VERTEX: none */
-    uint8_t             *used;  /* per line */
-    uint32_t            *path;  /* half-lines of the chain, by the end that they begin at */
-    size_t               path_count, path_capacity;
-    chain_point         *points, *rotated;
-    size_t               point_count, point_capacity, rotated_capacity;
-    uint8_t             *kept;  /* per point */
-    uint32_t            *stack;
-    size_t               kept_capacity, stack_capacity;
-    size_t               stroke_capacity, out_capacity, mark_capacity;
-    stroke_mark          marks[MARKS_MAX]; /* of the chain, least ids first */
-    size_t               mark_count;
-    curve_path           curve;
-    bool                 curved;     /* the chain is */
+    double                focal;    /* pixels to a unit of length, at depth 1 in perspective */
+    uint32_t             *heads;    /* per end: a half-line 2 · line + end there, NO_VERTEX */
+    uint32_t             *nexts;    /* per half-line: another one at the same end */
+    uint32_t             *partners; /* per half-line: the one that goes on where it begins, NO_VERTEX: none */
+    uint8_t              *used;     /* per line */
+    uint32_t             *path;     /* half-lines of the chain, by the end that they begin at */
+    size_t                path_count, path_capacity;
+    chain_point          *points, *rotated;
+    size_t                point_count, point_capacity, rotated_capacity;
+    uint8_t              *kept; /* per point */
+    uint32_t             *stack;
+    size_t                kept_capacity, stack_capacity;
+    size_t                stroke_capacity, out_capacity, mark_capacity;
+    stroke_mark           marks[MARKS_MAX]; /* of the chain, least ids first */
+    size_t                mark_count;
+    curve_path            curve;
+    bool                  curved; /* the chain is */
 } chainer;
 
-/* --- joining ------------------------------------------------------------------------------------------------------- */
+/* --- joining -------------------------------------------------------------------------------------------- */
 
 static const window_point *end_place(const chainer *c, uint32_t half)
 {
@@ -84,11 +90,12 @@ static bool begins_visible(const chainer *c, uint32_t half)
     return c->seen->spans[half & 1 ? last : first].count == 0;
 }
 
-/* How well one line goes on as another one: what is visible goes on as what is visible, then what turns least. Below 0: not at all. */
+/* How well one line goes on as another one: what is visible goes on as what is visible, then what turns least.
+ * Below 0: not at all. */
 static double fit(const chainer *c, uint32_t in, uint32_t out)
 {
     double turn = turn_between(c, in, out);
-    bool alike = begins_visible(c, in) == begins_visible(c, out);
+    bool   alike = begins_visible(c, in) == begins_visible(c, out);
     return turn < (alike ? TURNS_BACK : STRAIGHT_ON) ? -1 : turn + (alike ? 4 : 1);
 }
 
@@ -102,11 +109,12 @@ static void pair_lines(chainer *c, const uint32_t *halves, size_t count)
     if (count <= 2 || ends_at_corners(c->lines->lines[halves[0] / 2].kind))
         return;
     for (;;) {
-        double most = 0;
+        double   most = 0;
         uint32_t p = 0, q = 0;
         for (size_t i = 0; i < count; i++)
             for (size_t k = i + 1; k < count; k++) {
-                bool free = c->partners[halves[i]] == NO_VERTEX && c->partners[halves[k]] == NO_VERTEX && halves[i] / 2 != halves[k] / 2;
+                bool free = c->partners[halves[i]] == NO_VERTEX && c->partners[halves[k]] == NO_VERTEX &&
+                            halves[i] / 2 != halves[k] / 2;
                 double own = free ? fit(c, halves[i], halves[k]) : -1;
                 if (own > most) {
                     most = own;
@@ -126,7 +134,7 @@ static void pair_ends(chainer *c)
     for (uint32_t end = 0; end < c->lines->end_count; end++)
         for (int kind = 0; kind < STROKE_CLASS_COUNT && c->heads[end] != NO_VERTEX; kind++) {
             uint32_t halves[MEETING_MAX];
-            size_t count = 0;
+            size_t   count = 0;
             for (uint32_t h = c->heads[end]; h != NO_VERTEX && count < MEETING_MAX; h = c->nexts[h])
                 if ((int)c->lines->lines[h / 2].kind == kind)
                     halves[count++] = h;
@@ -155,7 +163,8 @@ static bool link_ends(chainer *c)
     return true;
 }
 
-/* Follows lines from a half-line on until they end or come back. The path gets the half-lines by the end that they begin at. */
+/* Follows lines from a half-line on until they end or come back. The path gets the half-lines by the end that they
+ * begin at. */
 static bool follow(chainer *c, uint32_t half, bool *closed)
 {
     *closed = false;
@@ -185,18 +194,23 @@ static uint32_t first_of(const chainer *c, uint32_t line)
     return start;
 }
 
-/* --- points -------------------------------------------------------------------------------------------------------- */
+/* --- points --------------------------------------------------------------------------------------------- */
 
 /* At a share of the i-th line of the chain, counted from where the line itself begins. */
 static chain_point point_at(const chainer *c, size_t i, double share, int32_t count)
 {
     const window_segment *s = &c->lines->segments[c->path[i] / 2];
-    const float *weights = c->lines->lines[c->path[i] / 2].weights;
-    double p[3] = {s->a.x + share * ((double)s->b.x - s->a.x), s->a.y + share * ((double)s->b.y - s->a.y), s->a.z + share * (s->b.z - s->a.z)};
+    const float          *weights = c->lines->lines[c->path[i] / 2].weights;
+    double p[3] = {s->a.x + share * ((double)s->b.x - s->a.x), s->a.y + share * ((double)s->b.y - s->a.y),
+                   s->a.z + share * (s->b.z - s->a.z)};
     if (c->curved)
         curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - share : share, p);
-    return (chain_point){p[0] / c->v->units + 0.5 * c->v->camera.width, p[1] / c->v->units + 0.5 * c->v->camera.height, p[2], 0,
-                         weights[0] + (float)share * (weights[1] - weights[0]), count};
+    return (chain_point){p[0] / c->v->units + 0.5 * c->v->camera.width,
+                         p[1] / c->v->units + 0.5 * c->v->camera.height,
+                         p[2],
+                         0,
+                         weights[0] + (float)share * (weights[1] - weights[0]),
+                         count};
 }
 
 static bool put_point(chainer *c, chain_point p)
@@ -228,14 +242,18 @@ static bool clip_to_page(const chainer *c, const chain_point *p, const chain_poi
 
 static chain_point between(const chain_point *p, const chain_point *q, double share, int32_t count)
 {
-    return (chain_point){p->x + share * (q->x - p->x), p->y + share * (q->y - p->y), p->z + share * (q->z - p->z), 0,
-                         p->weight + (float)share * (q->weight - p->weight), count};
+    return (chain_point){p->x + share * (q->x - p->x),
+                         p->y + share * (q->y - p->y),
+                         p->z + share * (q->z - p->z),
+                         0,
+                         p->weight + (float)share * (q->weight - p->weight),
+                         count};
 }
 
 /* One straight piece with one count: cut at the rim of the page. */
 static bool put_piece(chainer *c, const chain_point *p, const chain_point *q)
 {
-    double cut[2];
+    double      cut[2];
     chain_point from = *p;
     if (p->x >= 0 && q->x >= 0 && p->y >= 0 && q->y >= 0 && p->x <= c->v->camera.width && q->x <= c->v->camera.width &&
         p->y <= c->v->camera.height && q->y <= c->v->camera.height)
@@ -271,12 +289,12 @@ static bool put_stretch(chainer *c, size_t i, double from, double to, int32_t co
 /* The i-th line of the chain, in the chain's direction; all points but the last. */
 static bool put_line_points(chainer *c, size_t i)
 {
-    uint32_t half = c->path[i];
+    uint32_t               half = c->path[i];
     const visibility_span *spans = c->seen->spans + c->seen->starts[half / 2];
-    size_t count = c->seen->starts[half / 2 + 1] - c->seen->starts[half / 2];
+    size_t                 count = c->seen->starts[half / 2 + 1] - c->seen->starts[half / 2];
     for (size_t j = 0; j < count; j++) {
-        size_t k = half & 1 ? count - 1 - j : j;
-        double from = spans[k].from, to = k + 1 < count ? (double)spans[k + 1].from : 1;
+        size_t  k = half & 1 ? count - 1 - j : j;
+        double  from = spans[k].from, to = k + 1 < count ? (double)spans[k + 1].from : 1;
         int32_t number = spans[k].count < INT32_MAX ? (int32_t)spans[k].count : INT32_MAX;
         if (!put_stretch(c, i, half & 1 ? to : from, half & 1 ? from : to, number))
             return false;
@@ -300,11 +318,12 @@ static bool put_path(chainer *c, bool closed)
 static double line_length(const chainer *c, uint32_t half)
 {
     const window_segment *s = &c->lines->segments[half / 2];
-    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    double                x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
     return sqrt(x * x + y * y) / c->v->units;
 }
 
-/* The edges with the least ids, and where on the path they begin. An id is as good as random, so that such an edge is left when others come and go. */
+/* The edges with the least ids, and where on the path they begin. An id is as good as random, so that such an edge
+ * is left when others come and go. */
 static void find_marks(chainer *c)
 {
     double arc = 0;
@@ -321,11 +340,12 @@ static void find_marks(chainer *c)
     }
 }
 
-/* Does the chain run against its way? Outlines have what is seen from the front to one side; other chains run the way of their least edge, which stays with them. */
+/* Does the chain run against its way? Outlines have what is seen from the front to one side; other chains run the
+ * way of their least edge, which stays with them. */
 static bool runs_back(const chainer *c)
 {
     const view_line *lines = c->lines->lines;
-    size_t least = 0, back = 0;
+    size_t           least = 0, back = 0;
     for (size_t i = 0; i < c->path_count; i++) {
         back += (c->path[i] & 1) != lines[c->path[i] / 2].turned;
         if (lines[c->path[i] / 2].id < lines[c->path[least] / 2].id)
@@ -357,7 +377,8 @@ static double measure(chainer *c)
     return arc;
 }
 
-/* Lines of form that are short for how faint they are say nothing: their visible length, each stretch by its weight. */
+/* Lines of form that are short for how faint they are say nothing: their visible length, each stretch by its
+ * weight. */
 static bool is_crumb(const chainer *c, stroke_class kind)
 {
     double ink = 0;
@@ -399,7 +420,8 @@ static size_t stretch_end(const chainer *c, size_t begin)
     return end;
 }
 
-/* What a short stretch becomes between two others: like the one that is visible, or hidden, as it is itself; else like the one before. */
+/* What a short stretch becomes between two others: like the one that is visible, or hidden, as it is itself; else
+ * like the one before. */
 static int32_t calm_count(int32_t own, int32_t before, int32_t after)
 {
     if (before == OUTSIDE)
@@ -416,17 +438,20 @@ static void calm(chainer *c)
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
         int32_t own = c->points[begin].count, after = end + 1 < c->point_count ? c->points[end].count : OUTSIDE;
-        double limit = before == OUTSIDE || after == OUTSIDE ? FLICKER / 2 : FLICKER; /* no place farther than half of it from one that is so */
-        bool brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < limit;
+        double  limit = before == OUTSIDE || after == OUTSIDE
+                            ? FLICKER / 2
+                            : FLICKER; /* no place farther than half of it from one that is so */
+        bool    brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < limit;
         for (size_t i = begin; i < end && brief; i++)
             c->points[i].count = calm_count(own, before, after);
         before = c->points[begin].count;
     }
 }
 
-/* --- simplifying --------------------------------------------------------------------------------------------------- */
+/* --- simplifying ---------------------------------------------------------------------------------------- */
 
-/* Of what a depth is off, so much counts beside what the place on the page is: depth may be off by less than half a pixel, so that whoever looks the line up finds it on its surface. */
+/* Of what a depth is off, so much counts beside what the place on the page is: depth may be off by less than half a
+ * pixel, so that whoever looks the line up finds it on its surface. */
 #define DEPTH_SHARE 0.25
 
 /* By how much a point lies off a straight piece, pixels. */
@@ -436,7 +461,8 @@ static double distance_from(const chainer *c, const chain_point *p, const chain_
     double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
     share = share < 0 ? 0 : share > 1 ? 1 : share;
     double away_x = p->x - a->x - share * x, away_y = p->y - a->y - share * y;
-    double depth = (p->z - a->z - share * (b->z - a->z)) * (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_SHARE;
+    double depth =
+        (p->z - a->z - share * (b->z - a->z)) * (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_SHARE;
     return sqrt(away_x * away_x + away_y * away_y + depth * depth);
 }
 
@@ -473,19 +499,21 @@ static bool simplify(chainer *c, size_t begin, size_t end)
     return true;
 }
 
-/* --- strokes ------------------------------------------------------------------------------------------------------- */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
 static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
 {
     stroke_set *out = c->out;
-    if (!simplify(c, begin, end) || !mem_grow((void **)&out->strokes, &c->stroke_capacity, out->stroke_count + 1, sizeof *out->strokes) ||
+    if (!simplify(c, begin, end) ||
+        !mem_grow((void **)&out->strokes, &c->stroke_capacity, out->stroke_count + 1, sizeof *out->strokes) ||
         !mem_grow((void **)&out->points, &c->out_capacity, out->point_count + (end - begin + 1), sizeof *out->points))
         return false;
     s.first = (uint32_t)out->point_count;
     for (size_t i = begin; i <= end; i++) {
         const chain_point *p = &c->points[i];
         if (c->kept[i])
-            out->points[out->point_count++] = (stroke_point){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc, p->weight};
+            out->points[out->point_count++] =
+                (stroke_point){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc, p->weight};
     }
     s.count = (uint32_t)(out->point_count - s.first);
     out->strokes[out->stroke_count++] = s;
@@ -494,8 +522,12 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
 
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
-    stroke s = {.kind = line->kind, .part = c->v->scene->items[line->item].part_index + 1, .chain = (uint32_t)c->out->chain_count, .id = id,
-                .chain_length = (float)length, .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
+    stroke s = {.kind = line->kind,
+                .part = c->v->scene->items[line->item].part_index + 1,
+                .chain = (uint32_t)c->out->chain_count,
+                .id = id,
+                .chain_length = (float)length,
+                .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
     size_t before = c->out->stroke_count;
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
@@ -509,7 +541,8 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
     }
     if (c->out->stroke_count == before)
         return true;
-    if (!mem_grow((void **)&c->out->marks, &c->mark_capacity, c->out->mark_count + c->mark_count, sizeof *c->out->marks))
+    if (!mem_grow((void **)&c->out->marks, &c->mark_capacity, c->out->mark_count + c->mark_count,
+                  sizeof *c->out->marks))
         return false;
     for (size_t i = 0; i < c->mark_count; i++) {
         c->marks[i].chain = s.chain;
@@ -536,13 +569,18 @@ static bool make_chain(chainer *c, uint32_t line)
     return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
 }
 
-lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_options *options,
-                       lmn_error *error)
+lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen,
+                       const stroke_options *options, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
-    chainer c = {.out = out, .v = v, .lines = lines, .seen = seen, .options = options, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
-    bool good = link_ends(&c) && curve_path_open(&c.curve, v, lines, options->curve);
+    chainer c = {.out = out,
+                 .v = v,
+                 .lines = lines,
+                 .seen = seen,
+                 .options = options,
+                 .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
+    bool    good = link_ends(&c) && curve_path_open(&c.curve, v, lines, options->curve);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)
             if ((int)lines->lines[i].kind == kind && !c.used[i])
@@ -570,8 +608,8 @@ void stroke_set_release(stroke_set *s)
     memset(s, 0, sizeof *s);
 }
 
-lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
-                       lmn_error *error)
+lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts,
+                       lmn_progress_fn progress, void *user, lmn_error *error)
 {
     view_lines lines;
     visibility seen;

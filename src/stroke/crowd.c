@@ -1,5 +1,7 @@
-/* Lines that lie on lines. What runs all its length within a fraction of a pixel of more important lines adds nothing but ink: seams of parts that touch, hidden edges right behind
- * visible ones, the dozens of edges in which a finely divided surface turns away. Visible comes before hidden, then the order of the classes, then the longer one. */
+/* Lines that lie on lines. What runs all its length within a fraction of a pixel of more important lines adds
+ * nothing but ink: seams of parts that touch, hidden edges right behind visible ones, the dozens of edges in which
+ * a finely divided surface turns away. Visible comes before hidden, then the order of the classes, then the longer
+ * one. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -8,7 +10,8 @@
 
 #include "base/memory.h"
 
-/* Where strokes that stay run is marked in cells of this share of the distance; a place is near one when its own or a neighbouring cell is marked. */
+/* Where strokes that stay run is marked in cells of this share of the distance; a place is near one when its own or
+ * a neighbouring cell is marked. */
 #define CELL (2.0f / 3)
 enum { BLOCK = 64 }; /* cells a side of the blocks that marks are kept in */
 
@@ -18,9 +21,9 @@ typedef struct block {
 
 typedef struct crowd {
     stroke_set *set;
-    float       cell;      /* pixels */
+    float       cell;          /* pixels */
     int32_t     columns, rows; /* of blocks */
-    uint32_t   *numbers;   /* per block: 1 + its place in `blocks`, 0: nothing in it is marked */
+    uint32_t   *numbers;       /* per block: 1 + its place in `blocks`, 0: nothing in it is marked */
     block      *blocks;
     size_t      block_count, block_capacity;
 } crowd;
@@ -59,16 +62,18 @@ static bool put_trace(crowd *c, float x, float y)
     return true;
 }
 
-/* Steps along a stroke. Tracing: marks every place; else: asks whether all are near marked ones. False: out of memory, or one is not. */
+/* Steps along a stroke. Tracing: marks every place; else: asks whether all are near marked ones. False: out of
+ * memory, or one is not. */
 static bool step_along(crowd *c, const stroke *s, bool trace)
 {
     const stroke_point *p = &c->set->points[s->first];
     for (uint32_t i = 0; i + 1 < s->count; i++) {
         float x = p[i + 1].x - p[i].x, y = p[i + 1].y - p[i].y, length = sqrtf(x * x + y * y);
-        int steps = (int)(length / c->cell) + 1;
+        int   steps = (int)(length / c->cell) + 1;
         for (int k = 0; k < steps; k++) {
             float share = (float)k / (float)steps;
-            if (trace ? !put_trace(c, p[i].x + share * x, p[i].y + share * y) : !is_traced(c, p[i].x + share * x, p[i].y + share * y))
+            if (trace ? !put_trace(c, p[i].x + share * x, p[i].y + share * y)
+                      : !is_traced(c, p[i].x + share * x, p[i].y + share * y))
                 return false;
         }
     }
@@ -113,13 +118,14 @@ lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn
     c.columns = (int32_t)((float)width / (c.cell * BLOCK)) + 1;
     c.rows = (int32_t)((float)height / (c.cell * BLOCK)) + 1;
     c.numbers = mem_calloc((size_t)c.columns * (size_t)c.rows, sizeof *c.numbers);
-    ranked *ranks = mem_alloc(set->stroke_count * sizeof *ranks);
+    ranked  *ranks = mem_alloc(set->stroke_count * sizeof *ranks);
     uint8_t *kept = mem_calloc(set->stroke_count, 1);
-    bool good = c.numbers && ranks && kept;
+    bool     good = c.numbers && ranks && kept;
     if (good) {
         for (uint32_t i = 0; i < set->stroke_count; i++) {
             const stroke *s = &set->strokes[i];
-            ranks[i] = (ranked){i, s->hidden_by, (int)s->kind, set->points[s->first + s->count - 1].arc - set->points[s->first].arc};
+            ranks[i] = (ranked){i, s->hidden_by, (int)s->kind,
+                                set->points[s->first + s->count - 1].arc - set->points[s->first].arc};
         }
         qsort(ranks, set->stroke_count, sizeof *ranks, compare_ranks);
         good = mark_kept(&c, ranks, kept);

@@ -15,7 +15,7 @@ static void count_sharp(curve_path *c)
     const stroke_scene *s = c->v->scene;
     for (size_t i = 0; i < s->item_count; i++) {
         const edge_mesh *m = &s->meshes[s->items[i].mesh];
-        uint8_t *sharp = c->sharp + c->v->items[i].first_point;
+        uint8_t         *sharp = c->sharp + c->v->items[i].first_point;
         for (uint32_t e = 0; e < m->edge_count; e++)
             for (int k = 0; k < 2 && m->edges[e].flags & (EDGE_CREASE | EDGE_BORDER); k++)
                 if (sharp[m->edges[e].vertex[k]] < 3)
@@ -63,7 +63,7 @@ static uint32_t number_of(const curve_path *c, uint32_t half)
 static double3 world_of(const curve_path *c, const view_line *line, uint32_t number)
 {
     const stroke_scene *s = c->v->scene;
-    const stroke_item *item = &s->items[line->item];
+    const stroke_item  *item = &s->items[line->item];
     return item_place(item, s->meshes[item->mesh].places[number - c->v->items[line->item].first_point]);
 }
 
@@ -73,7 +73,8 @@ static bool turns_sharply(const curve_path *c, uint32_t in, uint32_t out)
     uint32_t before = number_of(c, in), here = number_of(c, out), after = number_of(c, out ^ 1);
     if (before >= c->v->vertex_count || after >= c->v->vertex_count)
         return false;
-    double3 p = world_of(c, &c->lines->lines[in / 2], before), q = world_of(c, &c->lines->lines[out / 2], here), r = world_of(c, &c->lines->lines[out / 2], after);
+    double3 p = world_of(c, &c->lines->lines[in / 2], before), q = world_of(c, &c->lines->lines[out / 2], here),
+            r = world_of(c, &c->lines->lines[out / 2], after);
     double ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z, bx = r.x - q.x, by = r.y - q.y, bz = r.z - q.z;
     double lengths = sqrt((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
     return ax * bx + ay * by + az * bz < CORNER_COSINE * lengths;
@@ -103,17 +104,17 @@ static void fill_coarse(curve_path *c, const uint32_t *path, size_t count, size_
 /* Refines what is in `coarse` and puts it from `at` on. */
 static void refine(curve_path *c, size_t count, bool closed, size_t at)
 {
-    double (*from)[3] = c->coarse, (*to)[3] = c->places + at;
+    double(*from)[3] = c->coarse, (*to)[3] = c->places + at;
     if (c->steps % 2 == 0) { /* so that the last step ends where it is wanted */
         memcpy(to, from, count * sizeof *to);
-        double (*other)[3] = from;
+        double(*other)[3] = from;
         from = to;
         to = other;
     }
     for (int i = 0; i < c->steps; i++) {
         curve_refine(to[0], from[0], count, 3, closed);
         count = curve_count(count, closed);
-        double (*other)[3] = from;
+        double(*other)[3] = from;
         from = to;
         to = other;
     }
@@ -147,7 +148,8 @@ bool curve_path_take(curve_path *c, const uint32_t *path, size_t count, bool clo
 
 void curve_path_at(const curve_path *c, size_t i, double share, double out[3])
 {
-    double at = ((double)i + share) * (double)((size_t)1 << c->steps), low = fmin(floor(at), (double)(c->place_count - 2));
+    double at = ((double)i + share) * (double)((size_t)1 << c->steps),
+           low = fmin(floor(at), (double)(c->place_count - 2));
     const double *p = c->places[(size_t)low], *q = c->places[(size_t)low + 1];
     for (int k = 0; k < 3; k++)
         out[k] = p[k] + (at - low) * (q[k] - p[k]);

@@ -1,4 +1,5 @@
-/* Half-edges are sorted into buckets by their lower vertex, so that those of one edge lie side by side; each edge is then judged once. */
+/* Half-edges are sorted into buckets by their lower vertex, so that those of one edge lie side by side; each edge
+ * is then judged once. */
 #include "stroke/edges.h"
 
 #include <math.h>
@@ -10,7 +11,8 @@
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
 
-/* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this share of its distance. */
+/* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
+ * share of its distance. */
 #define FLAT 1e-6f
 /* Nor does it when it is as near to the plane as rounding alone may take it, share of its largest coordinate. */
 #define ROUNDED 3e-7f
@@ -22,15 +24,16 @@ typedef struct half_edge {
 } half_edge;
 
 typedef struct builder {
-    edge_mesh  *mesh;
-    uint32_t   *starts;  /* per vertex, and one more */
-    half_edge  *halves;
-    uint8_t    *dropped; /* per face: 1: the same as another one */
-    uint32_t   *origins; /* per face: its number before any were dropped; NULL: nobody asks */
-    uint32_t   *pieces;  /* per face: another one of its piece, itself at the root */
-    size_t      edge_capacity;
-    float       crease;  /* cosine */
-    bool        has_twins;  /* there may be faces that are there twice: edges have more than two, or both of an edge are the same */
+    edge_mesh *mesh;
+    uint32_t  *starts; /* per vertex, and one more */
+    half_edge *halves;
+    uint8_t   *dropped; /* per face: 1: the same as another one */
+    uint32_t  *origins; /* per face: its number before any were dropped; NULL: nobody asks */
+    uint32_t  *pieces;  /* per face: another one of its piece, itself at the root */
+    size_t     edge_capacity;
+    float      crease; /* cosine */
+    bool has_twins;    /* there may be faces that are there twice: edges have more than two, or both of an edge are the
+                          same */
 } builder;
 
 static vec3 minus(vec3 a, vec3 b)
@@ -46,7 +49,7 @@ static float dot(vec3 a, vec3 b)
 /* In double precision: slivers on large coordinates would lose their direction. */
 static vec3 face_normal(const vec3 *places, const uint32_t corners[3])
 {
-    vec3 p = places[corners[0]], q = places[corners[1]], r = places[corners[2]];
+    vec3   p = places[corners[0]], q = places[corners[1]], r = places[corners[2]];
     double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z;
     double bx = (double)r.x - p.x, by = (double)r.y - p.y, bz = (double)r.z - p.z;
     double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
@@ -56,7 +59,7 @@ static vec3 face_normal(const vec3 *places, const uint32_t corners[3])
     return (vec3){(float)(x / length), (float)(y / length), (float)(z / length)};
 }
 
-/* --- faces --------------------------------------------------------------------------------------------------------- */
+/* --- faces ---------------------------------------------------------------------------------------------- */
 
 static bool count_mesh(const mesh *m, size_t *vertices, size_t *corners, bool *said)
 {
@@ -73,10 +76,11 @@ static bool count_mesh(const mesh *m, size_t *vertices, size_t *corners, bool *s
 /* All primitives' positions, one after the other. */
 static vec3 *gather_places(const mesh *m, const vec3 *posed, size_t count)
 {
-    vec3 *places = mem_alloc(count * sizeof *places);
+    vec3  *places = mem_alloc(count * sizeof *places);
     size_t at = 0;
     for (size_t i = 0; i < m->primitive_count && places; at += m->primitives[i++].vertex_count)
-        memcpy(places + at, posed ? posed + at : m->primitives[i].positions, m->primitives[i].vertex_count * sizeof *places);
+        memcpy(places + at, posed ? posed + at : m->primitives[i].positions,
+               m->primitives[i].vertex_count * sizeof *places);
     return places;
 }
 
@@ -99,7 +103,7 @@ static void weld(edge_mesh *out, uint32_t *ids, uint32_t count)
 static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
 {
     edge_mesh *out = b->mesh;
-    uint32_t base = 0;
+    uint32_t   base = 0;
     for (size_t i = 0; i < m->primitive_count; base += m->primitives[i++].vertex_count) {
         const primitive *p = &m->primitives[i];
         for (uint32_t k = 0; k + 2 < p->index_count; k += 3) {
@@ -107,7 +111,8 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
             for (int c = 0; c < 3; c++)
                 corners[c] = ids[base + p->indices[k + (uint32_t)c]];
             vec3 normal = face_normal(out->places, corners);
-            if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2] || dot(normal, normal) == 0)
+            if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2] ||
+                dot(normal, normal) == 0)
                 continue;
             uint32_t f = out->face_count++;
             memcpy(out->faces[f], corners, sizeof corners);
@@ -124,7 +129,7 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
 static lmn_status take_faces(builder *b, const edge_faces *in, lmn_error *error)
 {
     edge_mesh *out = b->mesh;
-    size_t count = in->face_count;
+    size_t     count = in->face_count;
     out->vertex_count = in->vertex_count;
     out->places = mem_copy(in->places, (size_t)in->vertex_count * sizeof *out->places);
     out->faces = mem_alloc(count * sizeof *out->faces);
@@ -132,11 +137,12 @@ static lmn_status take_faces(builder *b, const edge_faces *in, lmn_error *error)
     out->materials = in->materials ? mem_alloc(count * sizeof *out->materials) : NULL;
     out->said = in->said ? mem_alloc(3 * count) : NULL;
     b->origins = mem_alloc(count * sizeof *b->origins);
-    if (!out->places || !out->faces || !out->normals || (in->materials && !out->materials) || (in->said && !out->said) || !b->origins)
+    if (!out->places || !out->faces || !out->normals || (in->materials && !out->materials) ||
+        (in->said && !out->said) || !b->origins)
         return error_memory(error);
     for (uint32_t i = 0; i < in->face_count; i++) {
         uint32_t f = out->face_count;
-        vec3 normal = face_normal(out->places, in->faces[i]);
+        vec3     normal = face_normal(out->places, in->faces[i]);
         if (dot(normal, normal) == 0)
             continue;
         out->face_count++;
@@ -162,14 +168,18 @@ static uint32_t *count_up(uint32_t count)
 static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_error *error)
 {
     edge_mesh *out = b->mesh;
-    size_t vertices, corners;
-    bool said;
+    size_t     vertices, corners;
+    bool       said;
     if (!count_mesh(m, &vertices, &corners, &said))
-        return error_set(error, LMN_LIMIT, "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices, corners);
+        return error_set(error, LMN_LIMIT,
+                         "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices,
+                         corners);
     out->places = gather_places(m, posed, vertices);
-    bool welded = m->primitive_count == 1 && m->primitives[0].welded && !posed;
-    uint32_t *ids = !out->places ? NULL : welded ? count_up((uint32_t)vertices)
-                                        : mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places});
+    bool      welded = m->primitive_count == 1 && m->primitives[0].welded && !posed;
+    uint32_t *ids = !out->places ? NULL
+                    : welded
+                        ? count_up((uint32_t)vertices)
+                        : mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places});
     out->faces = mem_alloc(corners * sizeof **out->faces);
     out->normals = mem_alloc(corners / 3 * sizeof *out->normals);
     bool mixed = false;
@@ -186,7 +196,7 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     return good ? LMN_OK : error_memory(error);
 }
 
-/* --- buckets ------------------------------------------------------------------------------------------------------- */
+/* --- buckets -------------------------------------------------------------------------------------------- */
 
 static uint32_t corner_vertex(const edge_mesh *m, uint32_t corner)
 {
@@ -214,7 +224,7 @@ static void sort_bucket(half_edge *halves, size_t count)
     }
     for (size_t i = 1; i < count; i++) {
         half_edge moved = halves[i];
-        size_t k = i;
+        size_t    k = i;
         for (; k > 0 && halves[k - 1].high > moved.high; k--)
             halves[k] = halves[k - 1];
         halves[k] = moved;
@@ -240,20 +250,24 @@ static void fill_buckets(builder *b)
         }
 }
 
-/* --- pieces -------------------------------------------------------------------------------------------------------- */
+/* --- pieces --------------------------------------------------------------------------------------------- */
 
 /* Six times the volume that a face closes off towards a point near it. */
 static double volume_of(const edge_mesh *m, uint32_t f, vec3 from)
 {
-    vec3 p = minus(m->places[m->faces[f][0]], from), q = minus(m->places[m->faces[f][1]], from), r = minus(m->places[m->faces[f][2]], from);
-    return (double)p.x * ((double)q.y * r.z - (double)q.z * r.y) + (double)p.y * ((double)q.z * r.x - (double)q.x * r.z) +
+    vec3 p = minus(m->places[m->faces[f][0]], from), q = minus(m->places[m->faces[f][1]], from),
+         r = minus(m->places[m->faces[f][2]], from);
+    return (double)p.x * ((double)q.y * r.z - (double)q.z * r.y) +
+           (double)p.y * ((double)q.z * r.x - (double)q.x * r.z) +
            (double)p.z * ((double)q.x * r.y - (double)q.y * r.x);
 }
 
 static void widen(box3 *box, vec3 p)
 {
-    box->min = (vec3){p.x < box->min.x ? p.x : box->min.x, p.y < box->min.y ? p.y : box->min.y, p.z < box->min.z ? p.z : box->min.z};
-    box->max = (vec3){p.x > box->max.x ? p.x : box->max.x, p.y > box->max.y ? p.y : box->max.y, p.z > box->max.z ? p.z : box->max.z};
+    box->min = (vec3){p.x < box->min.x ? p.x : box->min.x, p.y < box->min.y ? p.y : box->min.y,
+                      p.z < box->min.z ? p.z : box->min.z};
+    box->max = (vec3){p.x > box->max.x ? p.x : box->max.x, p.y > box->max.y ? p.y : box->max.y,
+                      p.z > box->max.z ? p.z : box->max.z};
 }
 
 /* Numbers the pieces; boxes, and volumes by their first corner, which says which way round they are. */
@@ -269,7 +283,7 @@ static double *number_pieces(builder *b)
     m->closed = mem_alloc((size_t)m->piece_count + 1);
     m->inward = mem_alloc((size_t)m->piece_count + 1);
     double *volumes = mem_calloc((size_t)m->piece_count + 1, sizeof *volumes);
-    vec3 *origins = mem_alloc(((size_t)m->piece_count + 1) * sizeof *origins);
+    vec3   *origins = mem_alloc(((size_t)m->piece_count + 1) * sizeof *origins);
     if (!m->boxes || !m->closed || !m->inward || !volumes || !origins) {
         mem_free(origins);
         mem_free(volumes);
@@ -294,14 +308,16 @@ static double *number_pieces(builder *b)
     return volumes;
 }
 
-/* --- edges --------------------------------------------------------------------------------------------------------- */
+/* --- edges ---------------------------------------------------------------------------------------------- */
 
 /* How far the neighbour's free corner lies above a face: below 0, the edge is convex; 0 when both lie in one plane. */
 static float height_above(const edge_mesh *m, uint32_t face, uint32_t neighbour_corner)
 {
     uint32_t beyond = next_corner(next_corner(neighbour_corner));
-    vec3 free = m->places[corner_vertex(m, beyond)], from_edge = minus(free, m->places[corner_vertex(m, neighbour_corner)]);
-    float height = dot(from_edge, m->normals[face]), rounding = ROUNDED * fmaxf(fmaxf(fabsf(free.x), fabsf(free.y)), fabsf(free.z));
+    vec3     free = m->places[corner_vertex(m, beyond)],
+         from_edge = minus(free, m->places[corner_vertex(m, neighbour_corner)]);
+    float height = dot(from_edge, m->normals[face]),
+          rounding = ROUNDED * fmaxf(fmaxf(fabsf(free.x), fabsf(free.y)), fabsf(free.z));
     return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) || fabsf(height) <= rounding ? 0 : height;
 }
 
@@ -315,8 +331,8 @@ static float height_between(const edge_mesh *m, uint32_t first, uint32_t second)
 static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bool same_way)
 {
     const edge_mesh *m = b->mesh;
-    uint32_t f = first / 3, g = second / 3, flags = 0;
-    float turn = dot(m->normals[f], m->normals[g]);
+    uint32_t         f = first / 3, g = second / 3, flags = 0;
+    float            turn = dot(m->normals[f], m->normals[g]);
     if ((same_way ? -turn : turn) < b->crease)
         flags |= EDGE_CREASE;
     if (m->materials && m->materials[f] != m->materials[g])
@@ -333,7 +349,7 @@ static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bo
 static uint32_t obey(uint32_t flags, const uint8_t *said, const half_edge *group, size_t count)
 {
     uint32_t loudest = SAID_HIDDEN;
-    bool any = false;
+    bool     any = false;
     for (size_t i = 0; i < count; i++) {
         uint8_t word = said[group[i].corner];
         any = any || word != SAID_NOTHING;
@@ -358,7 +374,8 @@ static bool put_edge(builder *b, uint32_t low, uint32_t flags, const half_edge *
         return false;
     uint32_t corner = group[0].corner, begin = corner_vertex(m, corner);
     m->edges[m->edge_count++] = (mesh_edge){{begin, begin == low ? group[0].high : low},
-                                            {corner / 3, count > 1 ? group[1].corner / 3 : EDGE_NO_FACE}, flags};
+                                            {corner / 3, count > 1 ? group[1].corner / 3 : EDGE_NO_FACE},
+                                            flags};
     return true;
 }
 
@@ -374,7 +391,7 @@ static bool have_same_corners(const uint32_t a[3], const uint32_t b[3])
 static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t count)
 {
     edge_mesh *m = b->mesh;
-    uint32_t flags = EDGE_BORDER;
+    uint32_t   flags = EDGE_BORDER;
     m->all_edges++;
     m->loose_edges += count != 2;
     if (count == 2) {
@@ -396,7 +413,7 @@ static bool each_edge(builder *b, edge_visit visit)
 {
     for (uint32_t v = 0; v < b->mesh->vertex_count; v++) {
         const half_edge *bucket = b->halves + b->starts[v];
-        size_t size = b->starts[v + 1] - b->starts[v];
+        size_t           size = b->starts[v + 1] - b->starts[v];
         for (size_t begin = 0, end = 0; begin < size; begin = end) {
             while (end < size && bucket[end].high == bucket[begin].high)
                 end++;
@@ -471,8 +488,8 @@ static void drop_concave(edge_mesh *m, const double *volumes)
     uint32_t kept = 0;
     for (uint32_t i = 0; i < m->edge_count; i++) {
         mesh_edge e = m->edges[i];
-        uint32_t piece = m->pieces[e.face[0]];
-        bool convex = ((e.flags & CONVEX) != 0) != m->inward[piece];
+        uint32_t  piece = m->pieces[e.face[0]];
+        bool      convex = ((e.flags & CONVEX) != 0) != m->inward[piece];
         if (m->closed[piece] && !convex)
             e.flags &= ~(uint32_t)EDGE_CANDIDATE;
         e.flags &= ~(uint32_t)CONVEX;
@@ -538,10 +555,11 @@ lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, d
     return finish(&b, make_faces(&b, m, places, error), error);
 }
 
-lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers, lmn_error *error)
+lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers,
+                                 lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
+    builder    b = {.mesh = out, .crease = (float)cos(crease_angle)};
     lmn_status status = finish(&b, take_faces(&b, faces, error), error);
     if (status == LMN_OK) {
         memset(numbers, 0xFF, faces->face_count * sizeof *numbers); /* EDGE_NO_FACE */

@@ -1,5 +1,5 @@
-/* Edges of meshes, sorted before anything is drawn into those that are always lines, those that may become an outline, and the rest,
- * which never are. Freudenberg 2003, section 7.1; rows OE-01 to OE-04. */
+/* Edges of meshes, sorted before anything is drawn into those that are always lines, those that may become an
+ * outline, and the rest, which never are. Freudenberg 2003, section 7.1; rows OE-01 to OE-04. */
 #ifndef LIMNER_STROKE_EDGES_H
 #define LIMNER_STROKE_EDGES_H
 
@@ -8,55 +8,59 @@
 #define EDGE_NO_FACE UINT32_MAX
 
 typedef enum edge_flag {
-    EDGE_BORDER    = 1 << 0, /* one face only, or faces that do not pair */
-    EDGE_CREASE    = 1 << 1, /* its faces turn by more than the crease angle, or the file says that it is hard */
-    EDGE_MATERIAL  = 1 << 2, /* its faces have different materials */
-    EDGE_CANDIDATE = 1 << 3, /* an outline from where one face is seen from the front and the other from behind: smooth and strictly convex, or
-                              * smooth and not flat where the piece it belongs to is not closed */
-    EDGE_TWISTED   = 1 << 4  /* beside others: both faces pass it the same way, so that one of them is inside out */
+    EDGE_BORDER = 1 << 0,   /* one face only, or faces that do not pair */
+    EDGE_CREASE = 1 << 1,   /* its faces turn by more than the crease angle, or the file says that it is hard */
+    EDGE_MATERIAL = 1 << 2, /* its faces have different materials */
+    EDGE_CANDIDATE =
+        1 << 3, /* an outline from where one face is seen from the front and the other from behind: smooth and strictly
+                 * convex, or smooth and not flat where the piece it belongs to is not closed */
+    EDGE_TWISTED = 1 << 4 /* beside others: both faces pass it the same way, so that one of them is inside out */
 } edge_flag;
 
 /* What a file says of an edge (glTF's EXT_mesh_primitive_edge_visibility). It overrules the angle. */
 typedef enum edge_saying { SAID_HIDDEN, SAID_SILHOUETTE, SAID_HARD, SAID_REPEATED, SAID_NOTHING } edge_saying;
 
-/* One edge. Its faces, as seen along it from vertex[0] to vertex[1]: face[0] is the one whose winding has it in this order. */
+/* One edge. Its faces, as seen along it from vertex[0] to vertex[1]: face[0] is the one whose winding has it in
+ * this order. */
 typedef struct mesh_edge {
     uint32_t vertex[2];
     uint32_t face[2]; /* EDGE_NO_FACE: none */
     uint32_t flags;   /* of edge_flag, not 0 */
 } mesh_edge;
 
-/* A mesh with all its primitives welded by position: vertices that lie at one place are one. Triangles that were there twice are one, those without area
- * are gone. Places are the mesh's own. */
+/* A mesh with all its primitives welded by position: vertices that lie at one place are one. Triangles that were
+ * there twice are one, those without area are gone. Places are the mesh's own. */
 typedef struct edge_mesh {
-    uint32_t   vertex_count, face_count, edge_count, piece_count;
-    vec3      *places;
+    uint32_t vertex_count, face_count, edge_count, piece_count;
+    vec3    *places;
     uint32_t (*faces)[3];
-    vec3      *normals;   /* per face, unit, by winding */
-    int32_t   *materials; /* per face; NULL: all alike */
-    mesh_edge *edges;     /* those with flags, in a fixed order */
-    uint32_t  *pieces;    /* per face: what hangs together over edges, numbered from 0 */
-    bool      *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
-    bool      *inward;    /* per closed piece: its faces look inwards */
-    box3      *boxes;     /* per piece */
-    uint8_t   *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    vec3                   *normals;    /* per face, unit, by winding */
+    int32_t                *materials;  /* per face; NULL: all alike */
+    mesh_edge              *edges;      /* those with flags, in a fixed order */
+    uint32_t               *pieces;     /* per face: what hangs together over edges, numbered from 0 */
+    bool                   *closed;     /* per piece: each edge has two faces that pass it in opposite directions */
+    bool                   *inward;     /* per closed piece: its faces look inwards */
+    box3                   *boxes;      /* per piece */
+    uint8_t                *said;       /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
-    uint32_t   all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
+    uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;
 
-/* Sorts the edges of a mesh; crease_angle in radians. `places` (may be NULL) replaces the positions of all primitives, one after the other, where the mesh
- * has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
+/* Sorts the edges of a mesh; crease_angle in radians. `places` (may be NULL) replaces the positions of all
+ * primitives, one after the other, where the mesh has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
 lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error);
 void       edge_mesh_release(edge_mesh *m);
 
-/* The same of faces whose vertices are welded already. `numbers` gets each face's number in the mesh, EDGE_NO_FACE where it was dropped. */
+/* The same of faces whose vertices are welded already. `numbers` gets each face's number in the mesh, EDGE_NO_FACE
+ * where it was dropped. */
 typedef struct edge_faces {
-    const vec3      *places;
+    const vec3 *places;
     const uint32_t (*faces)[3];
-    const int32_t   *materials; /* may be NULL, as in edge_mesh */
-    const uint8_t   *said;      /* likewise */
-    uint32_t         vertex_count, face_count;
+    const int32_t *materials; /* may be NULL, as in edge_mesh */
+    const uint8_t *said;      /* likewise */
+    uint32_t       vertex_count, face_count;
 } edge_faces;
-lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers, lmn_error *error);
+lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers,
+                                 lmn_error *error);
 
 #endif

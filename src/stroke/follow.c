@@ -43,14 +43,15 @@ static const stroke_mark *find_mark(const stroke_mark *marks, size_t count, uint
 void stroke_follow(stroke_set *now, const stroke_set *before)
 {
     stroke_mark *sorted = mem_copy(before->marks, before->mark_count * sizeof *sorted);
-    chain_fact *old = gather_facts(before), *next = mem_calloc(now->chain_count + 1, sizeof *next);
+    chain_fact  *old = gather_facts(before), *next = mem_calloc(now->chain_count + 1, sizeof *next);
     if (sorted && old && next) {
         qsort(sorted, before->mark_count, sizeof *sorted, compare_marks);
         for (size_t i = 0; i < now->mark_count; i++) {
             const stroke_mark *own = &now->marks[i], *known = find_mark(sorted, before->mark_count, own->id);
             for (; known && known < sorted + before->mark_count && known->id == own->id; known++)
                 if (old[known->chain].length > next[own->chain].length)
-                    next[own->chain] = (chain_fact){old[known->chain].length, old[known->chain].phase + known->arc - own->arc};
+                    next[own->chain] =
+                        (chain_fact){old[known->chain].length, old[known->chain].phase + known->arc - own->arc};
         }
         for (size_t i = 0; i < now->stroke_count; i++)
             now->strokes[i].phase = next[now->strokes[i].chain].phase;

@@ -1,12 +1,14 @@
-/* Lines that smooth surfaces have besides their outline. Here: suggestive contours (DeCarlo, Finkelstein, Rusinkiewicz, Santella 2003), where the curvature along the view passes from hollow to
- * convex on the way to the eye: from there an outline would come, were the eye a little elsewhere. */
+/* Lines that smooth surfaces have besides their outline. Here: suggestive contours (DeCarlo, Finkelstein,
+ * Rusinkiewicz, Santella 2003), where the curvature along the view passes from hollow to convex on the way to the
+ * eye: from there an outline would come, were the eye a little elsewhere. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "stroke/form_view.h"
 
-/* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). It goes with the square of the strength, so that a third is a good start. */
+/* How fast the curvature must grow to be drawn at strength 1, per unit length squared (FORM_UNIT). It goes with the
+ * square of the strength, so that a third is a good start. */
 #define SUGGESTIVE_LIMIT 24.0
 
 /* What grows counts the more the further it turns away, as it looks foreshortened; not beyond this cosine. */
@@ -21,16 +23,19 @@ typedef struct radial {
 static radial radial_at(const form_view *f, uint32_t knot)
 {
     const surface_bend *b = &f->s->bends[knot];
-    vec3 p = f->m->places[f->s->vertices[knot]], n = f->s->normals[knot], d = b->direction;
-    double3 to = form_direction(f, (double3){p.x, p.y, p.z});
-    double x = to.x * d.x + to.y * d.y + to.z * d.z;
-    double y = to.x * ((double)n.y * d.z - (double)n.z * d.y) + to.y * ((double)n.z * d.x - (double)n.x * d.z) + to.z * ((double)n.x * d.y - (double)n.y * d.x);
+    vec3                p = f->m->places[f->s->vertices[knot]], n = f->s->normals[knot], d = b->direction;
+    double3             to = form_direction(f, (double3){p.x, p.y, p.z});
+    double              x = to.x * d.x + to.y * d.y + to.z * d.z;
+    double y = to.x * ((double)n.y * d.z - (double)n.z * d.y) + to.y * ((double)n.z * d.x - (double)n.x * d.z) +
+               to.z * ((double)n.x * d.y - (double)n.y * d.x);
     double square = x * x + y * y;
     if (square < 1e-6)
         return (radial){b->greater, 0};
-    double change = b->change[0] * x * x * x + 3 * b->change[1] * x * x * y + 3 * b->change[2] * x * y * y + b->change[3] * y * y * y;
+    double change = b->change[0] * x * x * x + 3 * b->change[1] * x * x * y + 3 * b->change[2] * x * y * y +
+                    b->change[3] * y * y * y;
     double torsion = ((double)b->lesser - b->greater) * x * y / square;
-    return (radial){(b->greater * x * x + b->lesser * y * y) / square, change / square - 2 * f->facing[knot] * torsion * torsion};
+    return (radial){(b->greater * x * x + b->lesser * y * y) / square,
+                    change / square - 2 * f->facing[knot] * torsion * torsion};
 }
 
 static float suggestive_weight(double growth, double facing, double unit, double limit)
@@ -42,24 +47,25 @@ static float suggestive_weight(double growth, double facing, double unit, double
 static bool collect_suggestive(form_view *f, double strength)
 {
     radial *radials = mem_alloc(((size_t)f->s->knot_count + 1) * sizeof *radials);
-    double unit = FORM_UNIT * f->s->size, limit = SUGGESTIVE_LIMIT * strength * strength;
-    bool good = radials != NULL;
+    double  unit = FORM_UNIT * f->s->size, limit = SUGGESTIVE_LIMIT * strength * strength;
+    bool    good = radials != NULL;
     for (uint32_t i = 0; i < f->s->knot_count && good; i++)
         radials[i] = radial_at(f, i);
     for (uint32_t face = 0; face < f->s->face_count && good; face++) {
         const uint32_t *knots = f->s->corners[face];
-        bool convex[3];
+        bool            convex[3];
         for (int k = 0; k < 3; k++)
             convex[k] = radials[knots[k]].curvature >= 0;
-        int side = convex[0] == convex[1] && convex[1] == convex[2] ? 0 : form_side(f, face), count = 0;
+        int      side = convex[0] == convex[1] && convex[1] == convex[2] ? 0 : form_side(f, face), count = 0;
         form_end ends[2];
         for (uint32_t k = 0; k < 3 && side; k++) {
             uint32_t a = knots[k], b = knots[(k + 1) % 3];
-            double share;
+            double   share;
             if (convex[k] == convex[(k + 1) % 3])
                 continue;
             ends[count] = form_cross(f, 3 * face + k, radials[a].curvature, radials[b].curvature, &share);
-            double growth = radials[a].growth + share * (radials[b].growth - radials[a].growth), facing = f->facing[a] + share * (f->facing[b] - f->facing[a]);
+            double growth = radials[a].growth + share * (radials[b].growth - radials[a].growth),
+                   facing = f->facing[a] + share * (f->facing[b] - f->facing[a]);
             ends[count++].weight = suggestive_weight(side * growth, side * facing, unit, limit);
         }
         good = count < 2 || form_put(f, STROKE_SUGGESTIVE, face, ends[0], ends[1], false);
@@ -68,12 +74,13 @@ static bool collect_suggestive(form_view *f, double strength)
     return good;
 }
 
-/* --- all ----------------------------------------------------------------------------------------------------------- */
+/* --- all ------------------------------------------------------------------------------------------------ */
 
-static bool collect_item(view_lines *out, const stroke_view *v, const stroke_options *w, uint32_t item, const form_surface *s)
+static bool collect_item(view_lines *out, const stroke_view *v, const stroke_options *w, uint32_t item,
+                         const form_surface *s)
 {
     form_view f;
-    bool seen, good = form_view_open(&f, out, v, item, s, &seen);
+    bool      seen, good = form_view_open(&f, out, v, item, s, &seen);
     if (good && seen && w->contours == CONTOURS_SMOOTH)
         good = smooth_collect(&f);
     if (good && seen && w->suggestive > 0)
@@ -108,14 +115,18 @@ static bool is_wanted(const stroke_view *v, const bool *parts, size_t mesh)
 }
 
 /* All items of a mesh. */
-static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stroke_options *w, const bool *parts, size_t mesh, bool bends, lmn_error *error)
+static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stroke_options *w, const bool *parts,
+                               size_t mesh, bool bends, lmn_error *error)
 {
     const stroke_scene *scene = v->scene;
-    form_surface own = {0};
+    form_surface        own = {0};
     const form_surface *s = scene->surfaces ? &scene->surfaces[mesh] : &own;
-    lmn_status status = scene->surfaces || !is_wanted(v, parts, mesh) ? LMN_OK : form_surface_make(&own, &scene->meshes[mesh], bends, error);
+    lmn_status          status = scene->surfaces || !is_wanted(v, parts, mesh)
+                                     ? LMN_OK
+                                     : form_surface_make(&own, &scene->meshes[mesh], bends, error);
     for (uint32_t i = 0; i < scene->item_count && status == LMN_OK; i++)
-        if (scene->items[i].mesh == mesh && (!parts || parts[scene->items[i].part_index]) && !collect_item(out, v, w, i, s))
+        if (scene->items[i].mesh == mesh && (!parts || parts[scene->items[i].part_index]) &&
+            !collect_item(out, v, w, i, s))
             status = error_memory(error);
     form_surface_release(&own);
     return status;
@@ -126,10 +137,10 @@ bool stroke_options_bend(const stroke_options *w)
     return w->contours == CONTOURS_SMOOTH || w->suggestive > 0 || w->ridges > 0 || w->valleys > 0 || w->apparent > 0;
 }
 
-lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
-                        lmn_error *error)
+lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
+                        lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    bool bends = options->suggestive > 0 || options->ridges > 0 || options->valleys > 0 || options->apparent > 0;
+    bool       bends = options->suggestive > 0 || options->ridges > 0 || options->valleys > 0 || options->apparent > 0;
     lmn_status status = LMN_OK;
     for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK && stroke_options_bend(options); i++) {
         if (progress && !progress((double)i / (double)v->scene->mesh_count, "finding lines of form", user))

@@ -1,5 +1,6 @@
-/* Curvature from how normals differ along the edges of each face (Rusinkiewicz 2004), as a tensor of space, which may be averaged where directions may not. What is smoothed is the tensor,
- * not the surface: noise goes, places stay. */
+/* Curvature from how normals differ along the edges of each face (Rusinkiewicz 2004), as a tensor of space, which
+ * may be averaged where directions may not. What is smoothed is the tensor, not the surface: noise goes, places
+ * stay. */
 #include "stroke/form_bend.h"
 
 #include <math.h>
@@ -81,15 +82,18 @@ static vector turned(vector a, vector from, vector to)
 /* b uu + c (uv + vu) + d vv */
 static tensor tensor_of(vector u, vector v, double b, double c, double d)
 {
-    return (tensor){{b * u.x * u.x + 2 * c * u.x * v.x + d * v.x * v.x, b * u.y * u.y + 2 * c * u.y * v.y + d * v.y * v.y,
-                     b * u.z * u.z + 2 * c * u.z * v.z + d * v.z * v.z, b * u.x * u.y + c * (u.x * v.y + u.y * v.x) + d * v.x * v.y,
-                     b * u.y * u.z + c * (u.y * v.z + u.z * v.y) + d * v.y * v.z, b * u.z * u.x + c * (u.z * v.x + u.x * v.z) + d * v.z * v.x}};
+    return (tensor){
+        {b * u.x * u.x + 2 * c * u.x * v.x + d * v.x * v.x, b * u.y * u.y + 2 * c * u.y * v.y + d * v.y * v.y,
+         b * u.z * u.z + 2 * c * u.z * v.z + d * v.z * v.z, b * u.x * u.y + c * (u.x * v.y + u.y * v.x) + d * v.x * v.y,
+         b * u.y * u.z + c * (u.y * v.z + u.z * v.y) + d * v.y * v.z,
+         b * u.z * u.x + c * (u.z * v.x + u.x * v.z) + d * v.z * v.x}};
 }
 
 static double apply(const tensor *t, vector a, vector b)
 {
     const double *m = t->t;
-    return a.x * (m[0] * b.x + m[3] * b.y + m[5] * b.z) + a.y * (m[3] * b.x + m[1] * b.y + m[4] * b.z) + a.z * (m[5] * b.x + m[4] * b.y + m[2] * b.z);
+    return a.x * (m[0] * b.x + m[3] * b.y + m[5] * b.z) + a.y * (m[3] * b.x + m[1] * b.y + m[4] * b.z) +
+           a.z * (m[5] * b.x + m[4] * b.y + m[2] * b.z);
 }
 
 static void add_tensor(tensor *sum, const tensor *t, double weight)
@@ -111,8 +115,8 @@ static vector normal_at(const bender *b, uint32_t face, uint32_t corner)
 /* Returns twice the face's area. */
 static double frame_of(const bender *b, uint32_t f, frame *out)
 {
-    vector p = place_at(b, f, 0), n = cross(minus(place_at(b, f, 1), p), minus(place_at(b, f, 2), p));
-    double area = sqrt(dot(n, n));
+    vector   p = place_at(b, f, 0), n = cross(minus(place_at(b, f, 1), p), minus(place_at(b, f, 2), p));
+    double   area = sqrt(dot(n, n));
     uint32_t piece = b->m->pieces[f];
     out->n = scaled(unit(n), b->m->closed[piece] && b->m->inward[piece] ? -1 : 1);
     out->u = unit(minus(place_at(b, f, 1), p));
@@ -120,17 +124,20 @@ static double frame_of(const bender *b, uint32_t f, frame *out)
     return area;
 }
 
-/* --- the tensor ---------------------------------------------------------------------------------------------------- */
+/* --- the tensor ----------------------------------------------------------------------------------------- */
 
 /* Symmetric 3 by 3 equations; false when they say nothing. */
 static bool solve(double a[3][3], const double r[3], double out[3])
 {
-    double c0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], c1 = a[1][2] * a[2][0] - a[1][0] * a[2][2], c2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
+    double c0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], c1 = a[1][2] * a[2][0] - a[1][0] * a[2][2],
+           c2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
     double whole = a[0][0] * c0 + a[0][1] * c1 + a[0][2] * c2, size = a[0][0] + a[1][1] + a[2][2];
     if (!(fabs(whole) > 1e-12 * size * size * size))
         return false;
-    double d0 = a[0][2] * a[2][1] - a[0][1] * a[2][2], d1 = a[0][0] * a[2][2] - a[0][2] * a[2][0], d2 = a[0][1] * a[2][0] - a[0][0] * a[2][1];
-    double e0 = a[0][1] * a[1][2] - a[0][2] * a[1][1], e1 = a[0][2] * a[1][0] - a[0][0] * a[1][2], e2 = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    double d0 = a[0][2] * a[2][1] - a[0][1] * a[2][2], d1 = a[0][0] * a[2][2] - a[0][2] * a[2][0],
+           d2 = a[0][1] * a[2][0] - a[0][0] * a[2][1];
+    double e0 = a[0][1] * a[1][2] - a[0][2] * a[1][1], e1 = a[0][2] * a[1][0] - a[0][0] * a[1][2],
+           e2 = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     out[0] = (c0 * r[0] + d0 * r[1] + e0 * r[2]) / whole;
     out[1] = (c1 * r[0] + d1 * r[1] + e1 * r[2]) / whole;
     out[2] = (c2 * r[0] + d2 * r[1] + e2 * r[2]) / whole;
@@ -142,7 +149,8 @@ static bool face_form(const bender *b, uint32_t f, const frame *t, double out[3]
 {
     double a[3][3] = {{0}}, r[3] = {0};
     for (uint32_t k = 0; k < 3; k++) {
-        vector edge = minus(place_at(b, f, k + 1), place_at(b, f, k)), turn = minus(normal_at(b, f, k + 1), normal_at(b, f, k));
+        vector edge = minus(place_at(b, f, k + 1), place_at(b, f, k)),
+               turn = minus(normal_at(b, f, k + 1), normal_at(b, f, k));
         double u = dot(edge, t->u), v = dot(edge, t->v), du = dot(turn, t->u), dv = dot(turn, t->v);
         a[0][0] += u * u;
         a[0][1] += u * v;
@@ -159,14 +167,14 @@ static bool face_form(const bender *b, uint32_t f, const frame *t, double out[3]
 static void gather_tensors(bender *b)
 {
     for (uint32_t f = 0; f < b->s->face_count; f++) {
-        frame t;
+        frame  t;
         double form[3], area = frame_of(b, f, &t);
         if (!(area > 0) || !face_form(b, f, &t, form))
             continue;
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t knot = b->s->corners[f][k];
-            vector n = normal_at(b, f, k);
-            tensor own = tensor_of(turned(t.u, t.n, n), turned(t.v, t.n, n), form[0], form[1], form[2]);
+            vector   n = normal_at(b, f, k);
+            tensor   own = tensor_of(turned(t.u, t.n, n), turned(t.v, t.n, n), form[0], form[1], form[2]);
             add_tensor(&b->tensors[knot], &own, area);
             b->weights[knot] += area;
         }
@@ -179,7 +187,8 @@ static void gather_tensors(bender *b)
 /* A tensor of one tangent plane in another one. */
 static tensor carried(const tensor *t, vector from, vector to)
 {
-    vector side = fabs(from.x) < 0.6 ? (vector){1, 0, 0} : (vector){0, 1, 0}, u = unit(cross(from, side)), v = cross(from, u);
+    vector side = fabs(from.x) < 0.6 ? (vector){1, 0, 0} : (vector){0, 1, 0}, u = unit(cross(from, side)),
+           v = cross(from, u);
     return tensor_of(turned(u, from, to), turned(v, from, to), apply(t, u, u), apply(t, u, v), apply(t, v, v));
 }
 
@@ -191,8 +200,8 @@ static void smooth_once(bender *b)
     memset(b->weights, 0, s->knot_count * sizeof *b->weights);
     for (uint32_t h = 0; h < 3 * s->face_count; h++) {
         uint32_t p = s->corners[h / 3][h % 3], q = s->corners[h / 3][(h + 1) % 3];
-        vector n = vector_of(s->normals[p]), o = vector_of(s->normals[q]);
-        tensor there = carried(&b->tensors[q], o, n);
+        vector   n = vector_of(s->normals[p]), o = vector_of(s->normals[q]);
+        tensor   there = carried(&b->tensors[q], o, n);
         add_tensor(&b->sums[p], &there, 1);
         b->weights[p] += 1;
         if (s->opposite[h] == NO_HALF) { /* nobody comes back along this edge */
@@ -214,34 +223,42 @@ static int smoothing_steps(const bender *b)
         vector edge = minus(place_at(b, h / 3, h % 3 + 1), place_at(b, h / 3, h % 3));
         sum += sqrt(dot(edge, edge));
     }
-    double mean = sum / (3.0 * b->s->face_count + 1), steps = mean > 0 ? 4 * pow(SMOOTHED_OVER * b->s->size / mean, 2) : 0;
+    double mean = sum / (3.0 * b->s->face_count + 1),
+           steps = mean > 0 ? 4 * pow(SMOOTHED_OVER * b->s->size / mean, 2) : 0;
     return steps < SMOOTH_MIN ? SMOOTH_MIN : steps > SMOOTH_MAX ? SMOOTH_MAX : (int)steps;
 }
 
 static void find_directions(bender *b)
 {
     for (uint32_t i = 0; i < b->s->knot_count; i++) {
-        vector n = vector_of(b->s->normals[i]), side = fabs(n.x) < 0.6 ? (vector){1, 0, 0} : (vector){0, 1, 0}, u = unit(cross(n, side)), v = cross(n, u);
+        vector n = vector_of(b->s->normals[i]), side = fabs(n.x) < 0.6 ? (vector){1, 0, 0} : (vector){0, 1, 0},
+               u = unit(cross(n, side)), v = cross(n, u);
         double uu = apply(&b->tensors[i], u, u), uv = apply(&b->tensors[i], u, v), vv = apply(&b->tensors[i], v, v);
         double angle = 0.5 * atan2(2 * uv, uu - vv), spread = 0.5 * sqrt((uu - vv) * (uu - vv) + 4 * uv * uv);
         vector d = plus(scaled(u, cos(angle)), scaled(v, sin(angle)));
-        b->s->bends[i] = (surface_bend){{(float)d.x, (float)d.y, (float)d.z}, (float)(0.5 * (uu + vv) + spread), (float)(0.5 * (uu + vv) - spread), {0}};
+        b->s->bends[i] = (surface_bend){{(float)d.x, (float)d.y, (float)d.z},
+                                        (float)(0.5 * (uu + vv) + spread),
+                                        (float)(0.5 * (uu + vv) - spread),
+                                        {0}};
     }
 }
 
-/* --- its change ---------------------------------------------------------------------------------------------------- */
+/* --- its change ----------------------------------------------------------------------------------------- */
 
-/* Change of the form over a face, in its basis: uuu, uuv, uvv, vvv. What the directions u v w … change to is symmetric on a surface; the mean makes it so. */
+/* Change of the form over a face, in its basis: uuu, uuv, uvv, vvv. What the directions u v w … change to is
+ * symmetric on a surface; the mean makes it so. */
 static void face_change(const bender *b, uint32_t f, const frame *t, double area, double out[4])
 {
     double along_u[3] = {0}, along_v[3] = {0};
     for (uint32_t k = 0; k < 3; k++) {
-        vector n = normal_at(b, f, k), u = turned(t->u, t->n, n), v = turned(t->v, t->n, n);
+        vector        n = normal_at(b, f, k), u = turned(t->u, t->n, n), v = turned(t->v, t->n, n);
         const tensor *own = &b->tensors[b->s->corners[f][k]];
-        const double form[3] = {apply(own, u, u), apply(own, u, v), apply(own, v, v)};
-        vector edge = minus(place_at(b, f, k + 2), place_at(b, f, k + 1));
-        /* The gradient of what is 1 at this corner and 0 at the others: the opposite edge, a quarter turn on. It is the same seen from the back. */
-        vector p = minus(place_at(b, f, k), place_at(b, f, k + 1)), g = minus(p, scaled(edge, dot(p, edge) / dot(edge, edge)));
+        const double  form[3] = {apply(own, u, u), apply(own, u, v), apply(own, v, v)};
+        vector        edge = minus(place_at(b, f, k + 2), place_at(b, f, k + 1));
+        /* The gradient of what is 1 at this corner and 0 at the others: the opposite edge, a quarter turn on. It is
+         * the same seen from the back. */
+        vector p = minus(place_at(b, f, k), place_at(b, f, k + 1)),
+               g = minus(p, scaled(edge, dot(p, edge) / dot(edge, edge)));
         g = scaled(g, dot(edge, edge) / (area * area));
         for (int i = 0; i < 3; i++) {
             along_u[i] += form[i] * dot(g, t->u);
@@ -266,16 +283,17 @@ static void gather_changes(bender *b)
     memset(b->sums, 0, b->s->knot_count * sizeof *b->sums); /* four of the six numbers are used */
     memset(b->weights, 0, b->s->knot_count * sizeof *b->weights);
     for (uint32_t f = 0; f < b->s->face_count; f++) {
-        frame t;
+        frame  t;
         double change[4], area = frame_of(b, f, &t);
         if (!(area > 0))
             continue;
         face_change(b, f, &t, area, change);
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t knot = b->s->corners[f][k];
-            vector n = normal_at(b, f, k), u = turned(t.u, t.n, n), v = turned(t.v, t.n, n), d = vector_of(b->s->bends[knot].direction), e = cross(n, d);
+            vector   n = normal_at(b, f, k), u = turned(t.u, t.n, n), v = turned(t.v, t.n, n),
+                   d = vector_of(b->s->bends[knot].direction), e = cross(n, d);
             const double p[2] = {dot(d, u), dot(d, v)}, q[2] = {dot(e, u), dot(e, v)};
-            double *sum = b->sums[knot].t;
+            double      *sum = b->sums[knot].t;
             sum[0] += area * apply_change(change, p, p, p);
             sum[1] += area * apply_change(change, p, p, q);
             sum[2] += area * apply_change(change, p, q, q);

@@ -1,5 +1,6 @@
-/* Ridges and valleys: where the greatest curvature is greatest along its own direction (Ohtake, Belyaev, Seidel 2004). Apparent ridges (Judd, Durand, Adelson 2007): the same for curvature as it
- * is seen, which grows where the surface turns away. */
+/* Ridges and valleys: where the greatest curvature is greatest along its own direction (Ohtake, Belyaev, Seidel
+ * 2004). Apparent ridges (Judd, Durand, Adelson 2007): the same for curvature as it is seen, which grows where the
+ * surface turns away. */
 #include <math.h>
 #include <string.h>
 
@@ -48,33 +49,35 @@ static double3 of_floats(vec3 p)
     return (double3){p.x, p.y, p.z};
 }
 
-/* --- ridges and valleys -------------------------------------------------------------------------------------------- */
+/* --- ridges and valleys --------------------------------------------------------------------------------- */
 
 /* `hollow`: of the surface seen from the other side, where valleys are ridges. */
 static crest crest_of(const form_surface *s, uint32_t knot, bool hollow)
 {
     const surface_bend *b = &s->bends[knot];
-    double3 d = of_floats(b->direction);
+    double3             d = of_floats(b->direction);
     if (!hollow)
         return (crest){d, b->greater, b->change[0], b->greater - fabsf(b->lesser)};
     return (crest){cross(of_floats(s->normals[knot]), d), -b->lesser, -b->change[3], -b->lesser - fabsf(b->greater)};
 }
 
-/* --- apparent ridges ----------------------------------------------------------------------------------------------- */
+/* --- apparent ridges ------------------------------------------------------------------------------------ */
 
-/* What the normal turns by, at most, over a step on the page: in the direction towards the eye, steps on the surface are longer than on the page. */
+/* What the normal turns by, at most, over a step on the page: in the direction towards the eye, steps on the
+ * surface are longer than on the page. */
 static crest apparent_at(const form_view *f, uint32_t knot)
 {
     const surface_bend *b = &f->s->bends[knot];
-    double3 n = of_floats(f->s->normals[knot]), d = of_floats(b->direction), e = cross(n, d);
+    double3             n = of_floats(f->s->normals[knot]), d = of_floats(b->direction), e = cross(n, d);
     double3 to = form_direction(f, of_floats(f->m->places[f->s->vertices[knot]])), w = sum(to, -f->facing[knot], n);
-    double length = sqrt(dot(w, w)), stretch = 1 / fmax(fabs(f->facing[knot]), STEEPEST);
+    double  length = sqrt(dot(w, w)), stretch = 1 / fmax(fabs(f->facing[knot]), STEEPEST);
     double3 a = length > 1e-3 ? (double3){w.x / length, w.y / length, w.z / length} : d, c = cross(n, a);
-    double ad = dot(a, d), ae = dot(a, e), cd = dot(c, d), ce = dot(c, e);
-    double aa = b->greater * ad * ad + b->lesser * ae * ae, ac = b->greater * ad * cd + b->lesser * ae * ce, cc = b->greater * cd * cd + b->lesser * ce * ce;
+    double  ad = dot(a, d), ae = dot(a, e), cd = dot(c, d), ce = dot(c, e);
+    double  aa = b->greater * ad * ad + b->lesser * ae * ae, ac = b->greater * ad * cd + b->lesser * ae * ce,
+           cc = b->greater * cd * cd + b->lesser * ce * ce;
     double xx = (aa * aa + ac * ac) * stretch * stretch, xy = ac * (aa + cc) * stretch, yy = ac * ac + cc * cc;
-    double angle = 0.5 * atan2(2 * xy, xx - yy), spread = sqrt((xx - yy) * (xx - yy) + 4 * xy * xy), most = sqrt(0.5 * (xx + yy + spread)),
-           least = sqrt(fmax(0.5 * (xx + yy - spread), 0));
+    double angle = 0.5 * atan2(2 * xy, xx - yy), spread = sqrt((xx - yy) * (xx - yy) + 4 * xy * xy),
+           most = sqrt(0.5 * (xx + yy + spread)), least = sqrt(fmax(0.5 * (xx + yy - spread), 0));
     double3 way = {0, 0, 0};
     way = sum(way, cos(angle) * stretch, a);
     return (crest){sum(way, sin(angle), c), most, 0, most - least};
@@ -84,12 +87,14 @@ static crest apparent_at(const form_view *f, uint32_t knot)
 static bool find_changes(crest_finder *w)
 {
     const form_view *f = w->f;
-    double3 *slopes = mem_calloc((size_t)f->s->knot_count + 1, sizeof *slopes);
-    double *weights = mem_calloc((size_t)f->s->knot_count + 1, sizeof *weights);
+    double3         *slopes = mem_calloc((size_t)f->s->knot_count + 1, sizeof *slopes);
+    double          *weights = mem_calloc((size_t)f->s->knot_count + 1, sizeof *weights);
     for (uint32_t face = 0; face < f->s->face_count && slopes && weights; face++) {
         const uint32_t *knots = f->s->corners[face];
-        double3 p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p), v = sum(form_place(f, face, 2), -1, p), n = cross(u, v);
-        double square = dot(n, n), du = w->crests[knots[1]].height - w->crests[knots[0]].height, dv = w->crests[knots[2]].height - w->crests[knots[0]].height;
+        double3         p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p),
+                v = sum(form_place(f, face, 2), -1, p), n = cross(u, v);
+        double square = dot(n, n), du = w->crests[knots[1]].height - w->crests[knots[0]].height,
+               dv = w->crests[knots[2]].height - w->crests[knots[0]].height;
         if (!(square > 0))
             continue;
         double3 slope = {0, 0, 0}; /* times the square of the area, of which one root is the weight */
@@ -109,12 +114,14 @@ static bool find_changes(crest_finder *w)
     return good;
 }
 
-/* --- lines --------------------------------------------------------------------------------------------------------- */
+/* --- lines ---------------------------------------------------------------------------------------------- */
 
-/* Where the change passes through 0 over a face: is the height greatest there, not least? Then the change falls along its way. */
+/* Where the change passes through 0 over a face: is the height greatest there, not least? Then the change falls
+ * along its way. */
 static bool is_greatest(const form_view *f, uint32_t face, const crest c[3])
 {
-    double3 p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p), v = sum(form_place(f, face, 2), -1, p), n = cross(u, v), slope = {0, 0, 0};
+    double3 p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p), v = sum(form_place(f, face, 2), -1, p),
+            n = cross(u, v), slope = {0, 0, 0};
     slope = sum(slope, c[1].change - c[0].change, cross(v, n));
     slope = sum(slope, c[2].change - c[0].change, cross(n, u));
     return dot(slope, c[0].way) + dot(slope, c[1].way) + dot(slope, c[2].way) < 0;
@@ -130,7 +137,7 @@ static bool find_end(crest_finder *w, uint32_t half, const crest *a, const crest
     *out = form_cross(f, half, a->change, b->change, &share);
     double p = f->facing[f->s->corners[half / 3][half % 3]], q = f->facing[f->s->corners[half / 3][(half + 1) % 3]];
     double rim = (side * (p + share * (q - p)) - RIM) / RIM, edge = (a->edge + share * (b->edge - a->edge)) * w->unit;
-    float weight = form_fade(edge, w->limit);
+    float  weight = form_fade(edge, w->limit);
     out->weight = weight < 0 || rim > 1 ? weight : rim < 0 ? (float)rim : weight * (float)rim;
     return true;
 }
@@ -138,12 +145,13 @@ static bool find_end(crest_finder *w, uint32_t half, const crest *a, const crest
 static bool take_face(crest_finder *w, uint32_t face, int side)
 {
     form_view *f = w->f;
-    crest c[3];
-    form_end ends[3];
-    int count = 0;
+    crest      c[3];
+    form_end   ends[3];
+    int        count = 0;
     for (int k = 0; k < 3; k++) {
         uint32_t knot = f->s->corners[face][k];
-        c[k] = w->kind == STROKE_APPARENT ? w->crests[knot] : crest_of(f->s, knot, (w->kind == STROKE_VALLEY) == (side > 0));
+        c[k] = w->kind == STROKE_APPARENT ? w->crests[knot]
+                                          : crest_of(f->s, knot, (w->kind == STROKE_VALLEY) == (side > 0));
         if (c[k].edge <= 0)
             return true;
         if (k > 0 && dot(c[k].way, c[0].way) < 0)
@@ -156,8 +164,11 @@ static bool take_face(crest_finder *w, uint32_t face, int side)
 
 bool ridges_collect(form_view *f, stroke_class kind, double strength)
 {
-    crest_finder w = {.f = f, .kind = kind, .unit = FORM_UNIT * f->s->size, .limit = (kind == STROKE_APPARENT ? APPARENT_LIMIT : RIDGE_LIMIT) * strength * strength};
-    bool good = true;
+    crest_finder w = {.f = f,
+                      .kind = kind,
+                      .unit = FORM_UNIT * f->s->size,
+                      .limit = (kind == STROKE_APPARENT ? APPARENT_LIMIT : RIDGE_LIMIT) * strength * strength};
+    bool         good = true;
     if (kind == STROKE_APPARENT) {
         w.crests = mem_alloc(((size_t)f->s->knot_count + 1) * sizeof *w.crests);
         good = w.crests != NULL;

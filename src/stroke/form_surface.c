@@ -8,7 +8,7 @@
 #include "stroke/butterfly.h"
 #include "stroke/form_bend.h"
 
-/* --- knots --------------------------------------------------------------------------------------------------------- */
+/* --- knots ---------------------------------------------------------------------------------------------- */
 
 static void part_edge(form_surface *s, uint32_t h)
 {
@@ -21,15 +21,17 @@ static void part_edge(form_surface *s, uint32_t h)
 /* Half-edges over which the surface goes on smoothly. */
 static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *error)
 {
-    butterfly flat;
-    lmn_status status = butterfly_refine(&flat, m->places, m->vertex_count, (const uint32_t (*)[3])m->faces, m->face_count, NULL, 0, error);
+    butterfly  flat;
+    lmn_status status = butterfly_refine(&flat, m->places, m->vertex_count, (const uint32_t(*)[3])m->faces,
+                                         m->face_count, NULL, 0, error);
     if (status != LMN_OK)
         return status;
     s->opposite = flat.levels[0].opposite;
     flat.levels[0].opposite = NULL;
     butterfly_release(&flat);
     for (uint32_t h = 0; h < 3 * m->face_count; h++)
-        if (s->opposite[h] != NO_HALF) { /* sharper than a right angle is no surface that goes on, whatever the file says */
+        if (s->opposite[h] !=
+            NO_HALF) { /* sharper than a right angle is no surface that goes on, whatever the file says */
             vec3 a = m->normals[h / 3], b = m->normals[s->opposite[h] / 3];
             if (a.x * b.x + a.y * b.y + a.z * b.z < 0)
                 part_edge(s, h);
@@ -50,7 +52,7 @@ static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *er
 /* Corners at one vertex that smooth edges connect share a knot. */
 static bool number_knots(form_surface *s, const edge_mesh *m)
 {
-    uint32_t count = 3 * m->face_count;
+    uint32_t  count = 3 * m->face_count;
     uint32_t *links = mem_alloc(((size_t)count + 1) * sizeof *links);
     s->corners = mem_alloc(((size_t)m->face_count + 1) * sizeof *s->corners);
     s->vertices = mem_alloc(((size_t)count + 1) * sizeof *s->vertices);
@@ -75,17 +77,20 @@ static bool number_knots(form_surface *s, const edge_mesh *m)
     return true;
 }
 
-/* Means of the normals of the faces around, weighted so that those of a sphere are exact however it is divided (Max 1999). */
+/* Means of the normals of the faces around, weighted so that those of a sphere are exact however it is divided (Max
+ * 1999). */
 static bool make_normals(form_surface *s, const edge_mesh *m)
 {
-    double (*sums)[3] = mem_calloc((size_t)s->knot_count + 1, sizeof *sums);
+    double(*sums)[3] = mem_calloc((size_t)s->knot_count + 1, sizeof *sums);
     s->normals = mem_alloc(((size_t)s->knot_count + 1) * sizeof *s->normals);
     for (uint32_t f = 0; f < m->face_count && sums && s->normals; f++) {
         double sign = m->closed[m->pieces[f]] && m->inward[m->pieces[f]] ? -1 : 1;
         for (uint32_t k = 0; k < 3; k++) {
-            vec3 p = m->places[m->faces[f][k]], q = m->places[m->faces[f][(k + 1) % 3]], r = m->places[m->faces[f][(k + 2) % 3]];
-            double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z, bx = (double)r.x - p.x, by = (double)r.y - p.y, bz = (double)r.z - p.z;
-            double weight = sign / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
+            vec3 p = m->places[m->faces[f][k]], q = m->places[m->faces[f][(k + 1) % 3]],
+                 r = m->places[m->faces[f][(k + 2) % 3]];
+            double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z, bx = (double)r.x - p.x,
+                   by = (double)r.y - p.y, bz = (double)r.z - p.z;
+            double  weight = sign / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
             double *sum = sums[s->corners[f][k]];
             sum[0] += weight * (ay * bz - az * by);
             sum[1] += weight * (az * bx - ax * bz);
@@ -94,7 +99,10 @@ static bool make_normals(form_surface *s, const edge_mesh *m)
     }
     for (uint32_t i = 0; i < s->knot_count && sums && s->normals; i++) {
         double length = sqrt(sums[i][0] * sums[i][0] + sums[i][1] * sums[i][1] + sums[i][2] * sums[i][2]);
-        s->normals[i] = length > 0 && isfinite(length) ? (vec3){(float)(sums[i][0] / length), (float)(sums[i][1] / length), (float)(sums[i][2] / length)} : (vec3){0, 0, 1};
+        s->normals[i] =
+            length > 0 && isfinite(length)
+                ? (vec3){(float)(sums[i][0] / length), (float)(sums[i][1] / length), (float)(sums[i][2] / length)}
+                : (vec3){0, 0, 1};
     }
     bool good = sums && s->normals;
     mem_free(sums);
@@ -126,7 +134,8 @@ lmn_status form_surface_make(form_surface *out, const edge_mesh *m, bool bends, 
         box = box3_union(box, m->boxes[i]);
     out->size = box3_is_empty(box) ? 0 : box3_diagonal(box);
     lmn_status status = pair_smooth(out, m, error);
-    if (status == LMN_OK && (!number_knots(out, m) || !make_normals(out, m) || !make_fans(out, m) || (bends && !form_bend_make(out, m))))
+    if (status == LMN_OK &&
+        (!number_knots(out, m) || !make_normals(out, m) || !make_fans(out, m) || (bends && !form_bend_make(out, m))))
         status = error_memory(error);
     if (status != LMN_OK)
         form_surface_release(out);

@@ -8,7 +8,7 @@
 /* Brings the eye to the model's axes. False when the model has no thickness there. */
 static bool bring_eye(form_view *f)
 {
-    mat4 whole = mat4_multiply(&f->v->camera.view, &f->item->world);
+    mat4   whole = mat4_multiply(&f->v->camera.view, &f->item->world);
     double cofactors[9], whole_volume = mat4_cofactors(&whole, cofactors), out[3];
     f->mirrored = whole_volume < 0;
     double from[3] = {-whole.m[12], -whole.m[13], -whole.m[14]};
@@ -19,12 +19,14 @@ static bool bring_eye(form_view *f)
     if (!(fabs(whole_volume) > 0))
         return false;
     for (int k = 0; k < 3; k++)
-        out[k] = (cofactors[3 * k] * from[0] + cofactors[3 * k + 1] * from[1] + cofactors[3 * k + 2] * from[2]) / whole_volume;
+        out[k] = (cofactors[3 * k] * from[0] + cofactors[3 * k + 1] * from[1] + cofactors[3 * k + 2] * from[2]) /
+                 whole_volume;
     f->eye = (double3){out[0], out[1], out[2]};
     return isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]);
 }
 
-bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_t item, const form_surface *s, bool *seen)
+bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_t item, const form_surface *s,
+                    bool *seen)
 {
     *f = (form_view){.out = out, .v = v, .item = &v->scene->items[item], .s = s, .index = item};
     f->m = &v->scene->meshes[f->item->mesh];
@@ -37,7 +39,7 @@ bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_
         return false;
     memset(f->numbers, 0xFF, (size_t)s->face_count * 3 * sizeof *f->numbers);
     for (uint32_t i = 0; i < s->knot_count; i++) {
-        vec3 p = f->m->places[s->vertices[i]], n = s->normals[i];
+        vec3    p = f->m->places[s->vertices[i]], n = s->normals[i];
         double3 d = form_direction(f, (double3){p.x, p.y, p.z});
         f->facing[i] = n.x * d.x + n.y * d.y + n.z * d.z;
     }
@@ -53,9 +55,9 @@ void form_view_close(form_view *f)
 
 double3 form_direction(const form_view *f, double3 place)
 {
-    bool parallel = f->v->camera.orthographic;
+    bool    parallel = f->v->camera.orthographic;
     double3 d = parallel ? f->eye : (double3){f->eye.x - place.x, f->eye.y - place.y, f->eye.z - place.z};
-    double length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    double  length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
     return length > 0 ? (double3){d.x / length, d.y / length, d.z / length} : (double3){0, 0, 0};
 }
 
@@ -68,9 +70,9 @@ double3 form_place(const form_view *f, uint32_t face, uint32_t corner)
 int form_side(const form_view *f, uint32_t face)
 {
     uint32_t piece = f->m->pieces[face];
-    vec3 n = f->m->normals[face];
-    double3 d = form_direction(f, form_place(f, face, 0));
-    double towards = n.x * d.x + n.y * d.y + n.z * d.z;
+    vec3     n = f->m->normals[face];
+    double3  d = form_direction(f, form_place(f, face, 0));
+    double   towards = n.x * d.x + n.y * d.y + n.z * d.z;
     if (!f->m->closed[piece])
         return (towards > 0) - (towards < 0);
     return (f->m->inward[piece] ? -towards : towards) > 0;
@@ -79,7 +81,8 @@ int form_side(const form_view *f, uint32_t face)
 form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *share)
 {
     uint32_t opposite = f->s->opposite[half], own = opposite < half ? opposite : half; /* NO_HALF is above all */
-    double first = own == half ? begin : end, last = own == half ? end : begin, at = first == last ? 0.5 : first / (first - last);
+    double   first = own == half ? begin : end, last = own == half ? end : begin,
+           at = first == last ? 0.5 : first / (first - last);
     double3 a = form_place(f, own / 3, own % 3), b = form_place(f, own / 3, own % 3 + 1);
     if (f->numbers[own] == NO_VERTEX)
         f->numbers[own] = f->out->end_count++;
@@ -90,15 +93,17 @@ form_end form_cross(form_view *f, uint32_t half, double begin, double end, doubl
 static double3 to_world(const form_view *f, double3 p)
 {
     const double *m = f->item->world.m;
-    return (double3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13], m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
+    return (double3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+                     m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
 }
 
 /* What is left of an end whose weight is below 0: where it reaches 0. */
 static form_end cut_end(form_view *f, form_end gone, form_end other)
 {
-    double share = gone.weight / (gone.weight - other.weight);
+    double  share = gone.weight / (gone.weight - other.weight);
     double3 p = gone.place, q = other.place;
-    return (form_end){{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)}, f->out->end_count++, 0};
+    return (form_end){
+        {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)}, f->out->end_count++, 0};
 }
 
 bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned)
@@ -109,10 +114,16 @@ bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_e
         a = cut_end(f, a, b);
     else if (b.weight < 0)
         b = cut_end(f, b, a);
-    uint32_t number = f->v->items[f->index].first_face + face;
+    uint32_t       number = f->v->items[f->index].first_face + face;
     const uint32_t faces[2] = {number, EDGE_NO_FACE};
-    view_line line = {kind, f->index, {a.number, b.number}, line_id((uint64_t)f->index << 32 | f->item->part_index, (uint64_t)kind << 40 | UINT64_C(1) << 56 | face),
-                      {fminf(a.weight, 1), fminf(b.weight, 1)}, false, turned};
+    view_line      line = {
+             kind,
+             f->index,
+             {a.number, b.number},
+             line_id((uint64_t)f->index << 32 | f->item->part_index, (uint64_t)kind << 40 | UINT64_C(1) << 56 | face),
+             {fminf(a.weight, 1), fminf(b.weight, 1)},
+             false,
+             turned};
     return lines_put(f->out, f->v, line, to_world(f, a.place), to_world(f, b.place), faces);
 }
 

@@ -1,4 +1,5 @@
-/* A smooth surface as one view sees it, and lines across its faces. All in the axes of the model, to which the eye is brought. */
+/* A smooth surface as one view sees it, and lines across its faces. All in the axes of the model, to which the eye
+ * is brought. */
 #ifndef LIMNER_STROKE_FORM_VIEW_H
 #define LIMNER_STROKE_FORM_VIEW_H
 
@@ -25,19 +26,23 @@ typedef struct form_end {
     float    weight; /* at most 1; what is below 0 is cut off */
 } form_end;
 
-/* Errors: false when memory is gone. `*seen` is false where the item is so squeezed that nothing can be seen of it. End with form_view_close. */
-bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_t item, const form_surface *s, bool *seen);
+/* Errors: false when memory is gone. `*seen` is false where the item is so squeezed that nothing can be seen of it.
+ * End with form_view_close. */
+bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_t item, const form_surface *s,
+                    bool *seen);
 void form_view_close(form_view *f);
 
 double3 form_direction(const form_view *f, double3 place); /* unit vector to the eye */
 double3 form_place(const form_view *f, uint32_t face, uint32_t corner);
-/* 1 when the face is seen from its outside, −1 from its inside, 0 when it is the inside of a closed body or seen edge-on: nobody sees it. */
-int     form_side(const form_view *f, uint32_t face);
+/* 1 when the face is seen from its outside, −1 from its inside, 0 when it is the inside of a closed body or seen
+ * edge-on: nobody sees it. */
+int form_side(const form_view *f, uint32_t face);
 
-/* Where a half-edge is crossed by what is `begin` at its begin and `end` at its end: the same place and number from either side. Also the share from its begin. */
+/* Where a half-edge is crossed by what is `begin` at its begin and `end` at its end: the same place and number from
+ * either side. Also the share from its begin. */
 form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *share);
 /* Adds a line across a face; `turned` as in view_line. False when memory is gone. */
-bool     form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned);
+bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned);
 
 /* --- smooth.c --- */
 /* Outlines by normals. */

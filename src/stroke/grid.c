@@ -1,6 +1,7 @@
-/* Triangles sorted into cells of the page. One size of cells would either hold crowds of small triangles or be filled over and over by large ones, so there are several
- * levels, each twice as coarse as the one below; a triangle lies in the finest one in which it spans few cells. Where small triangles crowd all the same, a cell has a finer
- * grid of its own. */
+/* Triangles sorted into cells of the page. One size of cells would either hold crowds of small triangles or be
+ * filled over and over by large ones, so there are several levels, each twice as coarse as the one below; a
+ * triangle lies in the finest one in which it spans few cells. Where small triangles crowd all the same, a cell has
+ * a finer grid of its own. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -44,7 +45,7 @@ static bool range_of(const grid_level *l, int32_t low_x, int32_t low_y, int32_t 
 static int level_of(const window_grid *g, const window_box *box)
 {
     int32_t width = box->high_x - box->low_x, height = box->high_y - box->low_y, side = width > height ? width : height;
-    int level = 0;
+    int     level = 0;
     while (level + 1 < GRID_LEVELS && side > GRID_SPAN * g->levels[level].cell)
         level++;
     return level;
@@ -57,9 +58,9 @@ typedef struct inside_test {
 
 static inside_test test_of(const stroke_view *v, const window_triangle *t)
 {
-    inside_test out;
+    inside_test  out;
     window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
-    double sign = window_side(p[0], p[1], p[2]) < 0 ? -1 : 1;
+    double       sign = window_side(p[0], p[1], p[2]) < 0 ? -1 : 1;
     for (int k = 0; k < 3; k++) {
         window_point from = p[k], to = p[k == 2 ? 0 : k + 1];
         out.a[k] = sign * ((double)from.y - to.y);
@@ -83,10 +84,10 @@ static bool touches(const grid_level *l, const inside_test *t, int32_t column, i
 static void enter(const grid_level *l, const stroke_view *v, uint32_t number, uint32_t *entries)
 {
     const window_box *box = &v->boxes[number];
-    cell_range range;
+    cell_range        range;
     if (!range_of(l, box->low_x, box->low_y, box->high_x, box->high_y, &range))
         return;
-    bool few = range.c0 == range.c1 || range.r0 == range.r1;
+    bool        few = range.c0 == range.c1 || range.r0 == range.r1;
     inside_test test = {{0}, {0}, {0}};
     if (!few)
         test = test_of(v, &v->triangles[number]);
@@ -102,7 +103,8 @@ static void enter(const grid_level *l, const stroke_view *v, uint32_t number, ui
         }
 }
 
-/* Makes each count where the cell's entries begin, one place on: filling moves it to their end. Returns where those of the next grid begin. */
+/* Makes each count where the cell's entries begin, one place on: filling moves it to their end. Returns where those
+ * of the next grid begin. */
 static uint32_t add_up(const grid_level *l, uint32_t total)
 {
     size_t cells = (size_t)l->columns * (size_t)l->rows;
@@ -119,12 +121,18 @@ static uint32_t add_up(const grid_level *l, uint32_t total)
 
 static bool make_levels(window_grid *g, const stroke_view *v)
 {
-    double width = v->camera.width * v->units, height = v->camera.height * v->units;
-    double wanted = sqrt(width * height / ((double)v->triangle_count / 2 + 256)), finest = fmax(width, height) / 1024;
+    double  width = v->camera.width * v->units, height = v->camera.height * v->units;
+    double  wanted = sqrt(width * height / ((double)v->triangle_count / 2 + 256)), finest = fmax(width, height) / 1024;
     int32_t cell = (int32_t)fmax(fmax(wanted, finest), 64);
     for (int k = 0; k < GRID_LEVELS; k++) {
         grid_level *l = &g->levels[k];
-        *l = (grid_level){(int32_t)(-width / 2), (int32_t)(-height / 2), cell, (int32_t)(width / cell) + 1, (int32_t)(height / cell) + 1, NULL, NULL};
+        *l = (grid_level){(int32_t)(-width / 2),
+                          (int32_t)(-height / 2),
+                          cell,
+                          (int32_t)(width / cell) + 1,
+                          (int32_t)(height / cell) + 1,
+                          NULL,
+                          NULL};
         l->starts = mem_calloc((size_t)l->columns * (size_t)l->rows + 2, sizeof *l->starts);
         if (!l->starts)
             return false;
@@ -136,15 +144,22 @@ static bool make_levels(window_grid *g, const stroke_view *v)
 /* A finer grid for the triangles of a crowded cell. Starts are numbers in sub_starts until all are made. */
 static bool divide_cell(window_grid *g, const stroke_view *v, grid_level *l, int32_t column, int32_t row)
 {
-    size_t number = (size_t)row * (size_t)l->columns + (size_t)column;
+    size_t   number = (size_t)row * (size_t)l->columns + (size_t)column;
     uint32_t begin = l->starts[number], count = l->starts[number + 1] - begin;
-    int32_t side = (int32_t)sqrt((double)count / FEW);
+    int32_t  side = (int32_t)sqrt((double)count / FEW);
     side = side < SUB_SIDE_MAX ? side : SUB_SIDE_MAX;
     size_t cells = (size_t)side * (size_t)side;
     if (!mem_grow((void **)&g->subs, &g->sub_capacity, g->sub_count + 1, sizeof *g->subs) ||
-        !mem_grow((void **)&g->sub_starts, &g->sub_start_capacity, g->sub_start_count + cells + 2, sizeof *g->sub_starts))
+        !mem_grow((void **)&g->sub_starts, &g->sub_start_capacity, g->sub_start_count + cells + 2,
+                  sizeof *g->sub_starts))
         return false;
-    grid_level sub = {l->low_x + column * l->cell, l->low_y + row * l->cell, (l->cell + side - 1) / side, side, side, g->sub_starts + g->sub_start_count, NULL};
+    grid_level sub = {l->low_x + column * l->cell,
+                      l->low_y + row * l->cell,
+                      (l->cell + side - 1) / side,
+                      side,
+                      side,
+                      g->sub_starts + g->sub_start_count,
+                      NULL};
     memset(sub.starts, 0, (cells + 2) * sizeof *sub.starts);
     for (uint32_t i = 0; i < count; i++)
         enter(&sub, v, g->entries[begin + i], NULL);
@@ -165,7 +180,7 @@ static bool divide_crowds(window_grid *g, const stroke_view *v)
 {
     for (int k = 0; k < GRID_LEVELS; k++) {
         grid_level *l = &g->levels[k];
-        size_t cells = (size_t)l->columns * (size_t)l->rows;
+        size_t      cells = (size_t)l->columns * (size_t)l->rows;
         if (l->starts[cells] == l->starts[0])
             continue;
         l->subs = mem_calloc(cells, sizeof *l->subs);
@@ -217,7 +232,7 @@ void grid_release(window_grid *g)
     memset(g, 0, sizeof *g);
 }
 
-/* --- walking ------------------------------------------------------------------------------------------------------- */
+/* --- walking -------------------------------------------------------------------------------------------- */
 
 typedef struct walk {
     const window_grid *g;
@@ -230,14 +245,16 @@ typedef struct walk {
 /* The columns of a row that a segment touches. */
 static void columns_of(const walk *w, const grid_level *l, int32_t row, cell_range *range)
 {
-    double top = (double)l->low_y + (double)row * l->cell, bottom = top + l->cell, height = (double)w->b.y - w->a.y, width = (double)w->b.x - w->a.x;
+    double top = (double)l->low_y + (double)row * l->cell, bottom = top + l->cell, height = (double)w->b.y - w->a.y,
+           width = (double)w->b.x - w->a.x;
     double from = w->a.x, to = w->b.x;
     if (w->a.y < top)
         from = w->a.x + width * ((top - w->a.y) / height);
     if (w->b.y > bottom)
         to = w->a.x + width * ((bottom - w->a.y) / height);
-    double low = (from < to ? from : to) - 1, high = (from < to ? to : from) + 1;
-    int32_t c0 = cell_of((int32_t)low, l->low_x, l->cell, l->columns), c1 = cell_of((int32_t)high, l->low_x, l->cell, l->columns);
+    double  low = (from < to ? from : to) - 1, high = (from < to ? to : from) + 1;
+    int32_t c0 = cell_of((int32_t)low, l->low_x, l->cell, l->columns),
+            c1 = cell_of((int32_t)high, l->low_x, l->cell, l->columns);
     range->c0 = c0 < range->c0 ? range->c0 : c0;
     range->c1 = c1 > range->c1 ? range->c1 : c1;
 }
@@ -253,7 +270,7 @@ static void walk_level(const walk *w, const grid_level *l, const uint32_t *entri
         if (range.r0 != range.r1 && range.c0 != range.c1)
             columns_of(w, l, r, &row);
         for (int32_t c = row.c0; c <= row.c1; c++) {
-            size_t number = (size_t)r * (size_t)l->columns + (size_t)c;
+            size_t   number = (size_t)r * (size_t)l->columns + (size_t)c;
             uint32_t begin = l->starts[number], end = l->starts[number + 1];
             if (begin == end)
                 continue;

@@ -1,4 +1,5 @@
-/* Boxes around boxes: sorted along a curve that stays near where it is (Morton order), then split where the curve changes most. */
+/* Boxes around boxes: sorted along a curve that stays near where it is (Morton order), then split where the curve
+ * changes most. */
 #include "stroke/stroke_private.h"
 
 #include <string.h>
@@ -32,11 +33,12 @@ static void place_on_curve(curve_key *keys, const box3 *boxes, uint32_t count)
     for (uint32_t i = 0; i < count; i++)
         all = box3_union(all, boxes[i]);
     const float side = 1 << CURVE_BITS;
-    vec3 size = {all.max.x - all.min.x, all.max.y - all.min.y, all.max.z - all.min.z};
+    vec3        size = {all.max.x - all.min.x, all.max.y - all.min.y, all.max.z - all.min.z};
     vec3 scale = {size.x > 0 ? side / size.x : 0, size.y > 0 ? side / size.y : 0, size.z > 0 ? side / size.z : 0};
     for (uint32_t i = 0; i < count; i++) {
         const box3 *b = &boxes[i];
-        uint32_t x = step_along(0.5f * (b->min.x + b->max.x), all.min.x, scale.x), y = step_along(0.5f * (b->min.y + b->max.y), all.min.y, scale.y),
+        uint32_t    x = step_along(0.5f * (b->min.x + b->max.x), all.min.x, scale.x),
+                 y = step_along(0.5f * (b->min.y + b->max.y), all.min.y, scale.y),
                  z = step_along(0.5f * (b->min.z + b->max.z), all.min.z, scale.z);
         keys[i] = (curve_key){spread(x) | spread(y) << 1 | spread(z) << 2, i};
     }
@@ -149,11 +151,12 @@ void hierarchy_release(hierarchy *h)
     memset(h, 0, sizeof *h);
 }
 
-/* --- pairs --------------------------------------------------------------------------------------------------------- */
+/* --- pairs ---------------------------------------------------------------------------------------------- */
 
 static bool meet(const box3 *a, const box3 *b)
 {
-    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y && b->min.y <= a->max.y && a->min.z <= b->max.z && b->min.z <= a->max.z;
+    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y && b->min.y <= a->max.y &&
+           a->min.z <= b->max.z && b->min.z <= a->max.z;
 }
 
 typedef struct pair_search {

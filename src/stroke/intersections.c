@@ -1,5 +1,6 @@
-/* Where pieces of surface run through each other. Most faces are nowhere near another piece: boxes of pieces that overlap mark the cells of a coarse grid, only faces in
- * marked cells are sorted into a tree of boxes, and only those whose boxes meet are compared. */
+/* Where pieces of surface run through each other. Most faces are nowhere near another piece: boxes of pieces that
+ * overlap mark the cells of a coarse grid, only faces in marked cells are sorted into a tree of boxes, and only
+ * those whose boxes meet are compared. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -21,11 +22,11 @@ typedef struct crossing_search {
     box3               *piece_boxes; /* world axes */
     uint8_t            *piece_meets; /* another one's box */
     uint32_t            piece_count;
-    box3                region;      /* of all overlaps */
-    uint64_t           *marks;       /* MARK_SIDE² words: cells where boxes overlap */
+    box3                region; /* of all overlaps */
+    uint64_t           *marks;  /* MARK_SIDE² words: cells where boxes overlap */
     near_face          *faces;
     box3               *boxes;
-    uint32_t           *pieces;      /* per near face, of all items */
+    uint32_t           *pieces; /* per near face, of all items */
     size_t              face_count, face_capacity, box_capacity, kin_capacity;
     double              same;
     crossing_list      *out;
@@ -46,7 +47,7 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-/* --- candidates ---------------------------------------------------------------------------------------------------- */
+/* --- candidates ----------------------------------------------------------------------------------------- */
 
 static bool is_identity(const mat4 *m)
 {
@@ -82,7 +83,7 @@ static lmn_status number_pieces(crossing_search *s, lmn_error *error)
 static bool widen_region(void *user, uint32_t a, uint32_t b)
 {
     crossing_search *s = user;
-    const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
+    const box3      *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
     s->piece_meets[a] = s->piece_meets[b] = 1;
     box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
                  {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
@@ -103,8 +104,10 @@ typedef struct mark_range {
 static mark_range marks_of(const crossing_search *s, const box3 *b)
 {
     const box3 *r = &s->region;
-    return (mark_range){{mark_of(b->min.x, r->min.x, r->max.x), mark_of(b->min.y, r->min.y, r->max.y), mark_of(b->min.z, r->min.z, r->max.z)},
-                        {mark_of(b->max.x, r->min.x, r->max.x), mark_of(b->max.y, r->min.y, r->max.y), mark_of(b->max.z, r->min.z, r->max.z)}};
+    return (mark_range){{mark_of(b->min.x, r->min.x, r->max.x), mark_of(b->min.y, r->min.y, r->max.y),
+                         mark_of(b->min.z, r->min.z, r->max.z)},
+                        {mark_of(b->max.x, r->min.x, r->max.x), mark_of(b->max.y, r->min.y, r->max.y),
+                         mark_of(b->max.z, r->min.z, r->max.z)}};
 }
 
 static uint64_t bits_between(int low, int high)
@@ -116,10 +119,10 @@ static uint64_t bits_between(int low, int high)
 static bool mark_region(void *user, uint32_t a, uint32_t b)
 {
     crossing_search *s = user;
-    const box3 *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
-    box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
-                 {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
-    mark_range r = marks_of(s, &both);
+    const box3      *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
+    box3             both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
+                             {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
+    mark_range       r = marks_of(s, &both);
     for (int z = r.low[2]; z <= r.high[2]; z++)
         for (int y = r.low[1]; y <= r.high[1]; y++)
             s->marks[z * MARK_SIDE + y] |= bits_between(r.low[0], r.high[0]);
@@ -129,10 +132,11 @@ static bool mark_region(void *user, uint32_t a, uint32_t b)
 static bool is_marked(const crossing_search *s, const box3 *b)
 {
     const box3 *r = &s->region;
-    if (b->min.x > r->max.x || b->max.x < r->min.x || b->min.y > r->max.y || b->max.y < r->min.y || b->min.z > r->max.z || b->max.z < r->min.z)
+    if (b->min.x > r->max.x || b->max.x < r->min.x || b->min.y > r->max.y || b->max.y < r->min.y ||
+        b->min.z > r->max.z || b->max.z < r->min.z)
         return false;
     mark_range m = marks_of(s, b);
-    uint64_t bits = bits_between(m.low[0], m.high[0]);
+    uint64_t   bits = bits_between(m.low[0], m.high[0]);
     for (int z = m.low[2]; z <= m.high[2]; z++)
         for (int y = m.low[1]; y <= m.high[1]; y++)
             if (s->marks[z * MARK_SIDE + y] & bits)
@@ -147,16 +151,18 @@ static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, ui
         p[k] = m->places[m->faces[face][k]];
         p[k] = still ? p[k] : mat4_transform_point(&item->world, p[k]);
     }
-    return (box3){{smaller(p[0].x, smaller(p[1].x, p[2].x)), smaller(p[0].y, smaller(p[1].y, p[2].y)), smaller(p[0].z, smaller(p[1].z, p[2].z))},
-                  {larger(p[0].x, larger(p[1].x, p[2].x)), larger(p[0].y, larger(p[1].y, p[2].y)), larger(p[0].z, larger(p[1].z, p[2].z))}};
+    return (box3){{smaller(p[0].x, smaller(p[1].x, p[2].x)), smaller(p[0].y, smaller(p[1].y, p[2].y)),
+                   smaller(p[0].z, smaller(p[1].z, p[2].z))},
+                  {larger(p[0].x, larger(p[1].x, p[2].x)), larger(p[0].y, larger(p[1].y, p[2].y)),
+                   larger(p[0].z, larger(p[1].z, p[2].z))}};
 }
 
 static lmn_status gather_faces(crossing_search *s, lmn_error *error)
 {
     for (uint32_t i = 0; i < s->scene->item_count; i++) {
         const stroke_item *item = &s->scene->items[i];
-        const edge_mesh *m = &s->scene->meshes[item->mesh];
-        bool still = s->still[i];
+        const edge_mesh   *m = &s->scene->meshes[item->mesh];
+        bool               still = s->still[i];
         for (uint32_t f = 0; f < m->face_count; f++) {
             uint32_t piece = s->first_piece[i] + m->pieces[f];
             if (!s->piece_meets[piece])
@@ -176,19 +182,19 @@ static lmn_status gather_faces(crossing_search *s, lmn_error *error)
     return LMN_OK;
 }
 
-/* --- two faces ----------------------------------------------------------------------------------------------------- */
+/* --- two faces ------------------------------------------------------------------------------------------ */
 
 typedef struct world_face {
     double3  p[3], normal; /* unit */
     uint32_t vertices[3];
-    double   heights[3];   /* over the other one's plane */
+    double   heights[3]; /* over the other one's plane */
 } world_face;
 
 static world_face load_face(const crossing_search *s, const near_face *n)
 {
     const stroke_item *item = &s->scene->items[n->item];
-    const edge_mesh *m = &s->scene->meshes[item->mesh];
-    world_face out = {.vertices = {m->faces[n->face][0], m->faces[n->face][1], m->faces[n->face][2]}};
+    const edge_mesh   *m = &s->scene->meshes[item->mesh];
+    world_face         out = {.vertices = {m->faces[n->face][0], m->faces[n->face][1], m->faces[n->face][2]}};
     for (int k = 0; k < 3; k++) {
         vec3 p = m->places[out.vertices[k]];
         out.p[k] = s->still[n->item] ? (double3){p.x, p.y, p.z} : item_place(item, p);
@@ -198,7 +204,7 @@ static world_face load_face(const crossing_search *s, const near_face *n)
         return out;
     }
     double3 normal = double3_cross(double3_minus(out.p[1], out.p[0]), double3_minus(out.p[2], out.p[0]));
-    double length = sqrt(double3_dot(normal, normal));
+    double  length = sqrt(double3_dot(normal, normal));
     out.normal = length > 0 ? (double3){normal.x / length, normal.y / length, normal.z / length} : (double3){0, 0, 0};
     return out;
 }
@@ -228,7 +234,7 @@ static double3 edge_at_plane(const world_face *f, int from, int to)
         return f->p[from];
     if (f->heights[to] == 0)
         return f->p[to];
-    double share = f->heights[from] / (f->heights[from] - f->heights[to]);
+    double  share = f->heights[from] / (f->heights[from] - f->heights[to]);
     double3 p = f->p[from], q = f->p[to];
     return (double3){p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)};
 }
@@ -246,13 +252,14 @@ static void rim_at_plane(const world_face *f, double3 out[2])
     }
 }
 
-/* Does one face lie clear of the other one's plane? A first look for faces of one mesh that is not moved, with less arithmetic. */
+/* Does one face lie clear of the other one's plane? A first look for faces of one mesh that is not moved, with less
+ * arithmetic. */
 static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face, uint32_t plane)
 {
-    vec3 normal = m->normals[plane], origin = m->places[m->faces[plane][0]];
+    vec3  normal = m->normals[plane], origin = m->places[m->faces[plane][0]];
     float least = INFINITY, most = -INFINITY, room = (float)(4 * s->same);
     for (int k = 0; k < 3; k++) {
-        vec3 p = m->places[m->faces[face][k]];
+        vec3  p = m->places[m->faces[face][k]];
         float height = (p.x - origin.x) * normal.x + (p.y - origin.y) * normal.y + (p.z - origin.z) * normal.z;
         least = smaller(least, height);
         most = larger(most, height);
@@ -284,8 +291,10 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     double3 along = double3_cross(a.normal, b.normal), p[2], q[2];
     rim_at_plane(&a, p);
     rim_at_plane(&b, q);
-    int p0 = double3_dot(along, p[0]) <= double3_dot(along, p[1]) ? 0 : 1, q0 = double3_dot(along, q[0]) <= double3_dot(along, q[1]) ? 0 : 1;
-    double3 begin = double3_dot(along, p[p0]) >= double3_dot(along, q[q0]) ? p[p0] : q[q0], end = double3_dot(along, p[1 - p0]) <= double3_dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
+    int p0 = double3_dot(along, p[0]) <= double3_dot(along, p[1]) ? 0 : 1,
+        q0 = double3_dot(along, q[0]) <= double3_dot(along, q[1]) ? 0 : 1;
+    double3 begin = double3_dot(along, p[p0]) >= double3_dot(along, q[q0]) ? p[p0] : q[q0],
+            end = double3_dot(along, p[1 - p0]) <= double3_dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
     double3 length = double3_minus(end, begin);
     if (double3_dot(along, length) <= 0 || double3_dot(length, length) <= s->same * s->same)
         return true;
@@ -297,11 +306,11 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     return true;
 }
 
-/* --- all ----------------------------------------------------------------------------------------------------------- */
+/* --- all ------------------------------------------------------------------------------------------------ */
 
 static lmn_status search(crossing_search *s, lmn_error *error)
 {
-    hierarchy tree;
+    hierarchy  tree;
     lmn_status status = number_pieces(s, error);
     if (status == LMN_OK)
         status = hierarchy_build(&tree, s->piece_boxes, NULL, s->piece_count, error);
@@ -325,12 +334,17 @@ static lmn_status search(crossing_search *s, lmn_error *error)
     return s->failed ? error_memory(error) : LMN_OK;
 }
 
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user, lmn_error *error)
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
+                          lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    crossing_search s = {.scene = scene, .out = out, .region = box3_empty(), .progress = progress, .user = user,
+    crossing_search s = {.scene = scene,
+                         .out = out,
+                         .region = box3_empty(),
+                         .progress = progress,
+                         .user = user,
                          .same = SAME_PLACE * scene->reach};
-    lmn_status status = search(&s, error);
+    lmn_status      status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);
     mem_free(s.piece_boxes);

@@ -1,5 +1,5 @@
-/* Strokes whose ends almost touch become one. The outline of a polygon mesh jumps from one row of edges to the next over edges that no one ever sees; on the page the
- * pieces follow each other, and a hand would draw them in one go. */
+/* Strokes whose ends almost touch become one. The outline of a polygon mesh jumps from one row of edges to the next
+ * over edges that no one ever sees; on the page the pieces follow each other, and a hand would draw them in one go. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@
 #include "base/memory.h"
 
 /* Ends this far apart are joined, pixels; those closer than OVERLAP even where one runs past the other. */
-#define GAP 1.0f
+#define GAP     1.0f
 #define OVERLAP 0.7f
 /* Sharp lines whose ends are closer than this have been ended there, at a corner. */
 #define TOUCH 0.02f
 /* How much of a stroke says which way its end points, pixels. */
 #define REACH 2.5f
 /* Cosine of how much a joined stroke may turn, and how much deeper it may go on, in pixels. */
-#define TURN 0.6f
+#define TURN  0.6f
 #define DEPTH 12.0f
 
 /* An end of a stroke: number 2 · stroke, + 1 for its last point. */
@@ -40,15 +40,15 @@ typedef struct joiner {
     size_t      mask;
     candidate  *candidates;
     size_t      candidate_count, candidate_capacity;
-    uint32_t   *partners;      /* per end; NO_VERTEX: none */
-    uint32_t   *first_marks;   /* per chain, and one more */
+    uint32_t   *partners;    /* per end; NO_VERTEX: none */
+    uint32_t   *first_marks; /* per chain, and one more */
 } joiner;
 
 static stroke_end end_of(const joiner *j, uint32_t number)
 {
-    const stroke *s = &j->set->strokes[number / 2];
+    const stroke       *s = &j->set->strokes[number / 2];
     const stroke_point *p = &j->set->points[s->first], *from = number & 1 ? p + s->count - 1 : p, *to = from;
-    float x = 0, y = 0;
+    float               x = 0, y = 0;
     for (uint32_t i = 1; i < s->count && x * x + y * y < REACH * REACH; i++) {
         to = number & 1 ? from - i : from + i;
         x = from->x - to->x;
@@ -56,12 +56,20 @@ static stroke_end end_of(const joiner *j, uint32_t number)
     }
     float length = sqrtf(x * x + y * y);
     float share = length > 0 ? 1 / length : 0;
-    return (stroke_end){from->x, from->y, from->depth, x * share, y * share, (int32_t)floorf(from->x / GAP), (int32_t)floorf(from->y / GAP)};
+    return (stroke_end){from->x,
+                        from->y,
+                        from->depth,
+                        x * share,
+                        y * share,
+                        (int32_t)floorf(from->x / GAP),
+                        (int32_t)floorf(from->y / GAP)};
 }
 
 static size_t cell_hash(int32_t column, int32_t row)
 {
-    return (size_t)((uint64_t)(uint32_t)column * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)(uint32_t)row * UINT64_C(0xC2B2AE3D27D4EB4F)) >> 20;
+    return (size_t)((uint64_t)(uint32_t)column * UINT64_C(0x9E3779B97F4A7C15) ^
+                    (uint64_t)(uint32_t)row * UINT64_C(0xC2B2AE3D27D4EB4F)) >>
+           20;
 }
 
 static bool put_ends(joiner *j)
@@ -90,13 +98,16 @@ static bool put_ends(joiner *j)
 /* What joining two ends costs; below 0: they are not joined. */
 static float cost_of(const joiner *j, uint32_t a, uint32_t b)
 {
-    const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
+    const stroke     *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
     const stroke_end *p = &j->ends[a], *q = &j->ends[b];
-    if (s->kind != t->kind || s->part != t->part || s->smooth != t->smooth || s->hidden_by != t->hidden_by || s->closed || t->closed || (s == t && s->count < 4))
+    if (s->kind != t->kind || s->part != t->part || s->smooth != t->smooth || s->hidden_by != t->hidden_by ||
+        s->closed || t->closed || (s == t && s->count < 4))
         return -1;
-    float x = q->x - p->x, y = q->y - p->y, length = sqrtf(x * x + y * y), turn = -(p->out_x * q->out_x + p->out_y * q->out_y);
+    float x = q->x - p->x, y = q->y - p->y, length = sqrtf(x * x + y * y),
+          turn = -(p->out_x * q->out_x + p->out_y * q->out_y);
     double deeper = fabs((double)p->depth - q->depth) * j->focal / (j->orthographic ? 1 : p->depth);
-    bool corner = length < TOUCH && (s->kind == STROKE_CREASE || s->kind == STROKE_BORDER || s->kind == STROKE_MATERIAL);
+    bool   corner =
+        length < TOUCH && (s->kind == STROKE_CREASE || s->kind == STROKE_BORDER || s->kind == STROKE_MATERIAL);
     if (length > GAP || turn < TURN || deeper > DEPTH || corner)
         return -1;
     bool ahead = x * p->out_x + y * p->out_y >= TURN * length && -x * q->out_x - y * q->out_y >= TURN * length;
@@ -114,7 +125,8 @@ static bool find_candidates(joiner *j, uint32_t a)
                 float cost = cost_of(j, a, b);
                 if (cost < 0)
                     continue;
-                if (!mem_grow((void **)&j->candidates, &j->candidate_capacity, j->candidate_count + 1, sizeof *j->candidates))
+                if (!mem_grow((void **)&j->candidates, &j->candidate_capacity, j->candidate_count + 1,
+                              sizeof *j->candidates))
                     return false;
                 j->candidates[j->candidate_count++] = (candidate){cost, {a, b}};
             }
@@ -126,7 +138,9 @@ static int compare_candidates(const void *a, const void *b)
     const candidate *p = a, *q = b;
     if (p->cost != q->cost)
         return p->cost < q->cost ? -1 : 1;
-    return p->ends[0] != q->ends[0] ? (p->ends[0] < q->ends[0] ? -1 : 1) : p->ends[1] < q->ends[1] ? -1 : p->ends[1] > q->ends[1];
+    return p->ends[0] != q->ends[0]  ? (p->ends[0] < q->ends[0] ? -1 : 1)
+           : p->ends[1] < q->ends[1] ? -1
+                                     : p->ends[1] > q->ends[1];
 }
 
 /* The best ones first, each end once. */
@@ -147,7 +161,7 @@ static bool match_ends(joiner *j)
     return true;
 }
 
-/* --- joined strokes ------------------------------------------------------------------------------------------------ */
+/* --- joined strokes ------------------------------------------------------------------------------------- */
 
 typedef struct joined {
     stroke       *strokes;
@@ -173,7 +187,7 @@ static bool index_marks(joiner *j)
 static void put_marks(joined *out, const joiner *j, uint32_t entry, float from, uint32_t chain)
 {
     const stroke *s = &j->set->strokes[entry / 2];
-    float begin = j->set->points[s->first].arc, end = j->set->points[s->first + s->count - 1].arc;
+    float         begin = j->set->points[s->first].arc, end = j->set->points[s->first + s->count - 1].arc;
     for (uint32_t i = j->first_marks[s->chain]; i < j->first_marks[s->chain + 1]; i++) {
         stroke_mark m = j->set->marks[i];
         if (m.arc < begin || m.arc > end)
@@ -186,7 +200,8 @@ static void put_marks(joined *out, const joiner *j, uint32_t entry, float from, 
     }
 }
 
-/* Appends a stroke's points, the last first when it is entered at its last end. The first one is left out where it only repeats the place that has been reached. */
+/* Appends a stroke's points, the last first when it is entered at its last end. The first one is left out where it
+ * only repeats the place that has been reached. */
 static void put_points(joined *out, const stroke_set *set, uint32_t entry, bool goes_on)
 {
     const stroke *s = &set->strokes[entry / 2];
@@ -209,9 +224,9 @@ static void measure(joined *out, stroke *s)
 /* One stroke with all that is joined to it. `entry`: the end that it begins with. */
 static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
 {
-    stroke s = j->set->strokes[entry / 2];
+    stroke   s = j->set->strokes[entry / 2];
     uint32_t first = entry;
-    float arc = 0;
+    float    arc = 0;
     s.first = (uint32_t)out->point_count;
     bool alone = j->partners[entry ^ 1] == NO_VERTEX;
     if (!alone)
@@ -241,9 +256,16 @@ static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
 static bool put_all(joiner *j)
 {
     stroke_set *set = j->set;
-    joined out = {mem_alloc((set->stroke_count + 1) * sizeof(stroke)), mem_alloc((set->point_count + 1) * sizeof(stroke_point)), NULL, 0, 0, 0, 0, false};
-    uint8_t *used = mem_calloc(set->stroke_count + 1, 1);
-    bool good = out.strokes && out.points && used && index_marks(j);
+    joined      out = {mem_alloc((set->stroke_count + 1) * sizeof(stroke)),
+                       mem_alloc((set->point_count + 1) * sizeof(stroke_point)),
+                       NULL,
+                       0,
+                       0,
+                       0,
+                       0,
+                       false};
+    uint8_t    *used = mem_calloc(set->stroke_count + 1, 1);
+    bool        good = out.strokes && out.points && used && index_marks(j);
     for (int rings = 0; rings < 2 && good; rings++) /* what has an end, then what has come full circle */
         for (uint32_t i = 0; i < set->stroke_count; i++) {
             bool first_free = j->partners[2 * i] == NO_VERTEX, last_free = j->partners[2 * i + 1] == NO_VERTEX;
@@ -251,7 +273,9 @@ static bool put_all(joiner *j)
                 put_joined(&out, j, rings || first_free ? 2 * i : 2 * i + 1, used);
         }
     mem_free(used);
-    good = good && !out.failed && mem_grow((void **)&set->marks, &(size_t){set->mark_count}, set->mark_count + out.mark_count, sizeof *set->marks);
+    good = good && !out.failed &&
+           mem_grow((void **)&set->marks, &(size_t){set->mark_count}, set->mark_count + out.mark_count,
+                    sizeof *set->marks);
     if (good && out.mark_count)
         memcpy(set->marks + set->mark_count, out.marks, out.mark_count * sizeof *out.marks);
     mem_free(out.marks);
@@ -282,8 +306,10 @@ static int compare_strokes(const void *a, const void *b)
 
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error)
 {
-    joiner j = {.set = set, .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]), .orthographic = v->camera.orthographic};
-    bool good = put_ends(&j) && match_ends(&j) && put_all(&j);
+    joiner j = {.set = set,
+                .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]),
+                .orthographic = v->camera.orthographic};
+    bool   good = put_ends(&j) && match_ends(&j) && put_all(&j);
     if (good && set->stroke_count)
         qsort(set->strokes, set->stroke_count, sizeof *set->strokes, compare_strokes);
     mem_free(j.ends);

@@ -1,4 +1,5 @@
-/* The lines of one view: edges that are always drawn, edges where front and back meet, and where pieces run through each other. Freudenberg 2003, section 7.1.3; rows OE-03, OE-05. */
+/* The lines of one view: edges that are always drawn, edges where front and back meet, and where pieces run through
+ * each other. Freudenberg 2003, section 7.1.3; rows OE-03, OE-05. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -7,7 +8,8 @@
 #include "base/memory.h"
 #include "stroke/butterfly_mesh.h"
 
-static const char *const class_names[STROKE_CLASS_COUNT] = {"contour", "border", "crease", "intersection", "material", "suggestive", "ridge", "valley", "apparent"};
+static const char *const class_names[STROKE_CLASS_COUNT] = {
+    "contour", "border", "crease", "intersection", "material", "suggestive", "ridge", "valley", "apparent"};
 
 const char *stroke_class_name(stroke_class c)
 {
@@ -15,14 +17,14 @@ const char *stroke_class_name(stroke_class c)
 }
 
 typedef struct collector {
-    view_lines          *out;
-    const stroke_view   *v;
+    view_lines           *out;
+    const stroke_view    *v;
     const stroke_options *options;
-    const bool          *parts;
-    double3             *places;  /* of the ends that only lines have, from v->vertex_count on */
-    uint32_t            *slots;   /* hash table of them; NO_VERTEX when empty */
-    size_t               place_count, place_capacity, slot_mask;
-    uint8_t             *outline; /* per edge of a refined mesh: the silhouette that was propagated runs along it */
+    const bool           *parts;
+    double3              *places; /* of the ends that only lines have, from v->vertex_count on */
+    uint32_t             *slots;  /* hash table of them; NO_VERTEX when empty */
+    size_t                place_count, place_capacity, slot_mask;
+    uint8_t              *outline; /* per edge of a refined mesh: the silhouette that was propagated runs along it */
 } collector;
 
 uint64_t line_id(uint64_t a, uint64_t b)
@@ -62,8 +64,9 @@ bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a,
         return true;
     window_segment s = {.ends = {NO_VERTEX, NO_VERTEX}, .faces = {faces[0], faces[1]}};
     for (int k = 0; k < 2; k++) {
-        bool whole = cut[k] == k; /* nothing is cut off at this end */
-        double share = whole ? k : cut[k] + (k ? -1e-9 : 1e-9); /* a little inside, where rounding cannot put it outside again */
+        bool   whole = cut[k] == k; /* nothing is cut off at this end */
+        double share =
+            whole ? k : cut[k] + (k ? -1e-9 : 1e-9); /* a little inside, where rounding cannot put it outside again */
         if (!view_place(v, between(a, b, share), k ? &s.b : &s.a))
             return true;
         if (!whole)
@@ -72,7 +75,7 @@ bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a,
     return !is_near_page(v, s.a, s.b) || put_line(out, line, s);
 }
 
-/* --- edges --------------------------------------------------------------------------------------------------------- */
+/* --- edges ---------------------------------------------------------------------------------------------- */
 
 /* What the edge is in this view; STROKE_CLASS_COUNT: no line. */
 static stroke_class class_of(const collector *c, const mesh_edge *e, uint32_t first_face)
@@ -96,16 +99,23 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
 {
     const stroke_view *v = c->v;
     const stroke_item *item = &v->scene->items[index];
-    const edge_mesh *m = &v->scene->meshes[item->mesh];
-    const view_item *at = &v->items[index];
-    uint32_t a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
-    const uint32_t faces[2] = {at->first_face + e->face[0], e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
-    view_line line = {kind, index, {a, b}, id, {1, 1}, (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0,
-                      kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
+    const edge_mesh   *m = &v->scene->meshes[item->mesh];
+    const view_item   *at = &v->items[index];
+    uint32_t           a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
+    const uint32_t     faces[2] = {at->first_face + e->face[0],
+                               e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
+    view_line          line = {kind,
+                               index,
+                               {a, b},
+                               id,
+                               {1, 1},
+                               (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0,
+                               kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
     if (v->outside[a] & v->outside[b])
         return true;
     if (v->outside[a] | v->outside[b])
-        return lines_put(c->out, v, line, item_place(item, m->places[e->vertex[0]]), item_place(item, m->places[e->vertex[1]]), faces);
+        return lines_put(c->out, v, line, item_place(item, m->places[e->vertex[0]]),
+                         item_place(item, m->places[e->vertex[1]]), faces);
     window_segment s = {.a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}};
     return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
 }
@@ -119,13 +129,14 @@ typedef struct front_test {
 /* On the last level as the view has it, so that nothing is found that the view does not show. */
 static bool is_front(void *user, uint32_t level, uint32_t face)
 {
-    const front_test *t = user;
+    const front_test      *t = user;
     const edge_refinement *r = t->mesh->refinement;
     if (level + 1 == r->surface.level_count && r->faces[face] != EDGE_NO_FACE)
         return view_is_front(t->v, t->v->items[t->item].first_face + r->faces[face]);
-    const uint32_t *corners = r->surface.levels[level].faces[face];
+    const uint32_t    *corners = r->surface.levels[level].faces[face];
     const stroke_item *item = &t->v->scene->items[t->item];
-    return view_shows_front(t->v, item_place(item, t->mesh->places[corners[0]]), item_place(item, t->mesh->places[corners[1]]),
+    return view_shows_front(t->v, item_place(item, t->mesh->places[corners[0]]),
+                            item_place(item, t->mesh->places[corners[1]]),
                             item_place(item, t->mesh->places[corners[2]]));
 }
 
@@ -145,19 +156,20 @@ static lmn_status find_outline(collector *c, uint32_t index, lmn_error *error)
 static bool collect_edges(collector *c, uint32_t index)
 {
     const stroke_item *item = &c->v->scene->items[index];
-    const edge_mesh *m = &c->v->scene->meshes[item->mesh];
-    uint32_t first_face = c->v->items[index].first_face;
+    const edge_mesh   *m = &c->v->scene->meshes[item->mesh];
+    uint32_t           first_face = c->v->items[index].first_face;
     for (uint32_t i = 0; i < m->edge_count; i++) {
         stroke_class kind = class_of(c, &m->edges[i], first_face);
         if (kind == STROKE_CONTOUR && c->outline && !c->outline[i] && !(m->edges[i].flags & EDGE_CREASE))
             continue;
-        if (kind != STROKE_CLASS_COUNT && !put_edge(c, index, &m->edges[i], line_id((uint64_t)index << 32 | item->part_index, i), kind))
+        if (kind != STROKE_CLASS_COUNT &&
+            !put_edge(c, index, &m->edges[i], line_id((uint64_t)index << 32 | item->part_index, i), kind))
             return false;
     }
     return true;
 }
 
-/* --- intersections ------------------------------------------------------------------------------------------------- */
+/* --- intersections -------------------------------------------------------------------------------------- */
 
 /* The number of a place; equal places have one. */
 static bool number_place(collector *c, double3 p, uint32_t *out)
@@ -197,39 +209,47 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
     const stroke_view *v = c->v;
     if (!make_slots(c, crossings->count))
         return false;
-    uint32_t (*numbers)[2] = mem_alloc((crossings->count + 1) * sizeof *numbers);
+    uint32_t(*numbers)[2] = mem_alloc((crossings->count + 1) * sizeof *numbers);
     bool good = numbers != NULL;
     for (size_t i = 0; i < crossings->count && good; i++)
-        good = number_place(c, crossings->crossings[i].ends[0], &numbers[i][0]) && number_place(c, crossings->crossings[i].ends[1], &numbers[i][1]);
+        good = number_place(c, crossings->crossings[i].ends[0], &numbers[i][0]) &&
+               number_place(c, crossings->crossings[i].ends[1], &numbers[i][1]);
     c->out->end_count = v->vertex_count + (uint32_t)c->place_count;
     for (size_t i = 0; i < crossings->count && good; i++) {
         const face_crossing *x = &crossings->crossings[i];
-        const stroke_item *item = &v->scene->items[x->items[0]];
+        const stroke_item   *item = &v->scene->items[x->items[0]];
         if (c->parts && !c->parts[item->part_index] && !c->parts[v->scene->items[x->items[1]].part_index])
             continue;
-        const uint32_t faces[2] = {v->items[x->items[0]].first_face + x->faces[0], v->items[x->items[1]].first_face + x->faces[1]};
-        view_line line = {STROKE_INTERSECTION, x->items[0], {numbers[i][0], numbers[i][1]}, line_id((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]), {1, 1}, false, false};
+        const uint32_t faces[2] = {v->items[x->items[0]].first_face + x->faces[0],
+                                   v->items[x->items[1]].first_face + x->faces[1]};
+        view_line      line = {STROKE_INTERSECTION,
+                               x->items[0],
+                               {numbers[i][0], numbers[i][1]},
+                               line_id((uint64_t)x->items[0] << 32 | x->faces[0], (uint64_t)x->items[1] << 32 | x->faces[1]),
+                               {1, 1},
+                               false,
+                               false};
         good = numbers[i][0] == numbers[i][1] || lines_put(c->out, v, line, x->ends[0], x->ends[1], faces);
     }
     mem_free(numbers);
     return good;
 }
 
-/* --- all ----------------------------------------------------------------------------------------------------------- */
+/* --- all ------------------------------------------------------------------------------------------------ */
 
 static lmn_status collect_intersections(collector *c, lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    crossing_list own = {NULL, 0, 0};
+    crossing_list        own = {NULL, 0, 0};
     const crossing_list *crossings = c->v->scene->crossings;
-    lmn_status status = crossings ? LMN_OK : crossings_find(&own, c->v->scene, progress, user, error);
+    lmn_status           status = crossings ? LMN_OK : crossings_find(&own, c->v->scene, progress, user, error);
     if (status == LMN_OK && !collect_crossings(c, crossings ? crossings : &own))
         status = error_memory(error);
     mem_free(own.crossings);
     return status;
 }
 
-lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
-                         lmn_error *error)
+lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
+                         lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     collector c = {.out = out, .v = v, .options = options, .parts = parts};

@@ -1,4 +1,5 @@
-/* From the world to the window: points, triangles that can cover something, and which faces are seen from the front. */
+/* From the world to the window: points, triangles that can cover something, and which faces are seen from the
+ * front. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -25,7 +26,8 @@ static clip_point clip_of(const mat4 *whole, const mat4 *view, double3 p)
 {
     const double *m = whole->m, *e = view->m;
     return (clip_point){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
-                        m[3] * p.x + m[7] * p.y + m[11] * p.z + m[15], -(e[2] * p.x + e[6] * p.y + e[10] * p.z + e[14])};
+                        m[3] * p.x + m[7] * p.y + m[11] * p.z + m[15],
+                        -(e[2] * p.x + e[6] * p.y + e[10] * p.z + e[14])};
 }
 
 static clip_point place_in_clip_space(const stroke_view *v, double3 p)
@@ -106,7 +108,7 @@ bool view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2])
     return cut[0] < cut[1];
 }
 
-/* --- points -------------------------------------------------------------------------------------------------------- */
+/* --- points --------------------------------------------------------------------------------------------- */
 
 typedef struct point_job {
     stroke_view *v;
@@ -115,24 +117,24 @@ typedef struct point_job {
 
 static void project_points(size_t begin, size_t end, void *user)
 {
-    const point_job *job = user;
-    stroke_view *v = job->v;
+    const point_job   *job = user;
+    stroke_view       *v = job->v;
     const stroke_item *item = &v->scene->items[job->item];
-    const edge_mesh *m = &v->scene->meshes[item->mesh];
-    mat4 whole = mat4_multiply(&v->whole, &item->world), view = mat4_multiply(&v->camera.view, &item->world);
+    const edge_mesh   *m = &v->scene->meshes[item->mesh];
+    mat4   whole = mat4_multiply(&v->whole, &item->world), view = mat4_multiply(&v->camera.view, &item->world);
     double limits[2];
     guard(v, limits);
     uint32_t first = v->items[job->item].first_point;
     for (size_t i = begin; i < end; i++) {
-        vec3 p = m->places[i];
+        vec3       p = m->places[i];
         clip_point c = clip_of(&whole, &view, (double3){p.x, p.y, p.z});
-        uint8_t outside = outside_of(v, limits, c);
+        uint8_t    outside = outside_of(v, limits, c);
         v->outside[first + i] = outside;
         v->points[first + i] = outside ? (window_point){0, 0, 0} : window_of(v, c);
     }
 }
 
-/* --- triangles ----------------------------------------------------------------------------------------------------- */
+/* --- triangles ------------------------------------------------------------------------------------------ */
 
 static bool put_triangle(stroke_view *v, uint32_t a, uint32_t b, uint32_t c, uint32_t face)
 {
@@ -144,17 +146,19 @@ static bool put_triangle(stroke_view *v, uint32_t a, uint32_t b, uint32_t c, uin
 }
 
 /* A polygon without what lies outside a plane. */
-static int clip_polygon(const stroke_view *v, const double limits[2], int plane, const clip_point *in, int count, clip_point *out)
+static int clip_polygon(const stroke_view *v, const double limits[2], int plane, const clip_point *in, int count,
+                        clip_point *out)
 {
     int kept = 0;
     for (int i = 0; i < count; i++) {
         clip_point p = in[i], q = in[i + 1 == count ? 0 : i + 1];
-        double from = clip_distance(v, limits, p, plane), to = clip_distance(v, limits, q, plane);
+        double     from = clip_distance(v, limits, p, plane), to = clip_distance(v, limits, q, plane);
         if (from >= 0)
             out[kept++] = p;
         if ((from < 0) != (to < 0)) {
             double s = from / (from - to);
-            out[kept++] = (clip_point){p.x + s * (q.x - p.x), p.y + s * (q.y - p.y), p.w + s * (q.w - p.w), p.d + s * (q.d - p.d)};
+            out[kept++] = (clip_point){p.x + s * (q.x - p.x), p.y + s * (q.y - p.y), p.w + s * (q.w - p.w),
+                                       p.d + s * (q.d - p.d)};
         }
     }
     return kept;
@@ -182,10 +186,13 @@ static bool put_clipped(stroke_view *v, clip_point corners[3], uint32_t face)
     return true;
 }
 
-/* Is a face that reaches beyond the window seen from the front? By the sign of the volume that it spans with the eye. */
+/* Is a face that reaches beyond the window seen from the front? By the sign of the volume that it spans with the
+ * eye. */
 static bool faces_eye(const clip_point p[3])
 {
-    return p[0].x * (p[1].y * p[2].w - p[2].y * p[1].w) - p[0].y * (p[1].x * p[2].w - p[2].x * p[1].w) + p[0].w * (p[1].x * p[2].y - p[2].x * p[1].y) > 0;
+    return p[0].x * (p[1].y * p[2].w - p[2].y * p[1].w) - p[0].y * (p[1].x * p[2].w - p[2].x * p[1].w) +
+               p[0].w * (p[1].x * p[2].y - p[2].x * p[1].y) >
+           0;
 }
 
 bool view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c)
@@ -198,7 +205,7 @@ bool view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c)
 static vec3 eye_of(const stroke_view *v)
 {
     const double *m = v->camera.view.m;
-    double e[3];
+    double        e[3];
     for (int k = 0; k < 3; k++)
         e[k] = -(m[4 * k] * m[12] + m[4 * k + 1] * m[13] + m[4 * k + 2] * m[14]);
     return (vec3){(float)e[0], (float)e[1], (float)e[2]};
@@ -207,16 +214,17 @@ static vec3 eye_of(const stroke_view *v)
 uint8_t *view_unseen(const stroke_view *v, size_t index)
 {
     const stroke_item *item = &v->scene->items[index];
-    const edge_mesh *m = &v->scene->meshes[item->mesh];
-    uint8_t *out = mem_calloc((size_t)m->piece_count + 1, 1);
-    double cofactors[9];
-    bool mirrored = mat4_cofactors(&item->world, cofactors) < 0;
-    vec3 eye = eye_of(v);
+    const edge_mesh   *m = &v->scene->meshes[item->mesh];
+    uint8_t           *out = mem_calloc((size_t)m->piece_count + 1, 1);
+    double             cofactors[9];
+    bool               mirrored = mat4_cofactors(&item->world, cofactors) < 0;
+    vec3               eye = eye_of(v);
     for (uint32_t i = 0; i < m->piece_count && out; i++) {
-        box3 box = box3_transform(m->boxes[i], &item->world);
+        box3  box = box3_transform(m->boxes[i], &item->world);
         float room = (float)(v->camera.near + v->same);
-        bool inside = !v->camera.orthographic && eye.x >= box.min.x - room && eye.x <= box.max.x + room && eye.y >= box.min.y - room &&
-                      eye.y <= box.max.y + room && eye.z >= box.min.z - room && eye.z <= box.max.z + room;
+        bool  inside = !v->camera.orthographic && eye.x >= box.min.x - room && eye.x <= box.max.x + room &&
+                      eye.y >= box.min.y - room && eye.y <= box.max.y + room && eye.z >= box.min.z - room &&
+                      eye.z <= box.max.z + room;
         if (m->closed[i] && !inside)
             out[i] = m->inward[i] == mirrored ? 1 : 2;
     }
@@ -226,18 +234,19 @@ uint8_t *view_unseen(const stroke_view *v, size_t index)
 static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
 {
     const stroke_item *item = &v->scene->items[index];
-    const edge_mesh *m = &v->scene->meshes[item->mesh];
-    uint32_t base = v->items[index].first_point, first = v->items[index].first_face;
+    const edge_mesh   *m = &v->scene->meshes[item->mesh];
+    uint32_t           base = v->items[index].first_point, first = v->items[index].first_face;
     for (uint32_t f = 0; f < m->face_count; f++) {
         const uint32_t *corners = m->faces[f];
-        uint32_t a = base + corners[0], b = base + corners[1], c = base + corners[2], face = first + f;
-        bool front;
+        uint32_t        a = base + corners[0], b = base + corners[1], c = base + corners[2], face = first + f;
+        bool            front;
         if (v->outside[a] | v->outside[b] | v->outside[c]) {
             clip_point p[3];
             for (int k = 0; k < 3; k++)
                 p[k] = place_in_clip_space(v, item_place(item, m->places[corners[k]]));
             front = faces_eye(p);
-            if (unseen[m->pieces[f]] != (front ? 2 : 1) && !(v->outside[a] & v->outside[b] & v->outside[c]) && !put_clipped(v, p, face))
+            if (unseen[m->pieces[f]] != (front ? 2 : 1) && !(v->outside[a] & v->outside[b] & v->outside[c]) &&
+                !put_clipped(v, p, face))
                 return false;
         } else {
             double side = window_side(v->points[a], v->points[b], v->points[c]);
@@ -256,16 +265,18 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
 static float slope_of(window_point a, window_point b, window_point c)
 {
     double rise_b = b.z - a.z, rise_c = c.z - a.z;
-    double x = rise_b * ((double)c.y - a.y) - rise_c * ((double)b.y - a.y), y = rise_c * ((double)b.x - a.x) - rise_b * ((double)c.x - a.x);
+    double x = rise_b * ((double)c.y - a.y) - rise_c * ((double)b.y - a.y),
+           y = rise_c * ((double)b.x - a.x) - rise_b * ((double)c.x - a.x);
     return (float)((fabs(x) + fabs(y)) / fabs(window_side(a, b, c)));
 }
 
 static void box_triangles(size_t begin, size_t end, void *user)
 {
     stroke_view *v = user;
-    float most = (float)(STEEPEST / (0.5 * v->camera.height * fabs(v->camera.projection.m[5])));
+    float        most = (float)(STEEPEST / (0.5 * v->camera.height * fabs(v->camera.projection.m[5])));
     for (size_t i = begin; i < end; i++) {
-        window_point a = v->points[v->triangles[i].v[0]], b = v->points[v->triangles[i].v[1]], c = v->points[v->triangles[i].v[2]];
+        window_point a = v->points[v->triangles[i].v[0]], b = v->points[v->triangles[i].v[1]],
+                     c = v->points[v->triangles[i].v[2]];
         window_box *box = &v->boxes[i];
         box->low_x = a.x < b.x ? (a.x < c.x ? a.x : c.x) : (b.x < c.x ? b.x : c.x);
         box->low_y = a.y < b.y ? (a.y < c.y ? a.y : c.y) : (b.y < c.y ? b.y : c.y);
@@ -276,12 +287,12 @@ static void box_triangles(size_t begin, size_t end, void *user)
     }
 }
 
-/* --- the view ------------------------------------------------------------------------------------------------------ */
+/* --- the view ------------------------------------------------------------------------------------------- */
 
 static lmn_status number_items(stroke_view *v, lmn_error *error)
 {
     const stroke_scene *s = v->scene;
-    uint64_t points = 0, faces = 0, pieces = 0;
+    uint64_t            points = 0, faces = 0, pieces = 0;
     v->items = mem_alloc((s->item_count + 1) * sizeof *v->items);
     if (!v->items)
         return error_memory(error);
@@ -292,7 +303,8 @@ static lmn_status number_items(stroke_view *v, lmn_error *error)
         faces += m->face_count;
         pieces += m->piece_count;
         if (points >= UINT32_MAX / 4 || faces >= UINT32_MAX / 4)
-            return error_set(error, LMN_LIMIT, "the scene has more than %u triangles, too many for strokes", UINT32_MAX / 4);
+            return error_set(error, LMN_LIMIT, "the scene has more than %u triangles, too many for strokes",
+                             UINT32_MAX / 4);
     }
     v->face_count = (uint32_t)faces;
     v->piece_count = (uint32_t)pieces;
@@ -316,7 +328,7 @@ static double units_of(const stroke_camera *c)
 static lmn_status fill_view(stroke_view *v, lmn_progress_fn progress, void *user, lmn_error *error)
 {
     const stroke_scene *s = v->scene;
-    lmn_status status = number_items(v, error);
+    lmn_status          status = number_items(v, error);
     for (size_t i = 0; i < s->item_count && status == LMN_OK; i++) {
         threads_for(s->meshes[s->items[i].mesh].vertex_count, 16384, project_points, &(point_job){v, i});
         if (progress && (i & 63) == 0 && !progress((double)i / (double)s->item_count, "projecting", user))
@@ -337,8 +349,8 @@ static lmn_status fill_view(stroke_view *v, lmn_progress_fn progress, void *user
     return grid_build(&v->grid, v, error);
 }
 
-lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, const stroke_camera *camera, lmn_progress_fn progress, void *user,
-                              lmn_error *error)
+lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, const stroke_camera *camera,
+                              lmn_progress_fn progress, void *user, lmn_error *error)
 {
     *out = NULL;
     stroke_view *v = mem_calloc(1, sizeof *v);

@@ -10,10 +10,10 @@ typedef struct propagator {
     const butterfly *b;
     propagate_front  is_front;
     void            *user;
-    uint32_t         level, first; /* first: the one of which all faces are asked for */
+    uint32_t         level, first;                    /* first: the one of which all faces are asked for */
     uint8_t         *facing[BUTTERFLY_STEPS_MAX + 1]; /* per face: UNKNOWN where it is as its parent is */
-    uint8_t         *touched;  /* per face of the level: shares a vertex with the silhouette */
-    uint32_t        *band;     /* faces of the level that were asked for, in that order */
+    uint8_t         *touched;                         /* per face of the level: shares a vertex with the silhouette */
+    uint32_t        *band;                            /* faces of the level that were asked for, in that order */
     size_t           band_count, band_capacity;
     silhouette      *out;
 } propagator;
@@ -45,7 +45,8 @@ static bool widen_band(propagator *p)
     for (size_t i = 0; i < p->band_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t o = l->opposite[3 * p->band[i] + k];
-            if (o != BUTTERFLY_NONE && facing_of(p, p->level, o / 3) != p->facing[p->level][p->band[i]] && !ask(p, o / 3))
+            if (o != BUTTERFLY_NONE && facing_of(p, p->level, o / 3) != p->facing[p->level][p->band[i]] &&
+                !ask(p, o / 3))
                 return false;
         }
     return true;
@@ -61,12 +62,13 @@ static bool is_silhouette(const propagator *p, uint32_t h)
 static void touch_fan(propagator *p, uint32_t h)
 {
     const butterfly_level *l = &p->b->levels[p->level];
-    uint32_t at = h;
+    uint32_t               at = h;
     do {
         p->touched[at / 3] = 1;
         at = l->opposite[half_edge_before(at)];
     } while (at != BUTTERFLY_NONE && at != h);
-    for (at = at == h ? BUTTERFLY_NONE : l->opposite[h]; at != BUTTERFLY_NONE && at != h; at = l->opposite[at]) { /* the other way round, from a border on */
+    for (at = at == h ? BUTTERFLY_NONE : l->opposite[h]; at != BUTTERFLY_NONE && at != h;
+         at = l->opposite[at]) { /* the other way round, from a border on */
         at = half_edge_next(at);
         p->touched[at / 3] = 1;
     }
@@ -87,7 +89,7 @@ static bool propagate_level(propagator *p)
                 touch_fan(p, half_edge_next(h));
             }
         }
-    bool good = true;
+    bool     good = true;
     uint32_t count = l->face_count;
     p->level++;
     p->band_count = 0;
@@ -101,7 +103,7 @@ static bool propagate_level(propagator *p)
 
 static bool put_silhouette(propagator *p)
 {
-    size_t capacity = 0;
+    size_t         capacity = 0;
     const uint8_t *facing = p->facing[p->level];
     for (uint32_t f = 0; f < p->b->levels[p->level].face_count; f++)
         for (uint32_t k = 0; facing[f] == FRONT && k < 3; k++)
@@ -113,7 +115,8 @@ static bool put_silhouette(propagator *p)
     return true;
 }
 
-lmn_status silhouette_propagate(silhouette *out, const butterfly *b, uint32_t all_of, propagate_front is_front, void *user, lmn_error *error)
+lmn_status silhouette_propagate(silhouette *out, const butterfly *b, uint32_t all_of, propagate_front is_front,
+                                void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     propagator p = {.b = b, .is_front = is_front, .user = user, .out = out};

@@ -8,18 +8,18 @@
 #include "stroke/ribbon_private.h"
 
 /* Numbers of taste, in pixels unless they are shares. */
-static const float pressure_wave = 70;      /* how far apart swellings of the pressure are */
-static const float repeat_wave = 90;        /* the same of how repeats wander apart */
-static const float taper_most = 0.45f;      /* share of a chain that one of its ends may take to thin out */
-static const float taper_end = 0.12f;       /* what is left of the width at the very end */
-static const float straight_over = 8;       /* how far back an end must be straight to run on */
+static const float pressure_wave = 70; /* how far apart swellings of the pressure are */
+static const float repeat_wave = 90;   /* the same of how repeats wander apart */
+static const float taper_most = 0.45f; /* share of a chain that one of its ends may take to thin out */
+static const float taper_end = 0.12f;  /* what is left of the width at the very end */
+static const float straight_over = 8;  /* how far back an end must be straight to run on */
 static const float straight_cosine = 0.985f;
-static const float run_on_most = 0.35f;     /* share of a chain that its end may run on */
-static const float crumb = 1.5f;            /* what is left of a cut line and shorter than this is left out */
+static const float run_on_most = 0.35f; /* share of a chain that its end may run on */
+static const float crumb = 1.5f;        /* what is left of a cut line and shorter than this is left out */
 static const float close_points = 1e-3f;
 enum { REPEATS_MOST = 16, POINTS_A_SPAN_MOST = 1 << 20 };
 
-/* --- lists of spans and gaps --------------------------------------------------------------------------------------- */
+/* --- lists of spans and gaps ---------------------------------------------------------------------------- */
 
 void span_list_add(span_list *list, float from, float to)
 {
@@ -82,7 +82,7 @@ void gap_list_sort(gap_list *list)
         qsort(list->items, list->count, sizeof *list->items, compare_gaps);
 }
 
-/* --- facts of strokes ---------------------------------------------------------------------------------------------- */
+/* --- facts of strokes ----------------------------------------------------------------------------------- */
 
 static bool is_outline(stroke_class kind)
 {
@@ -120,12 +120,14 @@ static const stroke_point *last_point(const stroke_set *set, const stroke *s)
 
 static void find_chain(ribbon_job *job, size_t first, size_t end)
 {
-    const stroke_set   *set = job->strokes;
-    const stroke       *one = &set->strokes[first], *last = &set->strokes[end - 1];
-    chain_facts         facts = {.first = (uint32_t)first, .count = (uint32_t)(end - first), .closed = one->closed, .length = one->chain_length};
+    const stroke_set *set = job->strokes;
+    const stroke     *one = &set->strokes[first], *last = &set->strokes[end - 1];
+    chain_facts       facts = {
+              .first = (uint32_t)first, .count = (uint32_t)(end - first), .closed = one->closed, .length = one->chain_length};
     if (one->count && last->count) {
         const stroke_point *a = &set->points[one->first], *b = last_point(set, last);
-        bool                meets = hypotf(a->x - b->x, a->y - b->y) < close_points && fabsf(a->depth - b->depth) <= 1e-5f * fabsf(a->depth);
+        bool                meets =
+            hypotf(a->x - b->x, a->y - b->y) < close_points && fabsf(a->depth - b->depth) <= 1e-5f * fabsf(a->depth);
         facts.closed = facts.closed || (meets && a->arc == 0 && b->arc >= facts.length * 0.9999f);
         if (!(facts.length > 0) || !isfinite(facts.length))
             facts.length = b->arc;
@@ -154,7 +156,7 @@ static bool find_chains(ribbon_job *job)
     return true;
 }
 
-/* --- what is random: noise along chains ------------------------------------------------------------------------------ */
+/* --- what is random: noise along chains ----------------------------------------------------------------- */
 
 static float lattice(uint64_t key, int64_t place)
 {
@@ -168,7 +170,8 @@ static float lattice(uint64_t key, int64_t place)
 /* What is random of a chain, and in it of one purpose. */
 static uint64_t noise_key(const ribbon_job *job, const stroke *s, int repeat, int purpose)
 {
-    uint64_t key = s->id ^ ((uint64_t)job->seed << 32) ^ ((uint64_t)(unsigned)repeat << 8) ^ (uint64_t)(unsigned)purpose;
+    uint64_t key =
+        s->id ^ ((uint64_t)job->seed << 32) ^ ((uint64_t)(unsigned)repeat << 8) ^ (uint64_t)(unsigned)purpose;
     return (uint64_t)((double)lattice(key, 1) * 0x1p60 + 0x1p61) ^ key;
 }
 
@@ -179,7 +182,7 @@ static float noise_at(uint64_t key, float arc, float wave, const chain_facts *ch
     double at = chain->closed ? (double)arc / (double)chain->length * cells : (double)arc / (double)wave;
     if (!isfinite(at) || fabs(at) > 1e12)
         return 0;
-    double whole = floor(at), t = at - whole, smooth = t * t * (3 - 2 * t);
+    double  whole = floor(at), t = at - whole, smooth = t * t * (3 - 2 * t);
     int64_t low = (int64_t)whole, high = low + 1, count = (int64_t)cells;
     if (count > 0) {
         low = ((low % count) + count) % count;
@@ -191,7 +194,7 @@ static float noise_at(uint64_t key, float arc, float wave, const chain_facts *ch
 
 enum { NOISE_X, NOISE_Y, NOISE_PRESSURE, NOISE_REPEAT_X, NOISE_REPEAT_Y, NOISE_ENDS };
 
-/* --- one line: a stretch of a stroke as it is drawn once -------------------------------------------------------------- */
+/* --- one line: a stretch of a stroke as it is drawn once ------------------------------------------------ */
 
 typedef struct builder {
     ribbon_job  job;
@@ -207,9 +210,9 @@ typedef struct line {
     const stroke      *s;
     const chain_facts *chain;
     int                repeat;
-    float              begin, end;      /* of the stroke */
-    bool               starts, ends;    /* the chain does so here, and freely */
-    bool               varies, moves;   /* width or opacity; place */
+    float              begin, end;    /* of the stroke */
+    bool               starts, ends;  /* the chain does so here, and freely */
+    bool               varies, moves; /* width or opacity; place */
     uint64_t           keys[NOISE_ENDS + 1];
 } line;
 
@@ -228,7 +231,7 @@ static void add_arc(builder *b, float arc)
 static float step_of(const builder *b, const line *l)
 {
     const stroke_style *style = b->job.style;
-    float step = INFINITY;
+    float               step = INFINITY;
     if (l->moves && style->wobble > 0)
         step = fminf(step, fmaxf(style->wobble_length, 1) / 6);
     if (l->moves && l->repeat + style->repeats > 1)
@@ -273,9 +276,13 @@ static ribbon_point true_point(const builder *b, const line *l, float arc, uint3
         k++;
     *from = k;
     const stroke_point *p = &points[k], *q = p + 1;
-    float               length = q->arc - p->arc, t = length > 0 ? (arc - p->arc) / length : 0, share = fminf(fmaxf(t, 0), 1);
-    return (ribbon_point){p->x + t * (q->x - p->x), p->y + t * (q->y - p->y), ribbon_depth_between(&b->job, p->depth, q->depth, share), arc,
-                          0, p->weight + share * (q->weight - p->weight)};
+    float length = q->arc - p->arc, t = length > 0 ? (arc - p->arc) / length : 0, share = fminf(fmaxf(t, 0), 1);
+    return (ribbon_point){p->x + t * (q->x - p->x),
+                          p->y + t * (q->y - p->y),
+                          ribbon_depth_between(&b->job, p->depth, q->depth, share),
+                          arc,
+                          0,
+                          p->weight + share * (q->weight - p->weight)};
 }
 
 static void displace(const builder *b, const line *l, ribbon_point *p)
@@ -319,7 +326,8 @@ static void weigh(const builder *b, const line *l, ribbon_point *p, span where, 
         p->half *= weight;
     p->half *= taper_at(b, l, p->arc, where);
     if (style->pressure > 0)
-        p->half *= 1 + 0.5f * style->pressure * noise_at(l->keys[NOISE_PRESSURE], p->arc + l->s->phase, pressure_wave, l->chain);
+        p->half *= 1 + 0.5f * style->pressure *
+                           noise_at(l->keys[NOISE_PRESSURE], p->arc + l->s->phase, pressure_wave, l->chain);
 }
 
 static bool has_weights(const builder *b, const stroke *s)
@@ -333,7 +341,7 @@ static bool has_weights(const builder *b, const stroke *s)
 static colour ink_of(const ribbon_job *job, const stroke *s)
 {
     const stroke_style *style = job->style;
-    colour ink = s->hidden_by > 0 ? style->hidden_colour : style->colours[s->kind];
+    colour              ink = s->hidden_by > 0 ? style->hidden_colour : style->colours[s->kind];
     if (isnan(ink.r))
         ink = style->colours[s->kind];
     if (isnan(ink.r))
@@ -364,10 +372,20 @@ static void emit(builder *b, const line *l, span where, bool dashed)
     divide(b, l, where);
     if (b->arc_count < 2 || !reserve(b))
         return;
-    bool whole = s->closed && l->chain->closed && where.from <= l->begin && where.to >= l->end;
-    float half = ribbon_width(&b->job, s) / 2, alpha = opacity_of(&b->job, s);
-    ribbon r = {.kind = s->kind, .part = s->part, .hidden_by = s->hidden_by, .chain = s->chain, .id = s->id, .ink = ink_of(&b->job, s), .brush = b->job.style->brush,
-                .first = (uint32_t)b->out->point_count, .count = (uint32_t)b->arc_count, .closed = whole, .even = !l->varies, .end = dashed ? RIBBON_BUTT : RIBBON_ROUND};
+    bool          whole = s->closed && l->chain->closed && where.from <= l->begin && where.to >= l->end;
+    float         half = ribbon_width(&b->job, s) / 2, alpha = opacity_of(&b->job, s);
+    ribbon        r = {.kind = s->kind,
+                       .part = s->part,
+                       .hidden_by = s->hidden_by,
+                       .chain = s->chain,
+                       .id = s->id,
+                       .ink = ink_of(&b->job, s),
+                       .brush = b->job.style->brush,
+                       .first = (uint32_t)b->out->point_count,
+                       .count = (uint32_t)b->arc_count,
+                       .closed = whole,
+                       .even = !l->varies,
+                       .end = dashed ? RIBBON_BUTT : RIBBON_ROUND};
     ribbon_point *points = &b->out->points[b->out->point_count];
     uint32_t      from = 0;
     for (size_t i = 0; i < b->arc_count; i++) {
@@ -386,7 +404,7 @@ static void emit(builder *b, const line *l, span where, bool dashed)
     b->out->ribbons[b->out->ribbon_count++] = r;
 }
 
-/* --- ends ---------------------------------------------------------------------------------------------------------------- */
+/* --- ends ----------------------------------------------------------------------------------------------- */
 
 /* Is the line straight as far back from this end as counts? */
 static bool is_straight(const builder *b, const line *l, bool at_end)
@@ -395,7 +413,7 @@ static bool is_straight(const builder *b, const line *l, bool at_end)
     float               direction[2] = {0, 0};
     for (uint32_t i = 1; i < l->s->count; i++) {
         const stroke_point *p = at_end ? end - i : end + i, *q = at_end ? p + 1 : p - 1;
-        float               dx = p->x - q->x, dy = p->y - q->y, length = hypotf(dx, dy), so_far = hypotf(direction[0], direction[1]);
+        float dx = p->x - q->x, dy = p->y - q->y, length = hypotf(dx, dy), so_far = hypotf(direction[0], direction[1]);
         if (length > 0 && so_far > 0 && dx * direction[0] + dy * direction[1] < straight_cosine * length * so_far)
             return false;
         direction[0] += dx;
@@ -420,7 +438,7 @@ static float run_on(const builder *b, const line *l, bool at_end)
     return by;
 }
 
-/* --- strokes --------------------------------------------------------------------------------------------------------------- */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
 /* What is left of a stroke between its gaps; they are sorted, `gap` is the next one of all. */
 static void find_inked(builder *b, uint32_t index, float from, float to, const gap_list *gaps, size_t *gap)
@@ -447,7 +465,8 @@ static line line_of(const builder *b, uint32_t index, int repeat)
     const stroke_style *style = b->job.style;
     const stroke       *s = &set->strokes[index];
     const chain_facts  *chain = &b->job.chains[b->job.chain_of[index]];
-    line l = {.s = s, .chain = chain, .repeat = repeat, .begin = set->points[s->first].arc, .end = last_point(set, s)->arc};
+    line                l = {
+                       .s = s, .chain = chain, .repeat = repeat, .begin = set->points[s->first].arc, .end = last_point(set, s)->arc};
     l.starts = !chain->closed && index == chain->first;
     l.ends = !chain->closed && index + 1 == chain->first + chain->count;
     l.moves = style->wobble > 0 || (style->repeats > 1 && style->repeat_apart > 0);
@@ -492,7 +511,8 @@ static void draw_strokes(builder *b, const gap_list *gaps, bool hidden)
             draw_stroke(b, (uint32_t)i, gaps, &gap);
 }
 
-lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke_style *style, uint32_t seed, lmn_error *error)
+lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke_style *style, uint32_t seed,
+                        lmn_error *error)
 {
     *out = (ribbon_set){0};
     builder  b = {.job = {.strokes = strokes, .style = style, .seed = seed}, .out = out};

@@ -1,4 +1,5 @@
-/* Ribbons: strokes as they are drawn. One description for the screen, SVG and PDF: a line of points with a width and an opacity at each. */
+/* Ribbons: strokes as they are drawn. One description for the screen, SVG and PDF: a line of points with a width
+ * and an opacity at each. */
 #ifndef LIMNER_STROKE_RIBBON_H
 #define LIMNER_STROKE_RIBBON_H
 
@@ -12,22 +13,22 @@ typedef enum stroke_brush { BRUSH_PEN, BRUSH_BRUSH, BRUSH_PENCIL, BRUSH_CHARCOAL
 typedef struct stroke_style {
     colour  colours[STROKE_CLASS_COUNT]; /* NaN red: not drawn in a colour of its own, takes that of the contour */
     float   width;
-    float   crease_width;  /* of all that is no outline, share of the width */
-    int32_t brush;         /* stroke_brush */
-    float   taper;         /* length over which ends thin out; 0: none */
-    float   pressure;      /* 0 … 1: how much the width varies along */
+    float   crease_width;          /* of all that is no outline, share of the width */
+    int32_t brush;                 /* stroke_brush */
+    float   taper;                 /* length over which ends thin out; 0: none */
+    float   pressure;              /* 0 … 1: how much the width varies along */
     float   wobble, wobble_length; /* how far from the true line; how far apart its waves are */
-    float   overshoot;     /* how far ends run on */
-    int32_t repeats;       /* times each line is drawn */
-    float   repeat_apart;  /* how far repeats differ */
-    float   dash, gap;     /* along the chain; dash 0: unbroken */
-    float   halo;          /* gap beside what passes in front */
-    int32_t hidden;        /* hidden_style */
+    float   overshoot;             /* how far ends run on */
+    int32_t repeats;               /* times each line is drawn */
+    float   repeat_apart;          /* how far repeats differ */
+    float   dash, gap;             /* along the chain; dash 0: unbroken */
+    float   halo;                  /* gap beside what passes in front */
+    int32_t hidden;                /* hidden_style */
     colour  hidden_colour;
     float   hidden_width, hidden_dash, hidden_gap;
-    float   hidden_fade;   /* opacity is multiplied by it with each pair of surfaces more in front */
-    int32_t hidden_depth;  /* surfaces in front at most; 0: any number */
-    float   hidden_crowd;  /* hidden lines keep at least this far apart: the more important one stays; 0: all are drawn */
+    float   hidden_fade;  /* opacity is multiplied by it with each pair of surfaces more in front */
+    int32_t hidden_depth; /* surfaces in front at most; 0: any number */
+    float hidden_crowd; /* hidden lines keep at least this far apart: the more important one stays; 0: all are drawn */
 } stroke_style;
 
 typedef struct ribbon_point {
@@ -42,11 +43,12 @@ typedef struct ribbon {
     stroke_class kind;
     uint32_t     part, hidden_by, chain;
     uint64_t     id;
-    colour       ink;          /* straight alpha, linear */
+    colour       ink; /* straight alpha, linear */
     int32_t      brush;
     uint32_t     first, count; /* points */
-    bool         closed, even; /* closed: ends where it began, the first point once more; even: one width and opacity all along */
-    ribbon_end   end;
+    bool         closed,
+        even; /* closed: ends where it began, the first point once more; even: one width and opacity all along */
+    ribbon_end end;
 } ribbon;
 
 typedef struct ribbon_set {
@@ -55,9 +57,11 @@ typedef struct ribbon_set {
     size_t        ribbon_count, point_count;
 } ribbon_set;
 
-/* Draws strokes in a style: what is hidden comes first, so that what is visible lies on it. The same seed, the same ribbons; what is random belongs to a chain's id and place
- * along it, so that it stays from frame to frame. Errors: LMN_MEMORY. */
-lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke_style *style, uint32_t seed, lmn_error *error);
+/* Draws strokes in a style: what is hidden comes first, so that what is visible lies on it. The same seed, the same
+ * ribbons; what is random belongs to a chain's id and place along it, so that it stays from frame to frame. Errors:
+ * LMN_MEMORY. */
+lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke_style *style, uint32_t seed,
+                        lmn_error *error);
 void       ribbon_set_release(ribbon_set *r);
 
 #endif

@@ -1,5 +1,7 @@
-/* Hidden lines that would crowd: those behind more surfaces and the shorter ones give way. Lines are taken in the order of their importance, the visible ones first, and leave samples in a
- * grid; one that is hidden is left out as a whole where much of it lies too near to what is there, so that nothing is left of it that could be taken for something else. */
+/* Hidden lines that would crowd: those behind more surfaces and the shorter ones give way. Lines are taken in the
+ * order of their importance, the visible ones first, and leave samples in a grid; one that is hidden is left out as
+ * a whole where much of it lies too near to what is there, so that nothing is left of it that could be taken for
+ * something else. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,18 +10,18 @@
 #include "stroke/ribbon_private.h"
 
 enum { CELLS_MOST = 4096 };
-static const float samples_apart = 0.5f; /* shares of the distance that is kept */
-static const float own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
-static const float run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
-static const float crowded_from = 0.5f;  /* share of crowded samples */
-static const float least_apart = 0.5f; /* pixels */
-static const float longest = 1e6f;    /* of a segment that anybody draws, pixels */
+static const float  samples_apart = 0.5f; /* shares of the distance that is kept */
+static const float  own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
+static const float  run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
+static const float  crowded_from = 0.5f;  /* share of crowded samples */
+static const float  least_apart = 0.5f;   /* pixels */
+static const float  longest = 1e6f;       /* of a segment that anybody draws, pixels */
 static const size_t samples_most = 50000000;
 
 /* Strokes of a chain that follow each other and are hidden. */
 typedef struct hidden_run {
-    uint32_t first, count; /* strokes */
-    float    length, depth; /* the mean of surfaces in front */
+    uint32_t     first, count;  /* strokes */
+    float        length, depth; /* the mean of surfaces in front */
     stroke_class kind;
 } hidden_run;
 
@@ -89,7 +91,8 @@ static bool is_crowded(const crowd_grid *g, const crowd_sample *sample)
         for (int column = cell[0] - 1; column <= cell[0] + 1; column++) {
             if (row < 0 || column < 0 || row >= g->rows || column >= g->columns)
                 continue;
-            for (uint32_t at = g->heads[(size_t)row * (size_t)g->columns + (size_t)column]; at; at = g->samples[at - 1].next) {
+            for (uint32_t at = g->heads[(size_t)row * (size_t)g->columns + (size_t)column]; at;
+                 at = g->samples[at - 1].next) {
                 const crowd_sample *other = &g->samples[at - 1];
                 if (other->chain == sample->chain && fabsf(other->arc - sample->arc) < own_apart * g->apart)
                     continue;
@@ -100,7 +103,7 @@ static bool is_crowded(const crowd_grid *g, const crowd_sample *sample)
     return false;
 }
 
-/* --- samples of strokes ------------------------------------------------------------------------------------------------ */
+/* --- samples of strokes --------------------------------------------------------------------------------- */
 
 typedef struct sample_list {
     crowd_sample *items;
@@ -121,16 +124,18 @@ static void sample_stroke(sample_list *out, const ribbon_job *job, uint32_t inde
             next = a->arc;
         for (; next <= b->arc; next += step) {
             float t = (next - a->arc) / length;
-            if (next + step == next || !mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items)) {
+            if (next + step == next ||
+                !mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items)) {
                 out->failed = next + step != next;
                 return;
             }
-            out->items[out->count++] = (crowd_sample){a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), next, job->chain_of[index], index, 0};
+            out->items[out->count++] = (crowd_sample){
+                a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), next, job->chain_of[index], index, 0};
         }
     }
 }
 
-/* --- runs -------------------------------------------------------------------------------------------------------------- */
+/* --- runs ----------------------------------------------------------------------------------------------- */
 
 static int compare_runs(const void *a, const void *b)
 {
@@ -153,11 +158,12 @@ static hidden_run *find_runs(const ribbon_job *job, size_t *count)
         const stroke *s = &set->strokes[i];
         if (s->hidden_by == 0 || !job->drawn[i])
             continue;
-        bool goes_on = i > 0 && set->strokes[i - 1].hidden_by > 0 && job->drawn[i - 1] && job->chain_of[i] == job->chain_of[i - 1];
+        bool goes_on =
+            i > 0 && set->strokes[i - 1].hidden_by > 0 && job->drawn[i - 1] && job->chain_of[i] == job->chain_of[i - 1];
         if (!goes_on)
             runs[(*count)++] = (hidden_run){.first = (uint32_t)i, .kind = s->kind};
         hidden_run *run = &runs[*count - 1];
-        float length = s->count ? set->points[s->first + s->count - 1].arc - set->points[s->first].arc : 0;
+        float       length = s->count ? set->points[s->first + s->count - 1].arc - set->points[s->first].arc : 0;
         length = isfinite(length) ? length : 0;
         run->count++;
         run->depth += length * (float)s->hidden_by;

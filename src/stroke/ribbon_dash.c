@@ -1,5 +1,6 @@
-/* Dashes lie along whole chains, fitted so that these begin and end with ink; where a stretch of a chain begins or ends elsewhere, ink is added there, so that dashes meet corners and
- * what hides them. So dashes stay where they are on the model while what hides them moves. */
+/* Dashes lie along whole chains, fitted so that these begin and end with ink; where a stretch of a chain begins or
+ * ends elsewhere, ink is added there, so that dashes meet corners and what hides them. So dashes stay where they
+ * are on the model while what hides them moves. */
 #include <math.h>
 
 #include "stroke/ribbon_private.h"
@@ -19,8 +20,8 @@ typedef struct dash_pattern {
 static dash_pattern fit_pattern(const chain_facts *chain, float dash, float gap, float phase)
 {
     dash_pattern p = {dash, gap, -phase};
-    float length = chain->length, used = chain->closed ? length : length + gap;
-    float count = fmaxf(roundf(used / (dash + gap)), 1);
+    float        length = chain->length, used = chain->closed ? length : length + gap;
+    float        count = fmaxf(roundf(used / (dash + gap)), 1);
     /* An open chain that was not followed from an earlier frame begins and ends with ink. */
     float natural = count * (dash + gap) - (chain->closed ? 0 : gap);
     float stretch = natural > 0 ? length / natural : 1;
@@ -43,17 +44,18 @@ static void add_ink(span_list *out, float from, float to, float least)
 void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from, float to)
 {
     const stroke_style *style = job->style;
-    bool  hidden = s->hidden_by > 0;
-    float dash = hidden ? style->hidden == HIDDEN_DASHED ? style->hidden_dash : 0 : style->dash;
-    float gap = hidden ? style->hidden_gap : style->gap;
-    bool  plain = !(dash > 0) || !(gap > 0) || !(dash + gap >= shortest_period) || !isfinite(dash + gap) || !isfinite(s->phase);
+    bool                hidden = s->hidden_by > 0;
+    float               dash = hidden ? style->hidden == HIDDEN_DASHED ? style->hidden_dash : 0 : style->dash;
+    float               gap = hidden ? style->hidden_gap : style->gap;
+    bool                plain =
+        !(dash > 0) || !(gap > 0) || !(dash + gap >= shortest_period) || !isfinite(dash + gap) || !isfinite(s->phase);
     out->count = 0;
     if (plain || to - from <= dash + gap * least_gap || !((to - from) / (dash + gap) < dashes_most)) {
         add_ink(out, from, to, 0);
         return;
     }
     dash_pattern p = fit_pattern(chain, dash, gap, s->phase);
-    float period = p.dash + p.gap, least = p.gap * least_gap, end = p.dash / 2;
+    float        period = p.dash + p.gap, least = p.gap * least_gap, end = p.dash / 2;
     /* Where a closed chain begins and ends nothing does. */
     if (!chain->closed || from > 0)
         add_ink(out, from, from + end, least);

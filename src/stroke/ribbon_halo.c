@@ -1,5 +1,6 @@
-/* Halos: lines stop short of visible lines that pass in front of them. Crossings are found in a grid of the visible strokes' segments. A stroke that ends at what hides it touches that
- * line and no more, so its ends are looked for a little beyond. */
+/* Halos: lines stop short of visible lines that pass in front of them. Crossings are found in a grid of the visible
+ * strokes' segments. A stroke that ends at what hides it touches that line and no more, so its ends are looked for
+ * a little beyond. */
 #include <math.h>
 #include <string.h>
 
@@ -7,10 +8,10 @@
 #include "stroke/ribbon_private.h"
 
 enum { CELLS_MOST = 1024 };
-static const float cell_least = 16;        /* pixels */
-static const float beyond = 1.5f;          /* how far beyond its ends a stroke is looked for crossings, pixels */
-static const float depth_share = 1e-3f;    /* what is nearer than this share of all depths is at the same place */
-static const float flattest = 0.25f;       /* sine of the angle between two lines below which a gap grows no longer */
+static const float cell_least = 16;     /* pixels */
+static const float beyond = 1.5f;       /* how far beyond its ends a stroke is looked for crossings, pixels */
+static const float depth_share = 1e-3f; /* what is nearer than this share of all depths is at the same place */
+static const float flattest = 0.25f;    /* sine of the angle between two lines below which a gap grows no longer */
 
 typedef struct segment {
     uint32_t stroke, point;
@@ -85,7 +86,8 @@ static void each_visible(halo_search *h, segment_fn fn, uint32_t *counts)
             for (int row = cells[1]; row <= cells[3]; row++)
                 for (int column = cells[0]; column <= cells[2]; column++)
                     if (meets_cell(&h->grid, a, b, column, row))
-                        fn(h, (size_t)row * (size_t)h->grid.columns + (size_t)column, (segment){(uint32_t)i, k}, counts);
+                        fn(h, (size_t)row * (size_t)h->grid.columns + (size_t)column, (segment){(uint32_t)i, k},
+                           counts);
         }
     }
 }
@@ -130,7 +132,8 @@ static bool build_grid(halo_search *h)
 }
 
 /* One segment against one visible one in front of it. */
-static void cross(halo_search *h, uint32_t own, const stroke_point *a, const stroke_point *b, bool first, bool last, segment front)
+static void cross(halo_search *h, uint32_t own, const stroke_point *a, const stroke_point *b, bool first, bool last,
+                  segment front)
 {
     const stroke_set   *set = h->job->strokes;
     const stroke_point *c = &set->points[front.point], *d = c + 1;
@@ -143,7 +146,8 @@ static void cross(halo_search *h, uint32_t own, const stroke_point *a, const str
     if (t < (first ? -reach : 0) || t > (last ? 1 + reach : 1) || u < -own_reach || u > 1 + own_reach)
         return;
     float share = fminf(fmaxf(t, 0), 1), front_share = fminf(fmaxf(u, 0), 1);
-    float depth = ribbon_depth_between(h->job, a->depth, b->depth, share), nearer = ribbon_depth_between(h->job, c->depth, d->depth, front_share);
+    float depth = ribbon_depth_between(h->job, a->depth, b->depth, share),
+          nearer = ribbon_depth_between(h->job, c->depth, d->depth, front_share);
     if (!(nearer < depth - h->depth_gap))
         return;
     float sine = fmaxf(fabsf(area) / (length * across), flattest);

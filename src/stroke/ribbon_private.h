@@ -1,4 +1,5 @@
-/* What the files of ribbons share: where along its chain a stroke is inked. Arcs are lengths along the chain, pixels. */
+/* What the files of ribbons share: where along its chain a stroke is inked. Arcs are lengths along the chain,
+ * pixels. */
 #ifndef LIMNER_STROKE_RIBBON_PRIVATE_H
 #define LIMNER_STROKE_RIBBON_PRIVATE_H
 
@@ -61,7 +62,8 @@ void ribbon_find_halos(gap_list *out, const ribbon_job *job);
 void ribbon_find_crowds(gap_list *out, const ribbon_job *job);
 
 /* The dashes of a stroke from arc `from` to `to`. */
-void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from, float to);
+void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from,
+                 float to);
 
 /* Depth between two depths, at a share of the way on the page. */
 float ribbon_depth_between(const ribbon_job *job, float a, float b, float share);

@@ -27,7 +27,8 @@ static vec3 *pose_positions(const mesh *m, const part_pose *pose)
     vec3 *out = mem_alloc(count * sizeof *out);
     for (size_t i = 0; i < m->primitive_count && out; at += m->primitives[i++].vertex_count) {
         const primitive *p = &m->primitives[i];
-        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count, out + at, NULL);
+        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count,
+                  out + at, NULL);
     }
     return out;
 }
@@ -43,10 +44,10 @@ static bool is_deformed(const mesh *m, const part_pose *pose)
 /* The number of the part's edge mesh, made when it is not there yet. */
 static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, lmn_error *error)
 {
-    const node *n = &b->scene->nodes[b->scene->parts[part_index].node];
+    const node      *n = &b->scene->nodes[b->scene->parts[part_index].node];
     const part_pose *pose = &b->pose->parts[part_index];
-    const mesh *m = &b->scene->meshes[n->mesh];
-    bool posed = is_deformed(m, pose);
+    const mesh      *m = &b->scene->meshes[n->mesh];
+    bool             posed = is_deformed(m, pose);
     if (!posed && b->shared[n->mesh] != NONE) {
         *out = (uint32_t)b->shared[n->mesh];
         return LMN_OK;
@@ -54,7 +55,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
     stroke_scene *s = b->out;
     if (!mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
         return error_memory(error);
-    vec3 *places = posed ? pose_positions(m, pose) : NULL;
+    vec3      *places = posed ? pose_positions(m, pose) : NULL;
     lmn_status status = posed && !places ? error_memory(error) : LMN_OK;
     if (status == LMN_OK)
         status = edge_mesh_create(&s->meshes[s->mesh_count], m, places, b->crease_angle, error);
@@ -75,7 +76,8 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
 /* The largest coordinate of a box. */
 static double farthest(box3 box)
 {
-    return fmax(fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y))), fmax(fabs(box.min.z), fabs(box.max.z)));
+    return fmax(fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y))),
+                fmax(fabs(box.min.z), fabs(box.max.z)));
 }
 
 /* By how much a matrix may lengthen things. */
@@ -83,7 +85,8 @@ static double growth(const mat4 *m)
 {
     double most = 0;
     for (int k = 0; k < 3; k++)
-        most = fmax(most, sqrt(m->m[4 * k] * m->m[4 * k] + m->m[4 * k + 1] * m->m[4 * k + 1] + m->m[4 * k + 2] * m->m[4 * k + 2]));
+        most = fmax(most, sqrt(m->m[4 * k] * m->m[4 * k] + m->m[4 * k + 1] * m->m[4 * k + 1] +
+                               m->m[4 * k + 2] * m->m[4 * k + 2]));
     return most;
 }
 
@@ -93,9 +96,9 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
     if (n->mesh < 0)
         return LMN_OK;
     stroke_scene *s = b->out;
-    uint32_t number = 0;
-    lmn_status status = find_mesh(b, part_index, &number, error);
-    size_t count = node_draw_count(n);
+    uint32_t      number = 0;
+    lmn_status    status = find_mesh(b, part_index, &number, error);
+    size_t        count = node_draw_count(n);
     if (status != LMN_OK)
         return status;
     if (!mem_grow((void **)&s->items, &b->item_capacity, s->item_count + count, sizeof *s->items))
@@ -104,7 +107,7 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
         mat4 world = pose_instance(b->pose, part_index, i);
         s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, number, world};
         const edge_mesh *m = &s->meshes[number];
-        double grown = growth(&world);
+        double           grown = growth(&world);
         for (uint32_t k = 0; k < m->piece_count; k++) {
             b->box = box3_union(b->box, box3_transform(m->boxes[k], &world));
             s->reach = fmax(s->reach, grown * farthest(m->boxes[k]));
@@ -124,7 +127,8 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, cons
 {
     memset(out, 0, sizeof *out);
     const lmn_scene *scene = pose->scene;
-    scene_builder b = {.out = out, .pose = pose, .scene = scene, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
+    scene_builder    b = {
+           .out = out, .pose = pose, .scene = scene, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
     b.shared = mem_alloc((scene->mesh_count + 1) * sizeof *b.shared);
     lmn_status status = b.shared ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < scene->mesh_count && status == LMN_OK; i++)

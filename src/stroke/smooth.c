@@ -1,9 +1,11 @@
-/* Outlines of the surface that a mesh stands for: where the interpolated normal is at right angles to the view (Hertzmann and Zorin 2000). Across each face that has knots facing the eye and knots facing
- * away runs one straight piece, so that outlines of closed surfaces are closed and never run back and forth.
+/* Outlines of the surface that a mesh stands for: where the interpolated normal is at right angles to the view
+ * (Hertzmann and Zorin 2000). Across each face that has knots facing the eye and knots facing away runs one straight
+ * piece, so that outlines of closed surfaces are closed and never run back and forth.
  *
- * Such an outline lies beside the mesh's own, on faces that may look away from the eye, and is covered by the very fold of the mesh that it is the edge of. That fold is told from all other surfaces by
- * lying next to it on the mesh: faces around it do not count. Where the surface is hollow along the view, as beyond the end of a fold, an outline of a body is always
- * hidden, if only by its own neighbours; of what is open only the nearest faces do not count there. */
+ * Such an outline lies beside the mesh's own, on faces that may look away from the eye, and is covered by the very fold
+ * of the mesh that it is the edge of. That fold is told from all other surfaces by lying next to it on the mesh: faces
+ * around it do not count. Where the surface is hollow along the view, as beyond the end of a fold, an outline of a body
+ * is always hidden, if only by its own neighbours; of what is open only the nearest faces do not count there. */
 #include "stroke/form_view.h"
 
 #include <math.h>
@@ -60,12 +62,13 @@ static bool put_ignored(smoother *w, uint32_t face)
     return true;
 }
 
-/* Lists the faces of the fold behind those that are listed already: all that touch the face, and on from them those that are seen as steeply as these. */
+/* Lists the faces of the fold behind those that are listed already: all that touch the face, and on from them those
+ * that are seen as steeply as these. */
 static bool put_fold(smoother *w, uint32_t face, double3 place, int rings)
 {
     const form_view *f = w->f;
-    size_t first = w->count, ring = first;
-    double longest = 0, most = 0;
+    size_t           first = w->count, ring = first;
+    double           longest = 0, most = 0;
     for (uint32_t k = 0; k < 3; k++)
         longest = fmax(longest, square_apart(form_place(f, face, k), form_place(f, face, k + 1)));
     w->stamps[face] = face + 1;
@@ -84,7 +87,8 @@ static bool put_fold(smoother *w, uint32_t face, double3 place, int rings)
                     if (w->stamps[other] == face + 1)
                         continue;
                     w->stamps[other] = face + 1;
-                    bool belongs = r == 0 || (is_grazed(f, other, most) && is_near(f, other, place, FOLD_REACH * FOLD_REACH * longest));
+                    bool belongs = r == 0 || (is_grazed(f, other, most) &&
+                                              is_near(f, other, place, FOLD_REACH * FOLD_REACH * longest));
                     if (belongs && !put_ignored(w, other))
                         return false;
                 }
@@ -102,19 +106,21 @@ static double growth_over(const form_view *f, uint32_t face, double3 d)
     double3 p[3];
     for (uint32_t k = 0; k < 3; k++)
         p[k] = form_place(f, face, k);
-    double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z, vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, vz = p[2].z - p[0].z;
-    double uu = ux * ux + uy * uy + uz * uz, uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz, ud = ux * d.x + uy * d.y + uz * d.z,
-           vd = vx * d.x + vy * d.y + vz * d.z, square = uu * vv - uv * uv;
+    double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z, vx = p[2].x - p[0].x, vy = p[2].y - p[0].y,
+           vz = p[2].z - p[0].z;
+    double uu = ux * ux + uy * uy + uz * uz, uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz,
+           ud = ux * d.x + uy * d.y + uz * d.z, vd = vx * d.x + vy * d.y + vz * d.z, square = uu * vv - uv * uv;
     const uint32_t *knots = f->s->corners[face];
-    double du = f->facing[knots[1]] - f->facing[knots[0]], dv = f->facing[knots[2]] - f->facing[knots[0]];
+    double          du = f->facing[knots[1]] - f->facing[knots[0]], dv = f->facing[knots[2]] - f->facing[knots[0]];
     return square > 0 ? (du * (ud * vv - vd * uv) + dv * (vd * uu - ud * uv)) / sqrt(square) : 0;
 }
 
-/* Is the surface hollow along the view? There the cosine falls towards the eye. All faces around decide together, because narrow ones are easily mistaken. */
+/* Is the surface hollow along the view? There the cosine falls towards the eye. All faces around decide together,
+ * because narrow ones are easily mistaken. */
 static bool is_hollow(const form_view *f, uint32_t face, double3 place)
 {
     double3 d = form_direction(f, place);
-    double sum = 0;
+    double  sum = 0;
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t vertex = f->m->faces[face][k];
         for (uint32_t i = f->s->fan_starts[vertex]; i < f->s->fan_starts[vertex + 1]; i++)
@@ -126,14 +132,14 @@ static bool is_hollow(const form_view *f, uint32_t face, double3 place)
 static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
 {
     form_view *f = w->f;
-    size_t before = f->out->count, listed = w->count;
-    uint32_t piece = f->m->pieces[face];
+    size_t     before = f->out->count, listed = w->count;
+    uint32_t   piece = f->m->pieces[face];
     if (!form_put(f, STROKE_CONTOUR, face, a, b, f->mirrored != (f->m->closed[piece] && f->m->inward[piece])))
         return false;
     if (f->out->count == before)
         return true;
     double3 middle = {0.5 * (a.place.x + b.place.x), 0.5 * (a.place.y + b.place.y), 0.5 * (a.place.z + b.place.z)};
-    bool hollow = is_hollow(f, face, middle);
+    bool    hollow = is_hollow(f, face, middle);
     if (!put_fold(w, face, middle, hollow ? 1 : FOLD_RINGS))
         return false;
     window_segment *s = &f->out->segments[before];
@@ -168,16 +174,18 @@ bool smooth_collect(form_view *f)
     bool good = w.stamps && calm_islands(f);
     for (uint32_t face = 0; face < f->s->face_count && good; face++) {
         const uint32_t *knots = f->s->corners[face];
-        bool front[3];
+        bool            front[3];
         for (int k = 0; k < 3; k++)
             front[k] = f->facing[knots[k]] >= 0;
         if (front[0] == front[1] && front[1] == front[2])
             continue;
-        form_end ends[2]; /* from where the winding passes from the front to the back to where it comes again: what is in front lies to the left */
+        form_end ends[2]; /* from where the winding passes from the front to the back to where it comes again: what is
+                             in front lies to the left */
         double share;
         for (uint32_t k = 0; k < 3; k++)
             if (front[k] != front[(k + 1) % 3])
-                ends[front[k] ? 0 : 1] = form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &share);
+                ends[front[k] ? 0 : 1] =
+                    form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &share);
         good = put_piece(&w, face, ends[0], ends[1]);
     }
     mem_free(w.stamps);

@@ -1,7 +1,8 @@
-/* Strokes: lines with geometry. From a scene and a camera to chains of points on the page, each stretch with the number of surfaces in front of it.
- * Needs no GPU. Freudenberg 2003, chapter 7.
+/* Strokes: lines with geometry. From a scene and a camera to chains of points on the page, each stretch with the number
+ * of surfaces in front of it. Needs no GPU. Freudenberg 2003, chapter 7.
  *
- *   stroke_scene: edges of all parts, once a scene ──► stroke_view: what a camera sees of it ──► stroke_set: the lines that were asked for
+ *   stroke_scene: edges of all parts, once a scene ──► stroke_view: what a camera sees of it ──► stroke_set: the lines
+ * that were asked for
  *
  * The page has its origin at the top left, x to the right, y down, in pixels; what lies outside it is cut off. */
 #ifndef LIMNER_STROKE_STROKE_H
@@ -14,15 +15,15 @@
 
 /* What a line is, most important first. A line that is several of these is the first of them. */
 typedef enum stroke_class {
-    STROKE_CONTOUR,      /* where a surface turns away from the eye */
-    STROKE_BORDER,       /* where a surface ends */
+    STROKE_CONTOUR, /* where a surface turns away from the eye */
+    STROKE_BORDER,  /* where a surface ends */
     STROKE_CREASE,
     STROKE_INTERSECTION, /* where two surfaces run through each other */
     STROKE_MATERIAL,
-    STROKE_SUGGESTIVE,   /* where a contour would appear if the eye moved a little */
+    STROKE_SUGGESTIVE, /* where a contour would appear if the eye moved a little */
     STROKE_RIDGE,
     STROKE_VALLEY,
-    STROKE_APPARENT,     /* apparent ridge: where what is seen bends most */
+    STROKE_APPARENT, /* apparent ridge: where what is seen bends most */
     STROKE_CLASS_COUNT
 } stroke_class;
 /* "contour", "border" …: names in files, reports and looks. */
@@ -38,15 +39,16 @@ typedef struct stroke_point {
 /* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order. */
 typedef struct stroke {
     stroke_class kind;
-    uint32_t     part;        /* id */
-    uint32_t     hidden_by;   /* surfaces in front, of closed bodies those that face the eye; 0: visible */
-    uint32_t     chain;       /* number of the chain, from 0 */
-    uint64_t     id;          /* of the chain: the same as long as its most lasting edge is in it, from frame to frame */
+    uint32_t     part;      /* id */
+    uint32_t     hidden_by; /* surfaces in front, of closed bodies those that face the eye; 0: visible */
+    uint32_t     chain;     /* number of the chain, from 0 */
+    uint64_t     id;        /* of the chain: the same as long as its most lasting edge is in it, from frame to frame */
     uint32_t     first, count; /* points; neighbours in a chain both have the point between them */
-    bool         closed;      /* the whole chain is this stroke and ends where it began, the first point once more */
-    float        phase;       /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
+    bool         closed;       /* the whole chain is this stroke and ends where it began, the first point once more */
+    float        phase; /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
     float        chain_length; /* pixels */
-    bool         smooth;      /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of it */
+    bool smooth; /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of
+                    it */
 } stroke;
 
 /* Where on a chain one of its lasting edges begins: what a chain of the next frame is recognised by. */
@@ -59,14 +61,14 @@ typedef struct stroke_mark {
 typedef struct stroke_set {
     stroke       *strokes;
     stroke_point *points;
-    stroke_mark  *marks;   /* in the order of the chains */
+    stroke_mark  *marks; /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
     bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
-    uint64_t      pairs;      /* of lines and triangles that were compared: what the work was */
+    uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 
-/* --- the scene ---------------------------------------------------------------------------------------------------- */
+/* --- the scene ------------------------------------------------------------------------------------------ */
 
 /* One part at one place. */
 typedef struct stroke_item {
@@ -78,55 +80,61 @@ typedef struct stroke_item {
 typedef struct crossing_list crossing_list;
 
 typedef struct stroke_scene {
-    struct form_surface *surfaces; /* per mesh, how it bends; NULL: not asked for yet */
-    crossing_list *crossings; /* where pieces run through each other; NULL: not asked for yet */
-    edge_mesh   *meshes;
-    size_t       mesh_count;
-    stroke_item *items;
-    size_t       item_count;
-    double       extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how exact places are: where a node puts it is exact */
+    struct form_surface *surfaces;  /* per mesh, how it bends; NULL: not asked for yet */
+    crossing_list       *crossings; /* where pieces run through each other; NULL: not asked for yet */
+    edge_mesh           *meshes;
+    size_t               mesh_count;
+    stroke_item         *items;
+    size_t               item_count;
+    double extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how
+                             exact places are: where a node puts it is exact */
 } stroke_scene;
 
 /* Takes the parts with `parts[index]` (NULL: all) as they are posed. Solids have no triangles and are left out.
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
-/* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round as the lines are. Takes stroke_options.refine. Also LMN_LIMIT. */
+/* The same with all meshes refined `refine` times (0 … 3; each makes four triangles of one): what hides is as round
+ * as the lines are. Takes stroke_options.refine. Also LMN_LIMIT. */
 lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                        int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_scene_release(stroke_scene *s);
-/* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
+/* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else
+ * stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
-/* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT,
- * LMN_CANCELLED. */
+/* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of
+ * form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT, LMN_CANCELLED. */
 lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
-/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before stroke_scene_cross. `outward`: unit normals of both, away from
- * what they enclose; 0, 0, 0 where they enclose nothing. */
+/* What was found: straight lines, world axes, with the item of the first of both surfaces. None before
+ * stroke_scene_cross. `outward`: unit normals of both, away from what they enclose; 0, 0, 0 where they enclose
+ * nothing. */
 size_t   stroke_scene_crossing_count(const stroke_scene *s);
 uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3], vec3 outward[2]);
 
-/* --- the view ----------------------------------------------------------------------------------------------------- */
+/* --- the view ------------------------------------------------------------------------------------------- */
 
 typedef struct stroke_camera {
     mat4   view, projection; /* GL's; near and far do not matter, but what is nearer than the near plane is cut off */
     double near;             /* eye depth, above 0 in perspective */
     bool   orthographic;
-    int    width, height;    /* of the page, pixels */
+    int    width, height; /* of the page, pixels */
 } stroke_camera;
 
 typedef struct stroke_view stroke_view;
 /* Projects the scene, which is borrowed until the view is destroyed. Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, const stroke_camera *camera, lmn_progress_fn progress, void *user,
-                              lmn_error *error);
+lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, const stroke_camera *camera,
+                              lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_view_destroy(stroke_view **v);
 
-/* How many surfaces lie in front of each of these places (world axes), of closed bodies those that face the eye, UINT32_MAX for those outside the page. What a place lies on does not count. Any thread. */
+/* How many surfaces lie in front of each of these places (world axes), of closed bodies those that face the eye,
+ * UINT32_MAX for those outside the page. What a place lies on does not count. Any thread. */
 void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t count, uint32_t *out);
 
 typedef enum contour_kind {
     CONTOURS_NONE,
-    CONTOURS_EDGES,  /* edges of the mesh between front and back: exactly the outline of what is there */
-    CONTOURS_SMOOTH  /* where the interpolated normal is at right angles to the view: the outline of the surface that is meant */
+    CONTOURS_EDGES, /* edges of the mesh between front and back: exactly the outline of what is there */
+    CONTOURS_SMOOTH /* where the interpolated normal is at right angles to the view: the outline of the surface that is
+                       meant */
 } contour_kind;
 
 /* Which lines are wanted. */
@@ -134,22 +142,26 @@ typedef struct stroke_options {
     int32_t contours; /* contour_kind */
     bool    creases, borders, materials, intersections;
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
-    bool    hidden;    /* stretches behind surfaces too */
-    float   simplify;  /* by how much points may be moved, pixels */
-    float   shortest;  /* chains shorter than this are left out, pixels */
-    float   crowd;     /* strokes that run all their length this close to more important ones are left out, pixels */
-    int32_t refine;    /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
-    int32_t curve;     /* 0 … 4: how often chains of contours are refined as curves */
+    bool    hidden;                                /* stretches behind surfaces too */
+    float   simplify;                              /* by how much points may be moved, pixels */
+    float   shortest;                              /* chains shorter than this are left out, pixels */
+    float   crowd; /* strokes that run all their length this close to more important ones are left out, pixels */
+    int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
+    int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_options;
-#define STROKE_OPTIONS_INIT {CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0}
+#define STROKE_OPTIONS_INIT                                                                                            \
+    {                                                                                                                  \
+        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0                                             \
+    }
 
-/* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one view. */
+/* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one
+ * view. */
 bool stroke_options_bend(const stroke_options *w);
 
-/* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide them. Same call, same strokes, whatever the
- * number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
-                       lmn_error *error);
+/* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide
+ * them. Same call, same strokes, whatever the number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts,
+                       lmn_progress_fn progress, void *user, lmn_error *error);
 
 /* What `stroke_verify` found. */
 typedef struct stroke_check {
@@ -157,15 +169,16 @@ typedef struct stroke_check {
     uint64_t wrong;      /* visible where it should be hidden, or the other way round */
     uint64_t miscounted; /* the same or a wrong number of surfaces in front */
 } stroke_check;
-/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves, with other arithmetic. A sample is wrong when no
- * place within half a pixel is as the stroke says. Smooth outlines are left out: the triangles that they
- * stand for cover them. Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
-                         lmn_error *error);
+/* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves,
+ * with other arithmetic. A sample is wrong when no place within half a pixel is as the stroke says. Smooth outlines
+ * are left out: the triangles that they stand for cover them. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart,
+                         lmn_progress_fn progress, void *user, lmn_error *error);
 
-/* Gives strokes of a new frame the phases of those of the frame before: chains that share an edge keep what repeats along them where it was on the model; where chains split,
- * each part goes on, and where they merge, the longest one hands over. Without memory left everything stays as it is. After Kalnins and others 2003 (coherent stylized silhouettes), in the
- * simplest form: one offset a chain. */
+/* Gives strokes of a new frame the phases of those of the frame before: chains that share an edge keep what repeats
+ * along them where it was on the model; where chains split, each part goes on, and where they merge, the longest
+ * one hands over. Without memory left everything stays as it is. After Kalnins and others 2003 (coherent stylized
+ * silhouettes), in the simplest form: one offset a chain. */
 void stroke_follow(stroke_set *now, const stroke_set *before);
 
 #endif

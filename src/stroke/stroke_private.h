@@ -1,8 +1,9 @@
 /* What the files of this room share: what a camera sees of a scene, made ready for asking what lies in front of what.
  *
- * In *window space* x and y are whole numbers, small fractions of a pixel measured from the middle of the page, so that on which side of a line a point lies is worked out
- * without rounding: products of differences stay below 2^53. z grows with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both
- * make lines and planes of the scene lines and planes of the window. */
+ * In *window space* x and y are whole numbers, small fractions of a pixel measured from the middle of the page, so that
+ * on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53. z grows
+ * with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines and
+ * planes of the scene lines and planes of the window. */
 #ifndef LIMNER_STROKE_PRIVATE_H
 #define LIMNER_STROKE_PRIVATE_H
 
@@ -11,7 +12,8 @@
 #define NO_VERTEX UINT32_MAX
 /* Window coordinates stay within this. */
 #define WINDOW_LIMIT 16777216.0
-/* What two places may differ by and still be one, share of the largest coordinate: a few roundings of single precision. */
+/* What two places may differ by and still be one, share of the largest coordinate: a few roundings of single
+ * precision. */
 #define SAME_PLACE 1e-6
 
 typedef struct window_point {
@@ -56,14 +58,15 @@ typedef struct grid_level {
     int32_t   low_x, low_y;        /* its corner, window units */
     int32_t   cell, columns, rows; /* side of a cell, window units */
     uint32_t *starts;              /* per cell, and one more, in the grid's entries */
-    uint32_t *subs;                /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
+    uint32_t *subs; /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
 } grid_level;
 
-/* Grids of several sizes. Each triangle lies in one of the levels, in all cells that it touches there; crowded cells have a finer grid in them. */
+/* Grids of several sizes. Each triangle lies in one of the levels, in all cells that it touches there; crowded
+ * cells have a finer grid in them. */
 enum { GRID_LEVELS = 10, GRID_SPAN = 16 };
 typedef struct window_grid {
     grid_level  levels[GRID_LEVELS];
-    grid_level *subs;              /* their starts are parts of sub_starts */
+    grid_level *subs; /* their starts are parts of sub_starts */
     uint32_t   *sub_starts;
     uint32_t   *entries, *sub_entries; /* triangles */
     size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_entry_count, sub_entry_capacity;
@@ -76,29 +79,29 @@ typedef struct view_item {
 struct stroke_view {
     const stroke_scene *scene;
     stroke_camera       camera;
-    mat4                whole;         /* world to clip space */
-    double              units;         /* window units in a pixel */
-    double              same;          /* SAME_PLACE in file units */
+    mat4                whole; /* world to clip space */
+    double              units; /* window units in a pixel */
+    double              same;  /* SAME_PLACE in file units */
     view_item          *items;
-    window_point       *points;        /* of all items' vertices; behind them those of clipped faces */
+    window_point       *points; /* of all items' vertices; behind them those of clipped faces */
     size_t              point_count, point_capacity;
-    uint8_t            *outside;       /* per vertex of an item: which planes it is outside of */
-    uint8_t            *fronts;        /* per face of all items, one bit: seen from the front */
+    uint8_t            *outside; /* per vertex of an item: which planes it is outside of */
+    uint8_t            *fronts;  /* per face of all items, one bit: seen from the front */
     window_triangle    *triangles;
     size_t              triangle_count, triangle_capacity;
-    window_box         *boxes;         /* per triangle */
+    window_box         *boxes; /* per triangle */
     window_grid         grid;
     uint32_t            face_count, piece_count, vertex_count;
 };
 
 /* A straight line whose visibility is asked for. */
 typedef struct window_segment {
-    window_point a, b;
-    uint32_t     ends[2];  /* points of the view that a and b are; NO_VERTEX: neither */
-    uint32_t     faces[2]; /* that it lies on; EDGE_NO_FACE: none */
-    const uint32_t *ignored; /* faces that do not count, ascending */
-    uint32_t     ignored_count;
-    uint32_t     least;    /* as many surfaces lie in front at least */
+    window_point    a, b;
+    uint32_t        ends[2];  /* points of the view that a and b are; NO_VERTEX: neither */
+    uint32_t        faces[2]; /* that it lies on; EDGE_NO_FACE: none */
+    const uint32_t *ignored;  /* faces that do not count, ascending */
+    uint32_t        ignored_count;
+    uint32_t        least; /* as many surfaces lie in front at least */
 } window_segment;
 
 /* From `from` on (share of the segment) this many surfaces lie in front. */
@@ -108,18 +111,20 @@ typedef struct visibility_span {
 } visibility_span;
 
 /* --- project.c --- */
-/* Eye space and back: a place of the world in the window, and whether it can be seen (not nearer than the near plane, not far outside). */
-bool   view_place(const stroke_view *v, double3 world, window_point *out);
+/* Eye space and back: a place of the world in the window, and whether it can be seen (not nearer than the near
+ * plane, not far outside). */
+bool view_place(const stroke_view *v, double3 world, window_point *out);
 /* Cuts a line of the world to what lies in the window; false when nothing does. `cut`: the shares that are left. */
-bool   view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
+bool view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
 /* Is a triangle of the world seen from the front? Its corners run anticlockwise then. */
-bool   view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
+bool    view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
 double3 item_place(const stroke_item *item, vec3 p);
-double view_depth(const stroke_view *v, double z); /* eye depth */
-double view_tolerance(const stroke_view *v, double z); /* of z */
-/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye outside, what faces away lies behind what faces the eye, so
- * that it need not be counted. Free with mem_free; NULL when memory is gone. */
-uint8_t *view_unseen(const stroke_view *v, size_t item);
+double  view_depth(const stroke_view *v, double z);     /* eye depth */
+double  view_tolerance(const stroke_view *v, double z); /* of z */
+/* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye
+ * outside, what faces away lies behind what faces the eye, so that it need not be counted. Free with mem_free; NULL
+ * when memory is gone. */
+uint8_t           *view_unseen(const stroke_view *v, size_t item);
 static inline bool view_is_front(const stroke_view *v, uint32_t face)
 {
     return v->fronts[face >> 3] >> (face & 7) & 1;
@@ -134,9 +139,10 @@ static inline double window_side(window_point a, window_point b, window_point c)
 /* --- grid.c --- */
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error);
 void       grid_release(window_grid *g);
-/* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `alone`: it is the only one of the level. */
+/* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `alone`: it is
+ * the only one of the level. */
 typedef void (*grid_visit)(void *user, const uint32_t *entries, size_t count, bool alone);
-void       grid_walk(const window_grid *g, window_point a, window_point b, grid_visit visit, void *user);
+void grid_walk(const window_grid *g, window_point a, window_point b, grid_visit visit, void *user);
 
 /* --- visibility.c --- */
 /* What covers segments: `spans` of segment i are spans[starts[i]] … spans[starts[i + 1] − 1], the first from 0 on. */
@@ -145,8 +151,8 @@ typedef struct visibility {
     uint32_t        *starts;
     uint64_t         pairs;
 } visibility;
-lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count, lmn_progress_fn progress, void *user,
-                           lmn_error *error);
+lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count,
+                           lmn_progress_fn progress, void *user, lmn_error *error);
 void       visibility_release(visibility *out);
 
 /* --- hierarchy.c: boxes around boxes --- */
@@ -166,9 +172,10 @@ typedef struct hierarchy {
 lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *kin, uint32_t count, lmn_error *error);
 void       hierarchy_release(hierarchy *h);
 
-/* Calls `pair` for all pairs of members of different kin whose boxes overlap, each once; false from it ends the search. */
+/* Calls `pair` for all pairs of members of different kin whose boxes overlap, each once; false from it ends the
+ * search. */
 typedef bool (*hierarchy_pair)(void *user, uint32_t a, uint32_t b);
-bool       hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin, hierarchy_pair pair, void *user);
+bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin, hierarchy_pair pair, void *user);
 
 /* --- intersections.c --- */
 /* A straight line in which two faces of different pieces cross. */
@@ -181,18 +188,19 @@ struct crossing_list {
     size_t         count, capacity;
 };
 /* All of them, in an order that depends on the scene alone. */
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user, lmn_error *error);
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
+                          lmn_error *error);
 
 /* --- lines.c --- */
 /* Line edges of one view, before they are chained. */
 typedef struct view_line {
     stroke_class kind;
     uint32_t     item;
-    uint32_t     ends[2];  /* of view points, or numbers from vertex_count on that only lines have */
+    uint32_t     ends[2]; /* of view points, or numbers from vertex_count on that only lines have */
     uint64_t     id;
     float        weights[2]; /* at its ends */
     bool         sharp;      /* runs along a sharp edge */
-    bool         turned;   /* outlines: what is seen from the front lies to its other side */
+    bool         turned;     /* outlines: what is seen from the front lies to its other side */
 } view_line;
 
 typedef struct view_lines {
@@ -202,29 +210,32 @@ typedef struct view_lines {
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
 } view_lines;
-lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
-                         lmn_error *error);
+lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
+                         lmn_progress_fn progress, void *user, lmn_error *error);
 void       lines_release(view_lines *l);
-/* Adds a line of the world, as far as it lies in the window; ends that are cut off get numbers of their own. False when memory is gone. */
-bool       lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2]);
-uint64_t   line_id(uint64_t a, uint64_t b); /* numbers that differ for different lines and stay from view to view */
+/* Adds a line of the world, as far as it lies in the window; ends that are cut off get numbers of their own. False
+ * when memory is gone. */
+bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2]);
+uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different lines and stay from view to view */
 
 /* --- form.c --- */
-void       form_surfaces_destroy(stroke_scene *s);
-/* Adds the lines of smooth surfaces that are wished for: outlines by normals, suggestive contours, ridges, valleys, apparent ridges. */
-lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts, lmn_progress_fn progress, void *user,
-                        lmn_error *error);
+void form_surfaces_destroy(stroke_scene *s);
+/* Adds the lines of smooth surfaces that are wished for: outlines by normals, suggestive contours, ridges, valleys,
+ * apparent ridges. */
+lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
+                        lmn_progress_fn progress, void *user, lmn_error *error);
 
 /* --- chains.c --- */
-lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen, const stroke_options *options,
-                       lmn_error *error);
+lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen,
+                       const stroke_options *options, lmn_error *error);
 
 /* --- join.c --- */
 /* Joins strokes of one kind whose ends almost touch. */
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
 
 /* --- crowd.c --- */
-/* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's size in pixels. */
+/* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's
+ * size in pixels. */
 lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error);
 
 #endif

@@ -1,5 +1,6 @@
-/* Strokes held against rays: places of strokes are looked at along straight lines from the eye through the triangles as they stand in the world, by other arithmetic than
- * that which found them (no window, no grid, no whole numbers). */
+/* Strokes held against rays: places of strokes are looked at along straight lines from the eye through the
+ * triangles as they stand in the world, by other arithmetic than that which found them (no window, no grid, no
+ * whole numbers). */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -7,7 +8,8 @@
 
 #include "base/memory.h"
 
-/* A place counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what they belong to. */
+/* A place counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what
+ * they belong to. */
 static const double near_by[] = {0, 0.25, 0.5};
 enum { DIRECTIONS = 8, RINGS = 3, STACK = 128, TICK = 4096 };
 
@@ -25,28 +27,30 @@ typedef struct ray_count {
 typedef struct verifier {
     const stroke_view *v;
     hierarchy          tree;
-    box3              *boxes;      /* per face of all items */
-    double3          (*corners)[3];
-    uint8_t           *unseen;     /* per face: as view_unseen says of its piece */
-    mat4               to_world;   /* from eye space */
-    double             half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
+    box3              *boxes; /* per face of all items */
+    double3 (*corners)[3];
+    uint8_t *unseen;                  /* per face: as view_unseen says of its piece */
+    mat4     to_world;                /* from eye space */
+    double   half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
 } verifier;
 
-/* --- preparation --------------------------------------------------------------------------------------------------- */
+/* --- preparation ---------------------------------------------------------------------------------------- */
 
 static void load_item(verifier *w, size_t index, const uint8_t *unseen)
 {
     const stroke_view *v = w->v;
     const stroke_item *item = &v->scene->items[index];
-    const edge_mesh *m = &v->scene->meshes[item->mesh];
+    const edge_mesh   *m = &v->scene->meshes[item->mesh];
     for (uint32_t f = 0; f < m->face_count; f++) {
         uint32_t face = v->items[index].first_face + f;
-        box3 box = box3_empty();
+        box3     box = box3_empty();
         for (int k = 0; k < 3; k++) {
             double3 p = item_place(item, m->places[m->faces[f][k]]);
             w->corners[face][k] = p;
-            box = box3_with_point(box, (vec3){nextafterf((float)p.x, -INFINITY), nextafterf((float)p.y, -INFINITY), nextafterf((float)p.z, -INFINITY)});
-            box = box3_with_point(box, (vec3){nextafterf((float)p.x, INFINITY), nextafterf((float)p.y, INFINITY), nextafterf((float)p.z, INFINITY)});
+            box = box3_with_point(box, (vec3){nextafterf((float)p.x, -INFINITY), nextafterf((float)p.y, -INFINITY),
+                                              nextafterf((float)p.z, -INFINITY)});
+            box = box3_with_point(box, (vec3){nextafterf((float)p.x, INFINITY), nextafterf((float)p.y, INFINITY),
+                                              nextafterf((float)p.z, INFINITY)});
         }
         w->boxes[face] = box;
         w->unseen[face] = unseen[m->pieces[f]];
@@ -57,7 +61,7 @@ static void load_item(verifier *w, size_t index, const uint8_t *unseen)
 static mat4 inverse_view(const mat4 *view)
 {
     const double *m = view->m;
-    mat4 out = mat4_identity();
+    mat4          out = mat4_identity();
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++)
             out.m[4 * c + r] = m[4 * r + c];
@@ -97,20 +101,23 @@ static lmn_status prepare(verifier *w, lmn_error *error)
     return status;
 }
 
-/* --- rays ---------------------------------------------------------------------------------------------------------- */
+/* --- rays ----------------------------------------------------------------------------------------------- */
 
 static double3 place_of(const verifier *w, double x, double y, double z)
 {
     const double *m = w->to_world.m;
-    return (double3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13], m[2] * x + m[6] * y + m[10] * z + m[14]};
+    return (double3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
+                     m[2] * x + m[6] * y + m[10] * z + m[14]};
 }
 
 /* The line from the eye (parallel: from far before it) to the place at a depth behind a place of the page. */
 static ray ray_to(const verifier *w, double x, double y, double depth)
 {
     const stroke_camera *c = &w->v->camera;
-    double right = (2 * x / c->width - 1 + (c->orthographic ? -c->projection.m[12] : c->projection.m[8])) * w->half_width;
-    double up = (1 - 2 * y / c->height + (c->orthographic ? -c->projection.m[13] : c->projection.m[9])) * w->half_height;
+    double               right =
+        (2 * x / c->width - 1 + (c->orthographic ? -c->projection.m[12] : c->projection.m[8])) * w->half_width;
+    double up =
+        (1 - 2 * y / c->height + (c->orthographic ? -c->projection.m[13] : c->projection.m[9])) * w->half_height;
     double3 to, from;
     if (c->orthographic) {
         to = place_of(w, right, up, -depth);
@@ -120,8 +127,8 @@ static ray ray_to(const verifier *w, double x, double y, double depth)
         from = place_of(w, right * c->near, up * c->near, -c->near);
     }
     double3 along = double3_minus(to, from);
-    double length = sqrt(double3_dot(along, along)), share = length > 0 ? 1 / length : 0;
-    double pixel = 2 * w->half_height / c->height * (c->orthographic ? 1 : depth);
+    double  length = sqrt(double3_dot(along, along)), share = length > 0 ? 1 / length : 0;
+    double  pixel = 2 * w->half_height / c->height * (c->orthographic ? 1 : depth);
     return (ray){from, {along.x * share, along.y * share, along.z * share}, length, 0.5 * pixel};
 }
 
@@ -129,7 +136,7 @@ static bool passes(const box3 *b, const ray *r)
 {
     const double low[3] = {b->min.x, b->min.y, b->min.z}, high[3] = {b->max.x, b->max.y, b->max.z};
     const double from[3] = {r->from.x, r->from.y, r->from.z}, along[3] = {r->along.x, r->along.y, r->along.z};
-    double enter = 0, leave = r->until;
+    double       enter = 0, leave = r->until;
     for (int k = 0; k < 3; k++) {
         if (along[k] == 0) {
             if (from[k] < low[k] || from[k] > high[k])
@@ -147,12 +154,13 @@ static bool passes(const box3 *b, const ray *r)
 static void count_face(const verifier *w, uint32_t face, const ray *r, ray_count *out)
 {
     const double3 *p = w->corners[face];
-    double3 a = double3_minus(p[1], p[0]), b = double3_minus(p[2], p[0]), h = double3_cross(r->along, b), normal = double3_cross(a, b);
+    double3        a = double3_minus(p[1], p[0]), b = double3_minus(p[2], p[0]), h = double3_cross(r->along, b),
+            normal = double3_cross(a, b);
     double det = double3_dot(a, h);
     if (det == 0 || w->unseen[face] == (det > 0 ? 2 : 1))
         return;
     double3 s = double3_minus(r->from, p[0]), q = double3_cross(s, a);
-    double u = double3_dot(s, h) / det, v = double3_dot(r->along, q) / det, t = double3_dot(b, q) / det;
+    double  u = double3_dot(s, h) / det, v = double3_dot(r->along, q) / det, t = double3_dot(b, q) / det;
     if (u < 0 || v < 0 || u + v > 1 || t < 0 || t >= r->until)
         return;
     out->all++;
@@ -161,7 +169,7 @@ static void count_face(const verifier *w, uint32_t face, const ray *r, ray_count
 
 static ray_count count_in_front(const verifier *w, const ray *r)
 {
-    uint32_t stack[STACK], depth = 0;
+    uint32_t  stack[STACK], depth = 0;
     ray_count count = {0, 0};
     if (w->tree.node_count)
         stack[depth++] = 0;
@@ -179,15 +187,15 @@ static ray_count count_in_front(const verifier *w, const ray *r)
     return count;
 }
 
-/* --- strokes ------------------------------------------------------------------------------------------------------- */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
 static void check_place(const verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
 {
     bool right = false, counted = false;
     for (int ring = 0; ring < RINGS && !counted; ring++)
         for (int k = 0; k < (ring ? DIRECTIONS : 1) && !counted; k++) {
-            double turn = 2 * 3.14159265358979323846 * k / DIRECTIONS;
-            ray r = ray_to(w, x + near_by[ring] * cos(turn), y + near_by[ring] * sin(turn), depth);
+            double    turn = 2 * 3.14159265358979323846 * k / DIRECTIONS;
+            ray       r = ray_to(w, x + near_by[ring] * cos(turn), y + near_by[ring] * sin(turn), depth);
             ray_count count = count_in_front(w, &r);
             right = right || (s->hidden_by ? count.all > 0 : count.sure == 0);
             counted = count.sure <= s->hidden_by && s->hidden_by <= count.all;
@@ -211,22 +219,23 @@ static void check_stroke(const verifier *w, const stroke_set *set, const stroke 
     double done = 0;
     for (uint32_t i = 0; i + 1 < s->count; i++) {
         const stroke_point *p = &set->points[s->first + i], *q = p + 1;
-        double length = hypot((double)q->x - p->x, (double)q->y - p->y);
+        double              length = hypot((double)q->x - p->x, (double)q->y - p->y);
         for (; next < done + length; next += apart) {
             double share = (next - done) / length;
-            check_place(w, s, p->x + share * (q->x - p->x), p->y + share * (q->y - p->y), depth_between(w->v, p, q, share), out);
+            check_place(w, s, p->x + share * (q->x - p->x), p->y + share * (q->y - p->y),
+                        depth_between(w->v, p, q, share), out);
         }
         done += length;
     }
 }
 
-lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart, lmn_progress_fn progress, void *user,
-                         lmn_error *error)
+lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart,
+                         lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    verifier w = {.v = v};
+    verifier   w = {.v = v};
     lmn_status status = prepare(&w, error);
-    uint64_t told = 0;
+    uint64_t   told = 0;
     for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++) {
         if (!set->strokes[i].smooth) /* rays know nothing of what is meant by the mesh */
             check_stroke(&w, set, &set->strokes[i], apart > 0 ? apart : 1, out);

@@ -1,8 +1,10 @@
-/* How many surfaces lie in front of each stretch of a line: every triangle that crosses it in the window covers it from one crossing to the other, as far as it is nearer.
+/* How many surfaces lie in front of each stretch of a line: every triangle that crosses it in the window covers it from
+ * one crossing to the other, as far as it is nearer.
  *
- * What makes this hold together where triangles meet: on which side of the line a corner lies is exact, and a corner on the line counts as being on the positive side, as if the
- * line were shifted a little to the other one. So a line that runs along the edge between two triangles is covered by one of them, not by both or neither, and where
- * a line leaves one triangle for the next the two numbers are the same, because both come from the edge that they share. */
+ * What makes this hold together where triangles meet: on which side of the line a corner lies is exact, and a corner on
+ * the line counts as being on the positive side, as if the line were shifted a little to the other one. So a line that
+ * runs along the edge between two triangles is covered by one of them, not by both or neither, and where a line leaves
+ * one triangle for the next the two numbers are the same, because both come from the edge that they share. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -32,8 +34,8 @@ typedef struct span_job {
     atomic_bool           failed;
 } span_job;
 
-/* A place of the segment and by how many surfaces its cover grows there. Most places are edges between two triangles, where one cover ends and another one begins at the
- * very same number, so that nothing is left of them. */
+/* A place of the segment and by how many surfaces its cover grows there. Most places are edges between two
+ * triangles, where one cover ends and another one begins at the very same number, so that nothing is left of them. */
 typedef struct place_step {
     double  at;
     int32_t step;
@@ -49,13 +51,13 @@ typedef struct place_slot {
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
-    float                 far_z;     /* of the segment, or a little more: what begins behind is no cover */
+    float                 far_z; /* of the segment, or a little more: what begins behind is no cover */
     int32_t               low_x, low_y, high_x, high_y;
-    uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
+    uint32_t             *stamps; /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
-    place_slot           *table;     /* of places where covers begin or end, found by their bits */
+    place_slot           *table; /* of places where covers begin or end, found by their bits */
     size_t                table_size;
-    uint32_t             *filled;    /* slots of this segment */
+    uint32_t             *filled; /* slots of this segment */
     size_t                filled_count, filled_capacity;
     place_step           *steps;
     size_t                step_capacity;
@@ -63,7 +65,8 @@ typedef struct worker {
     bool                  failed;
 } worker;
 
-/* Where the segment crosses an edge of a triangle: share of the segment and depth. `from`, `to`: sides of the edge's ends of the segment's line. */
+/* Where the segment crosses an edge of a triangle: share of the segment and depth. `from`, `to`: sides of the
+ * edge's ends of the segment's line. */
 static double cross_edge(const worker *w, window_point p, window_point q, double from, double to, double *z)
 {
     double a = window_side(p, q, w->segment->a), b = window_side(p, q, w->segment->b);
@@ -96,7 +99,7 @@ static bool grow_table(worker *w)
         return false;
     for (size_t i = 0; i < w->filled_count; i++) {
         place_slot *from = &w->table[w->filled[i]];
-        size_t slot = slot_of(&bigger, from->at);
+        size_t      slot = slot_of(&bigger, from->at);
         bigger.table[slot] = *from;
         w->filled[i] = (uint32_t)slot;
     }
@@ -121,7 +124,8 @@ static void put_step(worker *w, double at, int32_t step)
     slot->step += step;
 }
 
-/* Between two places of the segment the triangle lies nearer by before … after; what differs by less than `same` is the same. */
+/* Between two places of the segment the triangle lies nearer by before … after; what differs by less than `same` is
+ * the same. */
 static void cover_nearer(worker *w, double from, double to, double before, double after, double same)
 {
     bool begins = before > same, ends = after > same;
@@ -151,21 +155,25 @@ static bool is_ignored(const window_segment *s, uint32_t face)
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
-    const window_box *box = &v->boxes[number];
+    const window_box  *box = &v->boxes[number];
     /* Without short cuts: which of these fails cannot be foretold. */
-    if ((box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) | (box->near_z > w->far_z))
+    if ((box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) |
+        (box->near_z > w->far_z))
         return;
     const window_triangle *t = &v->triangles[number];
-    const window_segment *s = w->segment;
+    const window_segment  *s = w->segment;
     w->pairs++;
     const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
-    int64_t sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
+    int64_t            sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
     for (int k = 0; k < 3; k++)
         sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
     bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
     if (((low[0] == low[1]) & (low[1] == low[2])) | (t->face == s->faces[0]) | (t->face == s->faces[1]))
         return;
-    int alone = low[0] == low[1] ? 2 : low[0] == low[2] ? 1 : 0, next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
+    int alone = low[0] == low[1]   ? 2
+                : low[0] == low[2] ? 1
+                                   : 0,
+        next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
     double z0, z1;
     double t0 = cross_edge(w, p[alone], p[next], (double)sides[alone], (double)sides[next], &z0);
     double t1 = cross_edge(w, p[last], p[alone], (double)sides[last], (double)sides[alone], &z1);
@@ -180,7 +188,8 @@ static void compare(worker *w, uint32_t number)
     if (!(t0 < 1) || !(t1 > 0) || !(t0 < t1))
         return;
     double from = t0 > 0 ? t0 : 0, to = t1 < 1 ? t1 : 1, rise = (z1 - z0) / (t1 - t0), run = s->b.z - s->a.z;
-    double before = s->a.z + from * run - (z0 + (from - t0) * rise), after = s->a.z + to * run - (z0 + (to - t0) * rise);
+    double before = s->a.z + from * run - (z0 + (from - t0) * rise),
+           after = s->a.z + to * run - (z0 + (to - t0) * rise);
     if (from == 0 && has_corner(t, s->ends[0]))
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
@@ -211,7 +220,7 @@ static void sort_steps(place_step *steps, size_t count)
     for (; gap > 0; gap /= 3)
         for (size_t i = gap; i < count; i++) {
             place_step moved = steps[i];
-            size_t k = i;
+            size_t     k = i;
             for (; k >= gap && steps[k - gap].at > moved.at; k -= gap)
                 steps[k] = steps[k - gap];
             steps[k] = moved;
@@ -244,12 +253,14 @@ static bool put_span(span_block *block, double from, int64_t count, uint32_t lea
     return true;
 }
 
-/* Adds up what covers the segment. Places closer together than a crumb are one; a segment that is no more than a speck is as it is in its middle. */
+/* Adds up what covers the segment. Places closer together than a crumb are one; a segment that is no more than a
+ * speck is as it is in its middle. */
 static bool put_spans(worker *w, span_block *block)
 {
-    size_t first = block->count, steps, next = 0;
+    size_t                first = block->count, steps, next = 0;
     const window_segment *s = w->segment;
-    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y, length = sqrt(x * x + y * y) / w->v->units, crumb = CRUMB / fmax(length, CRUMB), at = 0;
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y, length = sqrt(x * x + y * y) / w->v->units,
+           crumb = CRUMB / fmax(length, CRUMB), at = 0;
     int64_t count = 0;
     if (!gather_steps(w, &steps))
         return false;
@@ -284,11 +295,11 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
 static void find_blocks(size_t begin, size_t end, void *user)
 {
     span_job *job = user;
-    worker w = {.v = job->v, .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
+    worker    w = {.v = job->v, .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
     w.failed = !w.stamps;
     for (size_t b = begin; b < end && !w.failed; b++) {
         span_block *block = &job->blocks[b];
-        size_t last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
+        size_t      last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
         for (size_t i = b * BLOCK; i < last && !w.failed; i++) {
             size_t before = block->count;
             find_spans(&w, block, &job->segments[i]);
@@ -328,16 +339,16 @@ static lmn_status join_blocks(visibility *out, const span_job *job, size_t block
     return LMN_OK;
 }
 
-lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count, lmn_progress_fn progress, void *user,
-                           lmn_error *error)
+lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count,
+                           lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    size_t block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
+    size_t   block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
     span_job job = {.v = v, .segments = segments, .count = count};
     job.blocks = mem_calloc(block_count + 1, sizeof *job.blocks);
     job.lengths = mem_alloc((count + 1) * sizeof *job.lengths);
     lmn_status status = job.blocks && job.lengths ? LMN_OK : error_memory(error);
-    span_job part = job;
+    span_job   part = job;
     for (size_t b = 0; b < block_count && status == LMN_OK; b += portion) {
         if (progress && !progress((double)b / (double)block_count, "finding what is hidden", user)) {
             status = error_set(error, LMN_CANCELLED, "cancelled while hidden lines were found");
@@ -372,7 +383,7 @@ void visibility_release(visibility *out)
     memset(out, 0, sizeof *out);
 }
 
-/* --- single places ------------------------------------------------------------------------------------------------- */
+/* --- single places -------------------------------------------------------------------------------------- */
 
 typedef struct surface_count {
     const stroke_view *v;
@@ -380,14 +391,15 @@ typedef struct surface_count {
     uint32_t           count;
 } surface_count;
 
-/* A place on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of two. */
+/* A place on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of
+ * two. */
 static bool is_inside(const window_point p[3], window_point at)
 {
     double sign = window_side(p[0], p[1], p[2]) < 0 ? -1 : 1;
     for (int k = 0; k < 3; k++) {
         window_point from = p[k], to = p[k == 2 ? 0 : k + 1];
-        double side = sign * window_side(from, to, at);
-        double up = sign * ((double)from.y - to.y), right = sign * ((double)to.x - from.x);
+        double       side = sign * window_side(from, to, at);
+        double       up = sign * ((double)from.y - to.y), right = sign * ((double)to.x - from.x);
         if (side < 0 || (side == 0 && !(up > 0 || (up == 0 && right > 0))))
             return false;
     }
@@ -397,17 +409,19 @@ static bool is_inside(const window_point p[3], window_point at)
 static void count_nearer(void *user, const uint32_t *entries, size_t count, bool alone)
 {
     (void)alone;
-    surface_count *c = user;
+    surface_count     *c = user;
     const stroke_view *v = c->v;
     for (size_t i = 0; i < count; i++) {
         const window_box *box = &v->boxes[entries[i]];
-        if (box->low_x > c->at.x || box->high_x < c->at.x || box->low_y > c->at.y || box->high_y < c->at.y || box->near_z > c->at.z)
+        if (box->low_x > c->at.x || box->high_x < c->at.x || box->low_y > c->at.y || box->high_y < c->at.y ||
+            box->near_z > c->at.z)
             continue;
         const window_triangle *t = &v->triangles[entries[i]];
-        const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
+        const window_point     p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
         if (!is_inside(p, c->at))
             continue;
-        double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole, b = window_side(p[2], p[0], c->at) / whole;
+        double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole,
+               b = window_side(p[2], p[0], c->at) / whole;
         double z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
         c->count += c->at.z - z > view_tolerance(v, z) + box->slope;
     }
@@ -419,7 +433,8 @@ void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t c
     for (size_t i = 0; i < count; i++) {
         surface_count c = {.v = v};
         out[i] = UINT32_MAX;
-        if (!view_place(v, (double3){places[i][0], places[i][1], places[i][2]}, &c.at) || fabs((double)c.at.x) > half_x || fabs((double)c.at.y) > half_y)
+        if (!view_place(v, (double3){places[i][0], places[i][1], places[i][2]}, &c.at) ||
+            fabs((double)c.at.x) > half_x || fabs((double)c.at.y) > half_y)
             continue;
         grid_walk(&v->grid, c.at, c.at, count_nearer, &c);
         out[i] = c.count;

@@ -7,8 +7,10 @@ typedef struct flat {
 } flat;
 
 static const param params[] = {
-    PARAM_COLOUR_ROW(flat, colour, .def_colour = {1, 1, 1, 1}, .doc = "Colour of the surface; a transparent one leaves lines alone."),
-    PARAM_FLOAT_ROW(flat, model_colour, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the model's own colour."),
+    PARAM_COLOUR_ROW(flat, colour, .def_colour = {1, 1, 1, 1},
+                     .doc = "Colour of the surface; a transparent one leaves lines alone."),
+    PARAM_FLOAT_ROW(flat, model_colour, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Share of the model's own colour."),
 };
 
 static bool flat_fill(colour *out, const void *values)
@@ -19,6 +21,11 @@ static bool flat_fill(colour *out, const void *values)
 }
 
 const technique surface_flat = {
-    .name = "flat", .doc = "One colour without light.", .example = "{\"surface\": {\"technique\": \"flat\", \"colour\": \"#eeddcc\"}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(flat),
+    .name = "flat",
+    .doc = "One colour without light.",
+    .example = "{\"surface\": {\"technique\": \"flat\", \"colour\": \"#eeddcc\"}}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(flat),
     .surface = &(const surface_row){.shader = "surface/flat.glsl", .direct = true, .as_fill = flat_fill},
 };

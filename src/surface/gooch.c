@@ -1,6 +1,6 @@
-/* gooch: tone from cool to warm, so that shadow stays readable and lines stay the darkest, highlights the lightest thing. Nienhaus 2005,
- * section 4.6 and listings 3-1, 3-2; Großmann 2011, section 3.2.2; rows E10, Großmann 2. The sources leave the colours open; these are
- * near those of Gooch's paper. */
+/* gooch: tone from cool to warm, so that shadow stays readable and lines stay the darkest, highlights the lightest
+ * thing. Nienhaus 2005, section 4.6 and listings 3-1, 3-2; Großmann 2011, section 3.2.2; rows E10, Großmann 2. The
+ * sources leave the colours open; these are near those of Gooch's paper. */
 #include "surface/surface.h"
 
 typedef struct gooch {
@@ -9,15 +9,25 @@ typedef struct gooch {
 } gooch;
 
 static const param params[] = {
-    PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.32f, 0.40f, 0.66f, 1}, .doc = "Tone of places turned away from the light."),
+    PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.32f, 0.40f, 0.66f, 1},
+                     .doc = "Tone of places turned away from the light."),
     PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.80f, 0.72f, 0.48f, 1}, .doc = "Tone of places turned to the light."),
-    PARAM_FLOAT_ROW(gooch, cool_share, .def = 0.2, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much of the model's colour is added to the cool tone."),
-    PARAM_FLOAT_ROW(gooch, warm_share, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much of the model's colour is added to the warm tone."),
-    PARAM_FLOAT_ROW(gooch, specular, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the highlight."),
-    PARAM_FLOAT_ROW(gooch, shininess, .def = 32, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true, .doc = "Sharpness of the highlight; Nienhaus (2005) has 32."),
+    PARAM_FLOAT_ROW(gooch, cool_share, .def = 0.2, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "How much of the model's colour is added to the cool tone."),
+    PARAM_FLOAT_ROW(gooch, warm_share, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "How much of the model's colour is added to the warm tone."),
+    PARAM_FLOAT_ROW(gooch, specular, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of the highlight."),
+    PARAM_FLOAT_ROW(gooch, shininess, .def = 32, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true,
+                    .doc = "Sharpness of the highlight; Nienhaus (2005) has 32."),
 };
 
 const technique surface_gooch = {
-    .name = "gooch", .doc = "Cool-to-warm tones for technical illustration.", .example = "{\"surface\": \"gooch\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(gooch),
+    .name = "gooch",
+    .doc = "Cool-to-warm tones for technical illustration.",
+    .example = "{\"surface\": \"gooch\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(gooch),
     .surface = &(const surface_row){.shader = "surface/gooch.glsl", .direct = true},
 };

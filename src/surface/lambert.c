@@ -6,10 +6,16 @@ typedef struct lambert {
 } lambert;
 
 static const param params[] = {
-    PARAM_FLOAT_ROW(lambert, ambient, .def = 0.18, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Light that reaches every place."),
+    PARAM_FLOAT_ROW(lambert, ambient, .def = 0.18, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Light that reaches every place."),
 };
 
 const technique surface_lambert = {
-    .name = "lambert", .doc = "One diffuse term of all lights.", .example = "{\"surface\": \"lambert\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(lambert),
+    .name = "lambert",
+    .doc = "One diffuse term of all lights.",
+    .example = "{\"surface\": \"lambert\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(lambert),
     .surface = &(const surface_row){.shader = "surface/lambert.glsl", .direct = true},
 };

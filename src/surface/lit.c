@@ -2,13 +2,15 @@
 #include "surface/surface.h"
 
 typedef struct lit {
-    float   ambient, specular, lightness, shininess;
-    float   model_colour;
+    float ambient, specular, lightness, shininess;
+    float model_colour;
 } lit;
 
 static const param params[] = {
-    PARAM_FLOAT_ROW(lit, ambient, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Light that reaches every place."),
-    PARAM_FLOAT_ROW(lit, specular, .def = 0.12, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the highlight."),
+    PARAM_FLOAT_ROW(lit, ambient, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Light that reaches every place."),
+    PARAM_FLOAT_ROW(lit, specular, .def = 0.12, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of the highlight."),
     PARAM_FLOAT_ROW(lit, shininess, .def = 40, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true,
                     .doc = "Sharpness of the highlight: the exponent of Phong's model."),
     PARAM_FLOAT_ROW(lit, lightness, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE,
@@ -18,6 +20,11 @@ static const param params[] = {
 };
 
 const technique surface_lit = {
-    .name = "lit", .doc = "Phong shading with a small highlight.", .example = "{\"surface\": {\"technique\": \"lit\", \"specular\": 0.5}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(lit),
+    .name = "lit",
+    .doc = "Phong shading with a small highlight.",
+    .example = "{\"surface\": {\"technique\": \"lit\", \"specular\": 0.5}}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(lit),
     .surface = &(const surface_row){.shader = "surface/lit.glsl", .direct = true},
 };

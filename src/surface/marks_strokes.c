@@ -1,5 +1,6 @@
-/* strokes: pen strokes that lie on the surface as lines, of which light and distance choose. Freudenberg 2003, sections 5.1.6, 5.3 and 5.4; rows EX-11 to EX-14, EX-26 to EX-29, EX-33. With texture
- * coordinates strokes of a texture, as in Freudenberg's work; without, strokes that follow the form. */
+/* strokes: pen strokes that lie on the surface as lines, of which light and distance choose. Freudenberg 2003,
+ * sections 5.1.6, 5.3 and 5.4; rows EX-11 to EX-14, EX-26 to EX-29, EX-33. With texture coordinates strokes of a
+ * texture, as in Freudenberg's work; without, strokes that follow the form. */
 #include <math.h>
 #include <string.h>
 
@@ -25,39 +26,62 @@ static stroke_pattern pattern_of(const char *name)
 static lmn_status check_strokes(const char *words, lmn_error *error)
 {
     const char *ending = strrchr(words, '.');
-    if (!words[0] || pattern_of(words) < PATTERN_COUNT || (ending && (strcmp(ending, ".stx") == 0 || strcmp(ending, ".svg") == 0)))
+    if (!words[0] || pattern_of(words) < PATTERN_COUNT ||
+        (ending && (strcmp(ending, ".stx") == 0 || strcmp(ending, ".svg") == 0)))
         return LMN_OK;
-    return error_set(error, LMN_USAGE, "'%s' is neither a pattern of strokes nor a file that ends in .stx or .svg", words);
+    return error_set(error, LMN_USAGE, "'%s' is neither a pattern of strokes nor a file that ends in .stx or .svg",
+                     words);
 }
 
 static const param params[] = {
     MARK_ROWS(30000, "Strokes"),
     PARAM_ENUM_ROW(surface_strokes_values, placed, .names = placed_names, .cpu_only = true,
-                   .doc = "form: each stroke runs along the way the surface bends; planes: where planes through the model cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
-    PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 1.3, .min = 0.1, .max = 64, .soft_min = 0.5, .soft_max = 6, .unit = UNIT_PX, .doc = "Width of strokes, wherever they are."),
-    PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 1, .min = 0.2, .max = 200, .soft_min = 0.5, .soft_max = 10, .unit = UNIT_PX, .doc = "Mean distance of strokes where it is darkest, all sets together: they come no closer, however dark it should be."),
-    PARAM_FLOAT_ROW(surface_strokes_values, length, .def = 0.035, .min = 0.0005, .max = 1, .soft_max = 0.2, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=form,planes",
+                   .doc =
+                       "form: each stroke runs along the way the surface bends; planes: where planes through the model "
+                       "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
+    PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 1.3, .min = 0.1, .max = 64, .soft_min = 0.5, .soft_max = 6,
+                    .unit = UNIT_PX, .doc = "Width of strokes, wherever they are."),
+    PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 1, .min = 0.2, .max = 200, .soft_min = 0.5, .soft_max = 10,
+                    .unit = UNIT_PX,
+                    .doc = "Mean distance of strokes where it is darkest, all sets together: they come no closer, "
+                           "however dark it should be."),
+    PARAM_FLOAT_ROW(surface_strokes_values, length, .def = 0.035, .min = 0.0005, .max = 1, .soft_max = 0.2,
+                    .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=form,planes",
                     .doc = "Mean length of strokes, share of the model's diagonal."),
-    PARAM_INT_ROW(surface_strokes_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .cpu_only = true, .only_if = "placed=form,planes", .doc = "Sets of strokes that cross each other, later ones where it is darker."),
-    PARAM_FLOAT_ROW(surface_strokes_values, turn, .def = 62, .min = -180, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true, .only_if = "series>1",
-                    .doc = "Angle between one set of strokes and the next."),
-    PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=form,planes", .doc = "How much strokes differ in length and way."),
-    PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_SHARE, .doc = "Share of its length over which each end of a stroke runs out."),
-    PARAM_ENUM_ROW(surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
-                   .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is the simpler one of Freudenberg (2003), which leaves too few where strokes are foreshortened."),
-    PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .example = "brick", .only_if = "placed=uv", .check = check_strokes,
-                   .doc = "What is laid out by texture coordinates: a file of strokes (.stx, .svg) or a pattern (parallel, cross, contour, brick, stipple, scribble, random). Empty: cross."),
-    PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 20, .soft_max = 8, .cpu_only = true, .only_if = "placed=uv",
-                    .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there are as many strokes as asked for."),
-    PARAM_FLOAT_ROW(surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=uv",
-                    .doc = "How far each copy of a stroke is moved, share of the texture, so that it is not seen to repeat."),
+    PARAM_INT_ROW(surface_strokes_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .cpu_only = true,
+                  .only_if = "placed=form,planes",
+                  .doc = "Sets of strokes that cross each other, later ones where it is darker."),
+    PARAM_FLOAT_ROW(surface_strokes_values, turn, .def = 62, .min = -180, .max = 180, .unit = UNIT_DEGREES,
+                    .cpu_only = true, .only_if = "series>1", .doc = "Angle between one set of strokes and the next."),
+    PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .cpu_only = true, .only_if = "placed=form,planes",
+                    .doc = "How much strokes differ in length and way."),
+    PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_SHARE,
+                    .doc = "Share of its length over which each end of a stroke runs out."),
+    PARAM_ENUM_ROW(
+        surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
+        .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is "
+               "the simpler one of Freudenberg (2003), which leaves too few where strokes are foreshortened."),
+    PARAM_TEXT_ROW(surface_strokes_values, strokes, .is_file = true, .example = "brick", .only_if = "placed=uv",
+                   .check = check_strokes,
+                   .doc = "What is laid out by texture coordinates: a file of strokes (.stx, .svg) or a pattern "
+                          "(parallel, cross, contour, brick, stipple, scribble, random). Empty: cross."),
+    PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 20, .soft_max = 8, .cpu_only = true,
+                    .only_if = "placed=uv",
+                    .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there "
+                           "are as many strokes as asked for."),
+    PARAM_FLOAT_ROW(
+        surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_SHARE,
+        .cpu_only = true, .only_if = "placed=uv",
+        .doc = "How far each copy of a stroke is moved, share of the texture, so that it is not seen to repeat."),
 };
 
 static void describe(text *out, const void *values)
 {
     const surface_strokes_values *v = values;
-    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s", v->common.count, v->common.pattern_seed, v->placed, (double)v->length, v->series, (double)v->turn,
-                (double)v->uneven, (double)v->repeat, (double)v->jitter, v->strokes.text);
+    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s", v->common.count, v->common.pattern_seed,
+                v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven, (double)v->repeat,
+                (double)v->jitter, v->strokes.text);
 }
 
 /* The area of the surface in texture coordinates. */
@@ -65,33 +89,47 @@ static double area_of_uvs(const mark_surface *s)
 {
     double sum = 0;
     for (size_t t = 0; t < s->triangle_count; t++) {
-        const vec2 *a = &s->uvs[s->indices[3 * t]], *b = &s->uvs[s->indices[3 * t + 1]], *c = &s->uvs[s->indices[3 * t + 2]];
-        sum += 0.5 * fabs(((double)b->x - (double)a->x) * ((double)c->y - (double)a->y) - ((double)b->y - (double)a->y) * ((double)c->x - (double)a->x));
+        const vec2 *a = &s->uvs[s->indices[3 * t]], *b = &s->uvs[s->indices[3 * t + 1]],
+                   *c = &s->uvs[s->indices[3 * t + 2]];
+        sum += 0.5 * fabs(((double)b->x - (double)a->x) * ((double)c->y - (double)a->y) -
+                          ((double)b->y - (double)a->y) * ((double)c->x - (double)a->x));
     }
     return sum;
 }
 
 static lmn_status make_tiled(marks *out, const mark_surface *surface, const surface_strokes_values *v, lmn_error *error)
 {
-    strokes texture = {NULL, 0, 0, 1};
-    lmn_status status;
+    strokes        texture = {NULL, 0, 0, 1};
+    lmn_status     status;
     stroke_pattern pattern = v->strokes.text[0] ? pattern_of(v->strokes.text) : PATTERN_CROSS;
     if (pattern == PATTERN_COUNT)
         status = strokes_load(&texture, v->strokes.text, error);
     else
-        status = strokes_generate(&texture, &(pattern_options){.pattern = pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed}, error);
-    double squares = area_of_uvs(surface), often = squares > 0 && texture.count > 0 ? sqrt(v->common.count / (squares * (double)texture.count)) : 1;
-    tile_options options = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1), .jitter = v->jitter, .seed = (uint32_t)v->common.pattern_seed};
+        status = strokes_generate(
+            &texture,
+            &(pattern_options){.pattern = pattern, .uneven = v->uneven, .seed = (uint32_t)v->common.pattern_seed},
+            error);
+    double squares = area_of_uvs(surface),
+           often = squares > 0 && texture.count > 0 ? sqrt(v->common.count / (squares * (double)texture.count)) : 1;
+    tile_options options = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1),
+                            .jitter = v->jitter,
+                            .seed = (uint32_t)v->common.pattern_seed};
     if (status == LMN_OK)
         status = marks_tile(out, surface, &texture, &options, error);
     strokes_release(&texture);
     return status;
 }
 
-static lmn_status make_traced(marks *out, const mark_surface *surface, double extent, size_t count, const surface_strokes_values *v, lmn_error *error)
+static lmn_status make_traced(marks *out, const mark_surface *surface, double extent, size_t count,
+                              const surface_strokes_values *v, lmn_error *error)
 {
-    trace_options options = {.count = count, .length = extent * (double)v->length, .uneven = v->uneven, .series = v->series,
-                           .turn = v->turn * (3.14159265f / 180), .bends = v->placed != PLACED_PLANES, .seed = (uint32_t)v->common.pattern_seed};
+    trace_options options = {.count = count,
+                             .length = extent * (double)v->length,
+                             .uneven = v->uneven,
+                             .series = v->series,
+                             .turn = v->turn * (3.14159265f / 180),
+                             .bends = v->placed != PLACED_PLANES,
+                             .seed = (uint32_t)v->common.pattern_seed};
     return marks_trace(out, surface, &options, error);
 }
 
@@ -111,7 +149,8 @@ static bool has_area_of_uvs(const mark_surface *s, uint32_t t)
 
 static bool take_share(share_of_surface *out, const mark_surface *s, bool laid_out)
 {
-    *out = (share_of_surface){.surface = *s, .indices = mem_alloc(3 * (size_t)s->triangle_count * sizeof *out->indices),
+    *out = (share_of_surface){.surface = *s,
+                              .indices = mem_alloc(3 * (size_t)s->triangle_count * sizeof *out->indices),
                               .triangles = mem_alloc((size_t)s->triangle_count * sizeof *out->triangles)};
     if (!out->indices || !out->triangles)
         return false;
@@ -119,7 +158,8 @@ static bool take_share(share_of_surface *out, const mark_surface *s, bool laid_o
     out->surface.triangle_count = 0;
     for (uint32_t t = 0; t < s->triangle_count; t++)
         if (has_area_of_uvs(s, t) == laid_out) {
-            memcpy(&out->indices[3 * (size_t)out->surface.triangle_count], &s->indices[3 * (size_t)t], 3 * sizeof *s->indices);
+            memcpy(&out->indices[3 * (size_t)out->surface.triangle_count], &s->indices[3 * (size_t)t],
+                   3 * sizeof *s->indices);
             out->triangles[out->surface.triangle_count++] = t;
         }
     return true;
@@ -143,20 +183,23 @@ static bool add_share(marks *out, const marks *share, const uint32_t *triangles)
 }
 
 /* Strokes of a texture where there are texture coordinates, strokes that follow the form where there are none. */
-static lmn_status make_both(marks *out, const mark_surface *surface, double extent, const surface_strokes_values *v, lmn_error *error)
+static lmn_status make_both(marks *out, const mark_surface *surface, double extent, const surface_strokes_values *v,
+                            lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     lmn_status status = LMN_OK;
-    double whole = mark_surface_area(surface);
+    double     whole = mark_surface_area(surface);
     for (int laid_out = 0; laid_out < 2 && status == LMN_OK; laid_out++) {
         share_of_surface share;
-        marks made = {.lines = NULL};
+        marks            made = {.lines = NULL};
         if (!take_share(&share, surface, laid_out))
             status = error_memory(error);
         else if (laid_out)
             status = make_tiled(&made, &share.surface, v, error);
         else
-            status = make_traced(&made, &share.surface, extent, (size_t)(v->common.count * mark_surface_area(&share.surface) / fmax(whole, 1e-300)) + 1, v, error);
+            status = make_traced(
+                &made, &share.surface, extent,
+                (size_t)(v->common.count * mark_surface_area(&share.surface) / fmax(whole, 1e-300)) + 1, v, error);
         if (status == LMN_OK && !add_share(out, &made, share.triangles))
             status = error_memory(error);
         surface_marks_release(&made);
@@ -176,10 +219,19 @@ static lmn_status make(marks *out, const mark_surface *surface, double extent, c
     return make_traced(out, surface, extent, (size_t)v->common.count, v, error);
 }
 
-static const mark_source source = {.describe = describe, .make = make, .vertex = "surface/marks_strokes.vert", .fragment = "surface/marks_strokes.frag"};
+static const mark_source source = {.describe = describe,
+                                   .make = make,
+                                   .vertex = "surface/marks_strokes.vert",
+                                   .fragment = "surface/marks_strokes.frag"};
 
 const technique surface_strokes = {
-    .name = "strokes", .doc = "Pen strokes that lie on the surface as lines of their own, whose number makes the tone.", .example = "{\"surface\": {\"technique\": \"strokes\"}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(surface_strokes_values), .channels = CHANNEL_NORMAL_DEPTH,
+    .name = "strokes",
+    .doc = "Pen strokes that lie on the surface as lines of their own, whose number makes the tone.",
+    .example = "{\"surface\": {\"technique\": \"strokes\"}, \"lines\": \"discontinuity\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(surface_strokes_values),
+    .channels = CHANNEL_NORMAL_DEPTH,
     .surface = &(const surface_row){.shader = "surface/marks_paper.glsl", .marks = &source},
 };
 
@@ -193,8 +245,14 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
     if (!use || !use->technique->surface->marks)
         return false;
     const mark_values *v = use->values;
-    *out = (mark_style){.fade = v->fade, .most = 1, .shadow = v->shadow, .light = v->light, .contrast = v->contrast, .texture = v->texture,
-                        .ink = {colour_to_linear(v->ink.r), colour_to_linear(v->ink.g), colour_to_linear(v->ink.b), v->ink.a}};
+    *out = (mark_style){
+        .fade = v->fade,
+        .most = 1,
+        .shadow = v->shadow,
+        .light = v->light,
+        .contrast = v->contrast,
+        .texture = v->texture,
+        .ink = {colour_to_linear(v->ink.r), colour_to_linear(v->ink.g), colour_to_linear(v->ink.b), v->ink.a}};
     colour paper = v->paper;
     if (!isnan(paper.r))
         out->white = luminance_of(v->ink) > luminance_of(paper) * paper.a + 1 - paper.a;

@@ -7,11 +7,18 @@ typedef struct mirror {
 } mirror;
 
 static const param params[] = {
-    PARAM_COLOUR_ROW(mirror, tint, .def_colour = {0.86f, 0.92f, 0.95f, 1}, .doc = "Colour of the mirror where it reflects nothing."),
-    PARAM_FLOAT_ROW(mirror, reflectivity, .def = 0.85, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the reflection."),
+    PARAM_COLOUR_ROW(mirror, tint, .def_colour = {0.86f, 0.92f, 0.95f, 1},
+                     .doc = "Colour of the mirror where it reflects nothing."),
+    PARAM_FLOAT_ROW(mirror, reflectivity, .def = 0.85, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Share of the reflection."),
 };
 
 const technique surface_mirror = {
-    .name = "mirror", .doc = "A planar mirror.", .example = "{\"surface\": \"mirror\", \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(mirror),
+    .name = "mirror",
+    .doc = "A planar mirror.",
+    .example = "{\"surface\": \"mirror\", \"lines\": \"discontinuity\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(mirror),
     .surface = &(const surface_row){.shader = "surface/mirror.glsl", .forward = true, .reflects = true},
 };

@@ -1,5 +1,6 @@
-/* pencil: graphite or coloured pencils that shade along the form: a tonal art map laid over itself several times, with light, shadow, occlusion and texture as the tone. Müller,
- * sections 1, 3 and 4.4; rows P20 to P24, P32 to P34, P36, P37. */
+/* pencil: graphite or coloured pencils that shade along the form: a tonal art map laid over itself several times,
+ * with light, shadow, occlusion and texture as the tone. Müller, sections 1, 3 and 4.4; rows P20 to P24, P32 to
+ * P34, P36, P37. */
 #include "halftone/graphite.h"
 #include "halftone/tonal_art_map.h"
 
@@ -8,10 +9,10 @@
 
 typedef struct pencil_values {
     halftone_values common;
-    int32_t shading, overlays, lead, map_seed;
-    float   vary, scale, width, length, opacity, ragged, gloss;
-    palette pencils;
-    bool    cross;
+    int32_t         shading, overlays, lead, map_seed;
+    float           vary, scale, width, length, opacity, ragged, gloss;
+    palette         pencils;
+    bool            cross;
 } pencil_values;
 
 enum { SIDE = 256, TONES = 6, SHADING_GRADATION = 1 };
@@ -20,27 +21,42 @@ static const char *const shading_names[] = {"hatching", "gradation", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_FORM),
-    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the model's own colour in the pencil's: with 1 each part has its own."),
+    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Share of the model's own colour in the pencil's: with 1 each part has its own."),
     PARAM_ENUM_ROW(pencil_values, shading, .names = shading_names, .variant = true,
-                   .doc = "hatching: strokes with gaps, in so many tones; gradation: strokes cover each other, and tones pass into one another."),
-    PARAM_INT_ROW(pencil_values, overlays, .def = 2, .min = 1, .max = 6, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
-                  .doc = "How often the surface is gone over; each time has its part of the darkness and turns a little."),
-    PARAM_FLOAT_ROW(pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES, .only_if = "overlays>1",
-                    .doc = "How far each time turns besides; on the page each has ways of its own between those of the others, which hides where they meet."),
-    PARAM_ENUM_ROW(pencil_values, lead, .names = lead_grade_names, .def = LEAD_4B, .cpu_only = true, .doc = "The lead, from hard and light to soft and dark."),
-    PARAM_FLOAT_ROW(pencil_values, gloss, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of a small highlight that stays bare."),
+                   .doc = "hatching: strokes with gaps, in so many tones; gradation: strokes cover each other, and "
+                          "tones pass into one another."),
+    PARAM_INT_ROW(
+        pencil_values, overlays, .def = 2, .min = 1, .max = 6, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
+        .doc = "How often the surface is gone over; each time has its part of the darkness and turns a little."),
+    PARAM_FLOAT_ROW(pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES,
+                    .only_if = "overlays>1",
+                    .doc = "How far each time turns besides; on the page each has ways of its own between those of the "
+                           "others, which hides where they meet."),
+    PARAM_ENUM_ROW(pencil_values, lead, .names = lead_grade_names, .def = LEAD_4B, .cpu_only = true,
+                   .doc = "The lead, from hard and light to soft and dark."),
+    PARAM_FLOAT_ROW(pencil_values, gloss, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of a small highlight that stays bare."),
     PARAM_PALETTE_ROW(pencil_values, pencils, .def_palette = {1, {{0, 0, 0, 1}}},
-                      .doc = "With several colours, each time over takes the next, and they mix as coloured pencils do; with one, ink is the colour."),
-    PARAM_FLOAT_ROW(pencil_values, scale, .def = 1, .min = 0.25, .max = 16, .soft_min = 0.5, .soft_max = 4, .unit = UNIT_PX, .logarithmic = true,
+                      .doc = "With several colours, each time over takes the next, and they mix as coloured pencils "
+                             "do; with one, ink is the colour."),
+    PARAM_FLOAT_ROW(pencil_values, scale, .def = 1, .min = 0.25, .max = 16, .soft_min = 0.5, .soft_max = 4,
+                    .unit = UNIT_PX, .logarithmic = true,
                     .doc = "Pixels that a texel of the strokes takes: how coarse they are."),
-    PARAM_FLOAT_ROW(pencil_values, width, .def = 1.6, .min = 0.6, .max = 16, .soft_max = 6, .cpu_only = true, .doc = "Width of strokes in texels."),
-    PARAM_FLOAT_ROW(pencil_values, length, .def = 0.6, .min = 0.06, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .doc = "Length of the longest strokes, share of 256 texels."),
+    PARAM_FLOAT_ROW(pencil_values, width, .def = 1.6, .min = 0.6, .max = 16, .soft_max = 6, .cpu_only = true,
+                    .doc = "Width of strokes in texels."),
+    PARAM_FLOAT_ROW(pencil_values, length, .def = 0.6, .min = 0.06, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+                    .doc = "Length of the longest strokes, share of 256 texels."),
     PARAM_FLOAT_ROW(pencil_values, opacity, .def = 0.7, .min = 0.2, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
                     .doc = "How much of what is left of the paper a stroke covers; with gradation half as much."),
-    PARAM_FLOAT_ROW(pencil_values, ragged, .toggles = true, .def = 0, .min = 0, .max = 2, .soft_max = 1, .unit = UNIT_SHARE, .only_if = "shading=hatching",
-                    .doc = "How far strokes begin and end before and behind the border between two tones, in tones; 0 ends all of them there."),
-    PARAM_BOOL_ROW(pencil_values, cross, .def = 0, .cpu_only = true, .doc = "Darker tones are crossed by a second set of strokes."),
-    PARAM_INT_ROW(pencil_values, map_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true, .doc = "Other strokes of the same kind."),
+    PARAM_FLOAT_ROW(pencil_values, ragged, .toggles = true, .def = 0, .min = 0, .max = 2, .soft_max = 1,
+                    .unit = UNIT_SHARE, .only_if = "shading=hatching",
+                    .doc = "How far strokes begin and end before and behind the border between two tones, in tones; 0 "
+                           "ends all of them there."),
+    PARAM_BOOL_ROW(pencil_values, cross, .def = 0, .cpu_only = true,
+                   .doc = "Darker tones are crossed by a second set of strokes."),
+    PARAM_INT_ROW(pencil_values, map_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true,
+                  .doc = "Other strokes of the same kind."),
 };
 
 static bool is_gradation(const pencil_values *v)
@@ -51,18 +67,26 @@ static bool is_gradation(const pencil_values *v)
 static void describe(text *out, const void *values)
 {
     const pencil_values *v = values;
-    text_append(out, "2 shading=%d width=%.6g length=%.6g opacity=%.6g cross=%d seed=%d", v->shading, (double)v->width, (double)v->length, (double)v->opacity, v->cross, v->map_seed);
+    text_append(out, "2 shading=%d width=%.6g length=%.6g opacity=%.6g cross=%d seed=%d", v->shading, (double)v->width,
+                (double)v->length, (double)v->opacity, v->cross, v->map_seed);
 }
 
 /* What a stroke leaves of the paper. Its darkness is the shader's. */
 static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
 {
     const pencil_values *v = values;
-    const double darkest = is_gradation(v) ? 0.9 : 0.82;
-    const tam_options options = {.side = SIDE, .tones = TONES, .darkest = darkest, .width = (double)v->width, .length = (double)v->length,
-                               .opacity = (double)v->opacity * (is_gradation(v) ? 0.5 : 1), .cross = v->cross, .uneven = is_gradation(v) ? 0.6f : 0.3f, .placement = TAM_BEST_FIT,
-                               .seed = (uint32_t)v->map_seed};
-    lmn_status status = tonal_art_map(out, NULL, &options, error);
+    const double         darkest = is_gradation(v) ? 0.9 : 0.82;
+    const tam_options    options = {.side = SIDE,
+                                    .tones = TONES,
+                                    .darkest = darkest,
+                                    .width = (double)v->width,
+                                    .length = (double)v->length,
+                                    .opacity = (double)v->opacity * (is_gradation(v) ? 0.5 : 1),
+                                    .cross = v->cross,
+                                    .uneven = is_gradation(v) ? 0.6f : 0.3f,
+                                    .placement = TAM_BEST_FIT,
+                                    .seed = (uint32_t)v->map_seed};
+    lmn_status           status = tonal_art_map(out, NULL, &options, error);
     out->fact = (float)darkest; /* which the shader tells tones by */
     return status;
 }
@@ -81,6 +105,20 @@ static const texture_source textures[] = {{.name = "tones", .describe = describe
 static const pass passes[] = {HALFTONE_PASSES};
 
 const technique surface_pencil = {
-    .name = "pencil", .doc = "Pencil strokes along the form, gone over several times.", .example = "{\"surface\": {\"technique\": \"pencil\", \"gloss\": 0.2}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(pencil_values), .passes = passes, .pass_count = PARAM_COUNT(passes), .textures = textures, .texture_count = PARAM_COUNT(textures), .numbers = numbers_of,
-    .surface = &(const surface_row){.shader = "surface/pencil.glsl", .direct = true, .forward_when = HALFTONE_FORWARD_WHEN, .deferred_when = HALFTONE_DEFERRED_WHEN, .needs = halftone_needs},
+    .name = "pencil",
+    .doc = "Pencil strokes along the form, gone over several times.",
+    .example = "{\"surface\": {\"technique\": \"pencil\", \"gloss\": 0.2}, \"lines\": \"discontinuity\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(pencil_values),
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
+    .textures = textures,
+    .texture_count = PARAM_COUNT(textures),
+    .numbers = numbers_of,
+    .surface = &(const surface_row){.shader = "surface/pencil.glsl",
+                                    .direct = true,
+                                    .forward_when = HALFTONE_FORWARD_WHEN,
+                                    .deferred_when = HALFTONE_DEFERRED_WHEN,
+                                    .needs = halftone_needs},
 };

@@ -54,17 +54,20 @@ lmn_status screen_check_picture(const char *name, lmn_error *error)
 {
     if (ends_in(name, picture_endings) || strcmp(name, checker_name) == 0)
         return LMN_OK;
-    return error_set(error, LMN_USAGE, "indication is '%.200s'; allowed are pictures (.png, .jpg, .webp) and the word checker", name);
+    return error_set(error, LMN_USAGE,
+                     "indication is '%.200s'; allowed are pictures (.png, .jpg, .webp) and the word checker", name);
 }
 
 lmn_status screen_check_name(const char *name, lmn_error *error)
 {
-    if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 || strcmp(name, hatch_map_name) == 0 || strcmp(name, material_name) == 0 ||
-        ends_in(name, stroke_endings) || ends_in(name, picture_endings))
+    if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 ||
+        strcmp(name, hatch_map_name) == 0 || strcmp(name, material_name) == 0 || ends_in(name, stroke_endings) ||
+        ends_in(name, picture_endings))
         return LMN_OK;
-    lmn_status status = error_set(error, LMN_USAGE, "screen is '%.200s'; allowed is a pattern, a procedure, the word material, or a file", name);
+    lmn_status status = error_set(
+        error, LMN_USAGE, "screen is '%.200s'; allowed is a pattern, a procedure, the word material, or a file", name);
     const char *names[PATTERN_COUNT + PROCEDURE_COUNT + 2];
-    size_t count = 0;
+    size_t      count = 0;
     for (int i = 0; i < PATTERN_COUNT; i++)
         names[count++] = stroke_pattern_names[i];
     for (int i = 0; i < PROCEDURE_COUNT; i++)
@@ -75,13 +78,15 @@ lmn_status screen_check_name(const char *name, lmn_error *error)
     if (near)
         error_hint(error, "did you mean '%s'? Files end in .stx, .svg, .png, .jpg or .webp", near);
     else
-        error_hint(error, "`limner looks ink` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
+        error_hint(error,
+                   "`limner looks ink` lists patterns and procedures; files end in .stx, .svg, .png, .jpg or .webp");
     return status;
 }
 
 enum { LAYERS_MOST = 16 };
 
-/* The path of the next picture of a numbered series, wall-1.png, wall-2.png …; false when the first one's name has no number. The caller frees it. */
+/* The path of the next picture of a numbered series, wall-1.png, wall-2.png …; false when the first one's name has
+ * no number. The caller frees it. */
 static bool numbered(const char *first, int number, char **out)
 {
     const char *dot = strrchr(first, '.');
@@ -123,8 +128,9 @@ static void describe_file(text *out, const char *name)
 void screen_describe(text *out, const void *values)
 {
     const screen_values *v = values;
-    text_append(out, "2 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g", name_of(v), v->scheme == SCHEME_MULTIPLY ? " multiply" : "", (double)v->scale,
-                (double)v->width, v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain);
+    text_append(out, "2 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g",
+                name_of(v), v->scheme == SCHEME_MULTIPLY ? " multiply" : "", (double)v->scale, (double)v->width,
+                v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain);
     describe_file(out, name_of(v));
 }
 
@@ -142,7 +148,11 @@ static lmn_status strokes_of(strokes *out, const screen_values *v, int frame, lm
     int pattern = index_in(stroke_pattern_names, name_of(v));
     if (pattern < 0)
         return strokes_load(out, name_of(v), error);
-    return strokes_generate(out, &(pattern_options){.pattern = (stroke_pattern)pattern, .uneven = 0.5f, .seed = (uint32_t)(v->pattern_seed * 16 + frame)}, error);
+    return strokes_generate(out,
+                            &(pattern_options){.pattern = (stroke_pattern)pattern,
+                                               .uneven = 0.5f,
+                                               .seed = (uint32_t)(v->pattern_seed * 16 + frame)},
+                            error);
 }
 
 /* Side of the square over the mean distance of its strokes. */
@@ -157,30 +167,38 @@ static double strokes_across(const strokes *s)
     return fmax(fmax(length, sqrt(dots)), 1);
 }
 
-/* As many texels as the square has pixels on the page, about, so that strokes can be drawn as wide as they are wanted. */
+/* As many texels as the square has pixels on the page, about, so that strokes can be drawn as wide as they are
+ * wanted. */
 static screen_options options_of(const screen_values *v, const strokes *s)
 {
     double pixels = (double)v->scale * strokes_across(s);
-    int side = SIDE_LEAST;
+    int    side = SIDE_LEAST;
     while (side < SIDE_MOST && side < pixels * 0.75)
         side *= 2;
-    return (screen_options){.side = side, .brush = {.width = fmax((double)v->width * side / pixels, 0.5), .taper = 0.15},
-                           .detail = (screen_detail)v->detail, .equalised = v->equalised && v->scheme != SCHEME_MULTIPLY};
+    return (screen_options){.side = side,
+                            .brush = {.width = fmax((double)v->width * side / pixels, 0.5), .taper = 0.15},
+                            .detail = (screen_detail)v->detail,
+                            .equalised = v->equalised && v->scheme != SCHEME_MULTIPLY};
 }
 
-typedef lmn_status (*strokes_to_chain)(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error);
+typedef lmn_status (*strokes_to_chain)(mip_chain *out, const strokes *s, const screen_options *options,
+                                       const screen_values *v, lmn_error *error);
 
-static lmn_status to_screen(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error)
+static lmn_status to_screen(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v,
+                            lmn_error *error)
 {
-    return v->scheme == SCHEME_MULTIPLY ? screen_ink_map(out, s, options, error) : screen_of_strokes(out, s, options, error);
+    return v->scheme == SCHEME_MULTIPLY ? screen_ink_map(out, s, options, error)
+                                        : screen_of_strokes(out, s, options, error);
 }
 
-static lmn_status to_relief(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error)
+static lmn_status to_relief(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v,
+                            lmn_error *error)
 {
     return screen_normals(out, s, options, (double)v->relief, error);
 }
 
-static lmn_status to_warp(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v, lmn_error *error)
+static lmn_status to_warp(mip_chain *out, const strokes *s, const screen_options *options, const screen_values *v,
+                          lmn_error *error)
 {
     (void)v;
     return screen_warp(out, s, options, error);
@@ -194,7 +212,8 @@ static lmn_status join(mip_chain *out, mip_chain *parts, int count, lmn_error *e
         memset(&parts[0], 0, sizeof parts[0]);
         return LMN_OK;
     }
-    lmn_status status = mip_chain_create(out, parts[0].width, parts[0].height, count, parts[0].levels, parts[0].format, error);
+    lmn_status status =
+        mip_chain_create(out, parts[0].width, parts[0].height, count, parts[0].levels, parts[0].format, error);
     for (int k = 0; status == LMN_OK && k < out->levels; k++)
         for (int i = 0; i < count; i++)
             memcpy(mip_layer(out, k, i), parts[i].data[k], mip_level_bytes(&parts[i], k));
@@ -207,11 +226,11 @@ static lmn_status join(mip_chain *out, mip_chain *parts, int count, lmn_error *e
 static lmn_status make_of_strokes(mip_chain *out, const screen_values *v, strokes_to_chain convert, lmn_error *error)
 {
     enum { FRAMES_MAX = 16 };
-    mip_chain parts[FRAMES_MAX] = {{0}};
-    bool pattern = index_in(stroke_pattern_names, name_of(v)) >= 0;
-    int count = pattern ? v->frames : 1;
+    mip_chain      parts[FRAMES_MAX] = {{0}};
+    bool           pattern = index_in(stroke_pattern_names, name_of(v)) >= 0;
+    int            count = pattern ? v->frames : 1;
     screen_options options = {0};
-    lmn_status status = LMN_OK;
+    lmn_status     status = LMN_OK;
     for (int i = 0; i < count && status == LMN_OK; i++) {
         strokes s = {0};
         status = strokes_of(&s, v, i, error);
@@ -253,10 +272,10 @@ static lmn_status make_of_picture(mip_chain *out, const screen_values *v, lmn_er
 {
     image_pixels pixels[LAYERS_MOST] = {{0}};
     screen_layer layers[LAYERS_MOST];
-    size_t count;
-    lmn_status status = load_layers(pixels, &count, name_of(v), error);
-    lmn_error problem = {0};
-    int side = SIDE_LEAST;
+    size_t       count;
+    lmn_status   status = load_layers(pixels, &count, name_of(v), error);
+    lmn_error    problem = {0};
+    int          side = SIDE_LEAST;
     while (status == LMN_OK && side < BITMAP_SIDE && (uint32_t)side < pixels[0].width)
         side *= 2;
     for (size_t i = 0; i < count; i++)
@@ -281,8 +300,9 @@ static lmn_status make_any(mip_chain *out, const screen_values *v, lmn_error *er
     if (procedure < 0 && strcmp(name_of(v), hatch_map_name) != 0 && !ends_in(name_of(v), picture_endings))
         return make_of_strokes(out, v, to_screen, error);
     lmn_status status = procedure >= 0 ? screen_of_procedure(out, (screen_procedure)procedure, 128, PERIOD, error)
-                        : ends_in(name_of(v), picture_endings) ? make_of_picture(out, v, error)
-                                                               : screen_hatch_map(out, 1024, PERIOD, true, false, error);
+                        : ends_in(name_of(v), picture_endings)
+                            ? make_of_picture(out, v, error)
+                            : screen_hatch_map(out, 1024, PERIOD, true, false, error);
     out->fact = PERIOD;
     out->similar = procedure >= 0 || strcmp(name_of(v), hatch_map_name) == 0;
     /* Of these every texel has a value of its own. */
@@ -305,11 +325,12 @@ enum { CURVE_TONES = 64, CURVE_SHARES = 17, CURVE_SAMPLES = 192 };
 static double value_at(const mip_chain *c, int level, double u, double v)
 {
     const uint8_t *texels = mip_layer(c, level, 0);
-    int width = mip_width(c, level), height = mip_height(c, level);
-    double x = u * width - (c->nearest ? 0 : 0.5), y = v * height - (c->nearest ? 0 : 0.5);
-    int x0 = (int)floor(x), y0 = (int)floor(y);
-    double s = c->nearest ? 0 : x - x0, t = c->nearest ? 0 : y - y0;
-    int left = (x0 + width) % width, right = (x0 + 1 + width) % width, low = (y0 + height) % height, high = (y0 + 1 + height) % height;
+    int            width = mip_width(c, level), height = mip_height(c, level);
+    double         x = u * width - (c->nearest ? 0 : 0.5), y = v * height - (c->nearest ? 0 : 0.5);
+    int            x0 = (int)floor(x), y0 = (int)floor(y);
+    double         s = c->nearest ? 0 : x - x0, t = c->nearest ? 0 : y - y0;
+    int            left = (x0 + width) % width, right = (x0 + 1 + width) % width, low = (y0 + height) % height,
+        high = (y0 + 1 + height) % height;
     double below = texels[low * width + left] * (1 - s) + texels[low * width + right] * s;
     double above = texels[high * width + left] * (1 - s) + texels[high * width + right] * s;
     return (below * (1 - t) + above * t) / 255;
@@ -319,7 +340,7 @@ static double value_at(const mip_chain *c, int level, double u, double v)
 static void invert_row(uint8_t *row, const uint32_t *counts, uint32_t total)
 {
     uint32_t below = 0;
-    int value = 0;
+    int      value = 0;
     for (int i = 0; i < CURVE_TONES; i++) {
         double wanted = (double)total * i / (CURVE_TONES - 1);
         while (value < 255 && below + counts[value] <= wanted)
@@ -332,7 +353,7 @@ static void invert_row(uint8_t *row, const uint32_t *counts, uint32_t total)
 
 lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *error)
 {
-    mip_chain screen = {0};
+    mip_chain  screen = {0};
     lmn_status status = make_any(&screen, values, error);
     if (status == LMN_OK)
         status = mip_chain_create(out, CURVE_TONES, CURVE_SHARES, 1, 1, MIP_R8, error);
@@ -341,7 +362,8 @@ lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *erro
         status = error_memory(error);
     for (int i = 0; status == LMN_OK && i < CURVE_SAMPLES * CURVE_SAMPLES; i++) {
         /* Places that keep to no grid of the screen's. */
-        double u = (i % CURVE_SAMPLES + 0.618 * (i / CURVE_SAMPLES % 7) / 7) / CURVE_SAMPLES, v = (i / CURVE_SAMPLES + 0.382) / CURVE_SAMPLES;
+        double u = (i % CURVE_SAMPLES + 0.618 * (i / CURVE_SAMPLES % 7) / 7) / CURVE_SAMPLES,
+               v = (i / CURVE_SAMPLES + 0.382) / CURVE_SAMPLES;
         double near = value_at(&screen, 0, u, v), far = value_at(&screen, screen.levels > 1 ? 1 : 0, u, v);
         for (int k = 0; k < CURVE_SHARES; k++) {
             double share = (double)k / (CURVE_SHARES - 1);
@@ -378,7 +400,8 @@ lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *err
 
 lmn_status screen_make_warp(mip_chain *out, const void *values, lmn_error *error)
 {
-    lmn_status status = has_strokes(values) ? make_of_strokes(out, values, to_warp, error) : make_flat(out, MIP_RG16F, 0, error);
+    lmn_status status =
+        has_strokes(values) ? make_of_strokes(out, values, to_warp, error) : make_flat(out, MIP_RG16F, 0, error);
     out->nearest = true;
     return status;
 }
@@ -388,8 +411,8 @@ static void average_levels(mip_chain *chain)
 {
     for (int k = 1; k < chain->levels; k++) {
         const uint8_t *from = chain->data[k - 1];
-        uint8_t *to = chain->data[k];
-        int width = mip_width(chain, k - 1), height = mip_height(chain, k - 1);
+        uint8_t       *to = chain->data[k];
+        int            width = mip_width(chain, k - 1), height = mip_height(chain, k - 1);
         for (int y = 0; y < mip_height(chain, k); y++)
             for (int x = 0; x < mip_width(chain, k); x++) {
                 int x0 = 2 * x < width ? 2 * x : width - 1, x1 = x0 + 1 < width ? x0 + 1 : x0;
@@ -419,11 +442,12 @@ lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error 
     if (strcmp(v->indication.text, checker_name) == 0)
         return make_checker(out, error);
     image_pixels pixels;
-    lmn_status status = image_load(&pixels, v->indication.text, error);
+    lmn_status   status = image_load(&pixels, v->indication.text, error);
     if (status != LMN_OK)
         return status;
     if (pixels.width > INDICATION_SIDE_MOST || pixels.height > INDICATION_SIDE_MOST)
-        status = error_in_file(error, LMN_LIMIT, v->indication.text, 0, "an indication of %u x %u pixels; allowed are %d a side", pixels.width, pixels.height,
+        status = error_in_file(error, LMN_LIMIT, v->indication.text, 0,
+                               "an indication of %u x %u pixels; allowed are %d a side", pixels.width, pixels.height,
                                INDICATION_SIDE_MOST);
     if (status == LMN_OK)
         status = mip_chain_create(out, (int)pixels.width, (int)pixels.height, 1, 0, MIP_R8, error);
@@ -431,7 +455,8 @@ lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error 
         for (uint32_t x = 0; x < pixels.width; x++) {
             const uint8_t *from = &pixels.rgba[4 * ((size_t)y * pixels.width + x)];
             /* Row 0 is v = 0, as glTF counts. */
-            ((uint8_t *)out->data[0])[(size_t)y * pixels.width + x] = (uint8_t)((54 * from[0] + 183 * from[1] + 19 * from[2] + 128) >> 8);
+            ((uint8_t *)out->data[0])[(size_t)y * pixels.width + x] =
+                (uint8_t)((54 * from[0] + 183 * from[1] + 19 * from[2] + 128) >> 8);
         }
     if (status == LMN_OK)
         average_levels(out);

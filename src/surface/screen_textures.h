@@ -9,10 +9,10 @@ typedef enum screen_scheme { SCHEME_BINARY, SCHEME_SMOOTH, SCHEME_SHARP, SCHEME_
 
 typedef struct screen_values {
     halftone_values common;
-    param_words screen, indication;
-    int32_t scheme, detail, indicate, frames, pattern_seed;
-    float   gain, scale, width, repeat, relief, indication_strength, wobble, uneven, change;
-    bool    centred, equalised, whole;
+    param_words     screen, indication;
+    int32_t         scheme, detail, indicate, frames, pattern_seed;
+    float           gain, scale, width, repeat, relief, indication_strength, wobble, uneven, change;
+    bool            centred, equalised, whole;
 } screen_values;
 
 /* Is it a pattern, a procedure, or a file of a kind that can be read? Errors: LMN_USAGE. */
@@ -23,7 +23,8 @@ lmn_status screen_check_picture(const char *name, lmn_error *error);
 bool       screen_by_material(void *values, const char *strokes);
 void       screen_describe(text *out, const void *values);
 lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error);
-/* Per share that a level is mixed with the next one (17 rows, 0 … 1) and per darkness (64, 0 … 1): the value that as much of the screen is below. */
+/* Per share that a level is mixed with the next one (17 rows, 0 … 1) and per darkness (64, 0 … 1): the value that
+ * as much of the screen is below. */
 lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *error);
 lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *error);
 lmn_status screen_make_warp(mip_chain *out, const void *values, lmn_error *error);

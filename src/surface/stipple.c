@@ -1,5 +1,6 @@
-/* stipple: dots that lie on the surface itself, evenly spread, of which light and distance choose. Freudenberg 2003, sections 5.1.5 and 5.4.7; rows EX-10, EX-31, EX-32. The room `dots` works its dots out
- * for each pixel instead, on planes laid on the model. */
+/* stipple: dots that lie on the surface itself, evenly spread, of which light and distance choose. Freudenberg
+ * 2003, sections 5.1.5 and 5.4.7; rows EX-10, EX-31, EX-32. The room `dots` works its dots out for each pixel
+ * instead, on planes laid on the model. */
 #include <math.h>
 
 #include "base/text.h"
@@ -8,9 +9,11 @@
 
 static const param params[] = {
     MARK_ROWS(200000, "Dots"),
-    PARAM_FLOAT_ROW(stipple_values, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10, .unit = UNIT_PX, .doc = "Diameter of the dots."),
+    PARAM_FLOAT_ROW(stipple_values, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10,
+                    .unit = UNIT_PX, .doc = "Diameter of the dots."),
     PARAM_FLOAT_ROW(stipple_values, grow, .def = 1.5, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_NONE,
-                    .doc = "Dots become up to this many times as wide where there are not enough of them for the tone."),
+                    .doc =
+                        "Dots become up to this many times as wide where there are not enough of them for the tone."),
 };
 
 static void describe(text *out, const void *values)
@@ -32,7 +35,11 @@ static float largest(const void *values)
     return v->diameter * v->grow + 3;
 }
 
-static const mark_source source = {.point = largest, .describe = describe, .make = make, .vertex = "surface/stipple.vert", .fragment = "surface/stipple.frag"};
+static const mark_source source = {.point = largest,
+                                   .describe = describe,
+                                   .make = make,
+                                   .vertex = "surface/stipple.vert",
+                                   .fragment = "surface/stipple.frag"};
 
 static void stipple_by_pen(void *values)
 {
@@ -41,6 +48,12 @@ static void stipple_by_pen(void *values)
 }
 
 const technique surface_stipple = {
-    .name = "stipple", .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.", .example = "{\"surface\": {\"technique\": \"stipple\", \"count\": 2000}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(stipple_values), .channels = CHANNEL_NORMAL_DEPTH,
+    .name = "stipple",
+    .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.",
+    .example = "{\"surface\": {\"technique\": \"stipple\", \"count\": 2000}, \"lines\": \"discontinuity\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(stipple_values),
+    .channels = CHANNEL_NORMAL_DEPTH,
     .surface = &(const surface_row){.as_marks = stipple_by_pen, .shader = "surface/marks_paper.glsl", .marks = &source},
 };

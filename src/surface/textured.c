@@ -6,10 +6,16 @@ typedef struct textured {
 } textured;
 
 static const param params[] = {
-    PARAM_FLOAT_ROW(textured, light, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Share of the light; 0 shows the colours as they are painted."),
+    PARAM_FLOAT_ROW(textured, light, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Share of the light; 0 shows the colours as they are painted."),
 };
 
 const technique surface_textured = {
-    .name = "textured", .doc = "The model's own colours and textures.", .example = "{\"surface\": {\"technique\": \"textured\", \"light\": 0}}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(textured),
+    .name = "textured",
+    .doc = "The model's own colours and textures.",
+    .example = "{\"surface\": {\"technique\": \"textured\", \"light\": 0}}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(textured),
     .surface = &(const surface_row){.shader = "surface/textured.glsl", .direct = true},
 };

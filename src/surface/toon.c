@@ -1,5 +1,5 @@
-/* toon: bands the summed light, then smooths only the borders between bands. Nienhaus 2005, sections 3.4 and 4.6 (the shade map is
- * blurred by four samples that cover nine texels); row E12. */
+/* toon: bands the summed light, then smooths only the borders between bands. Nienhaus 2005, sections 3.4 and 4.6
+ * (the shade map is blurred by four samples that cover nine texels); row E12. */
 #include "surface/surface.h"
 
 typedef struct toon {
@@ -13,21 +13,37 @@ static const param params[] = {
                   .doc = "Number of flat tones between shadow and full light."),
     PARAM_FLOAT_ROW(toon, softness, .def = 1, .min = 0, .max = 8, .soft_max = 3, .unit = UNIT_PX,
                     .doc = "Width of the blend across a tone border; 0 is hard."),
-    PARAM_FLOAT_ROW(toon, shadow, .def = 0.42, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Brightness of the darkest tone."),
-    PARAM_FLOAT_ROW(toon, light, .def = 1, .min = 0, .max = 2, .soft_max = 1.2, .unit = UNIT_SHARE, .doc = "Brightness of the lightest tone."),
-    PARAM_FLOAT_ROW(toon, highlight, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "Strength of the hard-edged highlight; 0 leaves it out."),
-    PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2, .doc = "Saturation of the tones; cartoons like more than nature."),
+    PARAM_FLOAT_ROW(toon, shadow, .def = 0.42, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Brightness of the darkest tone."),
+    PARAM_FLOAT_ROW(toon, light, .def = 1, .min = 0, .max = 2, .soft_max = 1.2, .unit = UNIT_SHARE,
+                    .doc = "Brightness of the lightest tone."),
+    PARAM_FLOAT_ROW(toon, highlight, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE,
+                    .doc = "Strength of the hard-edged highlight; 0 leaves it out."),
+    PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2,
+                    .doc = "Saturation of the tones; cartoons like more than nature."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
-                   .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the border's own distance."),
+                   .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the "
+                          "border's own distance."),
 };
 
 static const pass passes[] = {
-    {.name = "blur tones", .shader = "surface/toon_blur.frag", .reads = {TARGET_SHADE, TARGET_ID}, .writes = TARGET_SHADE,
+    {.name = "blur tones",
+     .shader = "surface/toon_blur.frag",
+     .reads = {TARGET_SHADE, TARGET_ID},
+     .writes = TARGET_SHADE,
      .when = "seed_blur"},
 };
 
 const technique surface_toon = {
-    .name = "toon", .doc = "Flat tones with antialiased borders, from the sum of all lights.", .example = "{\"surface\": {\"technique\": \"toon\", \"bands\": 4}, \"lines\": \"discontinuity\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(toon), .channels = CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .name = "toon",
+    .doc = "Flat tones with antialiased borders, from the sum of all lights.",
+    .example = "{\"surface\": {\"technique\": \"toon\", \"bands\": 4}, \"lines\": \"discontinuity\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(toon),
+    .channels = CHANNEL_ID,
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
     /* Borders are measured by derivatives, which a G-buffer does not have where two surfaces meet. */
     .surface = &(const surface_row){.shader = "surface/toon.glsl", .forward = true},
 };

@@ -46,8 +46,8 @@ size_t param_size(param_type type)
     return 0;
 }
 
-/* The shortest decimal that gives the same float again. printf writes the host's decimal point, which may be any bytes;
- * everything that is no part of a C number is that point. */
+/* The shortest decimal that gives the same float again. printf writes the host's decimal point, which may be any
+ * bytes; everything that is no part of a C number is that point. */
 static void print_float(float value, char out[NUMBER_SIZE])
 {
     if (value == truncf(value) && fabsf(value) < 1e7f) {
@@ -81,7 +81,7 @@ static void print_number(double value, char out[NUMBER_SIZE])
 
 void param_print_range(const param *p, char *out, size_t size)
 {
-    char low[NUMBER_SIZE], high[NUMBER_SIZE];
+    char        low[NUMBER_SIZE], high[NUMBER_SIZE];
     const char *unit = p->unit == UNIT_PX || p->unit == UNIT_DEGREES ? param_unit_text(p->unit) : "";
     print_number(p->min, low);
     print_number(p->max, high);
@@ -137,8 +137,7 @@ static lmn_status wrong_value(const param *p, const char *given, lmn_error *erro
     case PARAM_FLOAT:
         param_print_range(p, range, sizeof range);
         return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a number from %s", p->key, given, range);
-    case PARAM_BOOL:
-        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is true or false", p->key, given);
+    case PARAM_BOOL: return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is true or false", p->key, given);
     case PARAM_COLOUR:
         return error_set(error, LMN_USAGE,
                          "%s is '%.60s'; allowed is a colour: #rgb, #rrggbb, #rrggbbaa, a basic CSS name, or none%s",
@@ -150,8 +149,9 @@ static lmn_status wrong_value(const param *p, const char *given, lmn_error *erro
         return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed are 1 to %d colours with commas between them",
                          p->key, given, PALETTE_MAX);
     case PARAM_TEXT:
-        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a text of up to %d bytes without control characters",
-                         p->key, given, PARAM_TEXT_MAX - 1);
+        return error_set(error, LMN_USAGE,
+                         "%s is '%.60s'; allowed is a text of up to %d bytes without control characters", p->key, given,
+                         PARAM_TEXT_MAX - 1);
     case PARAM_ENUM: break;
     }
     return error_set(error, LMN_USAGE, "%s is '%.60s'", p->key, given);
@@ -159,7 +159,7 @@ static lmn_status wrong_value(const param *p, const char *given, lmn_error *erro
 
 static lmn_status wrong_name(const param *p, const char *name, lmn_error *error)
 {
-    text list = {0};
+    text   list = {0};
     size_t count = 0;
     for (; p->names[count]; count++)
         text_append(&list, "%s%s", count ? ", " : "", p->names[count]);
@@ -224,7 +224,7 @@ static const char *skip_blanks(const char *at)
 static bool parse_direction(const param *p, const char *given, direction *out)
 {
     float *const parts[3] = {&out->x, &out->y, &out->z};
-    const char *at = given, *end = given + strlen(given);
+    const char  *at = given, *end = given + strlen(given);
     if (is_auto(p, given)) {
         *out = (direction){NAN, 0, 0};
         return true;
@@ -248,7 +248,7 @@ static bool parse_palette(const char *given, palette *out)
     for (const char *at = given;;) {
         at = skip_blanks(at);
         size_t length = strcspn(at, ", ");
-        char word[24];
+        char   word[24];
         if (result.count == PALETTE_MAX || length == 0 || length >= sizeof word)
             return false;
         memcpy(word, at, length);
@@ -282,7 +282,7 @@ static bool parse_words(const char *given, param_words *out)
 static bool parse_value(const param *p, const char *given, void *field)
 {
     direction d;
-    colour c;
+    colour    c;
     switch (p->type) {
     case PARAM_INT: return parse_int(p, given, field);
     case PARAM_FLOAT: return parse_float(p, given, field);
@@ -358,7 +358,7 @@ static void print_palette(const palette *list, char *out, size_t size)
 void param_print(const param *p, const void *values, char *out, size_t size)
 {
     const void *field = param_field(p, values);
-    char number[NUMBER_SIZE];
+    char        number[NUMBER_SIZE];
     if (param_is_auto(p, values)) {
         snprintf(out, size, "auto");
         return;
@@ -385,8 +385,8 @@ void param_print(const param *p, const void *values, char *out, size_t size)
 bool param_is_default(const param *p, const void *values)
 {
     param_value standard;
-    param alone = *p;
-    char is[128], was[128];
+    param       alone = *p;
+    char        is[128], was[128];
     alone.offset = 0;
     memset(&standard, 0, sizeof standard);
     set_default(&alone, &standard);
@@ -510,9 +510,9 @@ bool params_condition(const char *condition, const param *params, size_t count, 
 /* A word is a value when it is what the value prints as: "0.50" never equals anything. */
 static bool is_value(const param *p, const char *word, size_t length)
 {
-    param        alone = *p;
-    param_value  value;
-    char         text[CONDITION_SIZE], is[CONDITION_SIZE];
+    param       alone = *p;
+    param_value value;
+    char        text[CONDITION_SIZE], is[CONDITION_SIZE];
     if (length >= sizeof text)
         return false;
     snprintf(text, sizeof text, "%.*s", (int)length, word);
@@ -529,7 +529,8 @@ static lmn_status check_words(condition_term term, const param *p, const char *c
     size_t length = 0;
     for (const char *word = NULL; (word = next_word(term, word, &length));)
         if (!is_value(p, word, length))
-            return error_set(error, LMN_USAGE, "condition '%.200s': '%.*s' is no value of %s", condition, (int)length, word, p->key);
+            return error_set(error, LMN_USAGE, "condition '%.200s': '%.*s' is no value of %s", condition, (int)length,
+                             word, p->key);
     return LMN_OK;
 }
 
@@ -537,8 +538,8 @@ static lmn_status check_number(condition_term term, const param *p, const char *
 {
     double bound;
     if (!is_number(p))
-        return error_set(error, LMN_USAGE, "condition '%.200s': %s is no number but %s; name its values: %s=…", condition, p->key,
-                         param_type_text(p->type), p->key);
+        return error_set(error, LMN_USAGE, "condition '%.200s': %s is no number but %s; name its values: %s=…",
+                         condition, p->key, param_type_text(p->type), p->key);
     if (text_parse_double(term.sign + 1, term.end, &bound) != term.end)
         return error_set(error, LMN_USAGE, "condition '%.200s': %s is compared with no number", condition, p->key);
     return LMN_OK;
@@ -550,10 +551,12 @@ lmn_status params_condition_check(const char *condition, const param *params, si
         condition_term term = term_at(at);
         const param   *p = term_row(term, params, count);
         if (!p)
-            return error_set(error, LMN_USAGE, "condition '%.200s': there is no parameter '%.*s'", condition, (int)(term.sign - term.key), term.key);
+            return error_set(error, LMN_USAGE, "condition '%.200s': there is no parameter '%.*s'", condition,
+                             (int)(term.sign - term.key), term.key);
         lmn_status status = LMN_OK;
         if (term.sign < term.end)
-            status = *term.sign == '=' ? check_words(term, p, condition, error) : check_number(term, p, condition, error);
+            status =
+                *term.sign == '=' ? check_words(term, p, condition, error) : check_number(term, p, condition, error);
         at = term.end;
         if (status != LMN_OK || !*at)
             return status;

@@ -1,5 +1,5 @@
-/* Parameter tables: every parameter is declared once, as a row, and everything else follows from the row: the look file's
- * keys, their validation and messages, --set, the reference, sliders, and the shader's uniforms. */
+/* Parameter tables: every parameter is declared once, as a row, and everything else follows from the row: the look
+ * file's keys, their validation and messages, --set, the reference, sliders, and the shader's uniforms. */
 #ifndef LIMNER_TECHNIQUE_PARAM_H
 #define LIMNER_TECHNIQUE_PARAM_H
 
@@ -43,8 +43,8 @@ typedef struct param {
     const char        *key; /* also the struct field, the look key and the uniform u_KEY */
     param_type         type;
     size_t             offset;
-    double             def, min, max;        /* outside min…max is refused */
-    double             soft_min, soft_max;   /* slider range; both 0 = min…max */
+    double             def, min, max;      /* outside min…max is refused */
+    double             soft_min, soft_max; /* slider range; both 0 = min…max */
     colour             def_colour;
     direction          def_direction;
     palette            def_palette;
@@ -58,30 +58,57 @@ typedef struct param {
     bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               as_turn;     /* the same: cosine and sine, a vec2 */
     bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
-    bool               toggles;     /* a number: WITH_KEY_IN_CAPITALS is defined where it is not 0, so that shaders leave out what it does */
-    bool               cpu_only;    /* no uniform */
-    bool               a_second;    /* a float: above 0 the picture changes so many times a second of its time */
-    bool               along;       /* a length along lines, which makes them no wider */
-    float              reach;       /* lengths: how many times as far they can reach; 0 is once */
-    const char        *only_if;     /* condition (params_condition) on the same technique's parameters under which this one matters; NULL: always */
-    const char        *example;     /* PARAM_TEXT: a value that does something, for tests */
-    bool               is_selector; /* PARAM_TEXT: selects parts; src/look checks it */
-    bool               is_file;     /* PARAM_TEXT: may be the path of a file; in look files beside the look */
-    lmn_status       (*check)(const char *text, lmn_error *error); /* PARAM_TEXT: LMN_USAGE when it is wrong; NULL: any will do */
-    const char        *doc;         /* one line, ends in a full stop */
-    const char        *since, *was;
+    bool toggles; /* a number: WITH_KEY_IN_CAPITALS is defined where it is not 0, so that shaders leave out what it does
+                   */
+    bool        cpu_only;    /* no uniform */
+    bool        a_second;    /* a float: above 0 the picture changes so many times a second of its time */
+    bool        along;       /* a length along lines, which makes them no wider */
+    float       reach;       /* lengths: how many times as far they can reach; 0 is once */
+    const char *only_if;     /* condition (params_condition) on the same technique's parameters under which this one
+                                matters; NULL: always */
+    const char *example;     /* PARAM_TEXT: a value that does something, for tests */
+    bool        is_selector; /* PARAM_TEXT: selects parts; src/look checks it */
+    bool        is_file;     /* PARAM_TEXT: may be the path of a file; in look files beside the look */
+    lmn_status (*check)(const char *text,
+                        lmn_error  *error); /* PARAM_TEXT: LMN_USAGE when it is wrong; NULL: any will do */
+    const char *doc;                       /* one line, ends in a full stop */
+    const char *since, *was;
 } param;
 
 /* Offset of a field, a compile error when the field has another type than the row says. */
-#define PARAM_OFFSET(S, F, T) (offsetof(S, F) + 0 * sizeof(char[_Generic(((S *)0)->F, T: 1)]))
-#define PARAM_INT_ROW(S, F, ...)       {.key = #F, .type = PARAM_INT, .offset = PARAM_OFFSET(S, F, int32_t), __VA_ARGS__}
-#define PARAM_FLOAT_ROW(S, F, ...)     {.key = #F, .type = PARAM_FLOAT, .offset = PARAM_OFFSET(S, F, float), __VA_ARGS__}
-#define PARAM_BOOL_ROW(S, F, ...)      {.key = #F, .type = PARAM_BOOL, .offset = PARAM_OFFSET(S, F, bool), __VA_ARGS__}
-#define PARAM_ENUM_ROW(S, F, ...)      {.key = #F, .type = PARAM_ENUM, .offset = PARAM_OFFSET(S, F, int32_t), __VA_ARGS__}
-#define PARAM_COLOUR_ROW(S, F, ...)    {.key = #F, .type = PARAM_COLOUR, .offset = PARAM_OFFSET(S, F, colour), __VA_ARGS__}
-#define PARAM_DIRECTION_ROW(S, F, ...) {.key = #F, .type = PARAM_DIRECTION, .offset = PARAM_OFFSET(S, F, direction), __VA_ARGS__}
-#define PARAM_PALETTE_ROW(S, F, ...)   {.key = #F, .type = PARAM_PALETTE, .offset = PARAM_OFFSET(S, F, palette), __VA_ARGS__}
-#define PARAM_TEXT_ROW(S, F, ...)      {.key = #F, .type = PARAM_TEXT, .offset = PARAM_OFFSET(S, F, param_words), .cpu_only = true, __VA_ARGS__}
+#define PARAM_OFFSET(S, F, T) (offsetof(S, F) + 0 * sizeof(char[_Generic(((S *)0)->F, T : 1)]))
+#define PARAM_INT_ROW(S, F, ...)                                                                                       \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_INT, .offset = PARAM_OFFSET(S, F, int32_t), __VA_ARGS__                               \
+    }
+#define PARAM_FLOAT_ROW(S, F, ...)                                                                                     \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_FLOAT, .offset = PARAM_OFFSET(S, F, float), __VA_ARGS__                               \
+    }
+#define PARAM_BOOL_ROW(S, F, ...)                                                                                      \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_BOOL, .offset = PARAM_OFFSET(S, F, bool), __VA_ARGS__                                 \
+    }
+#define PARAM_ENUM_ROW(S, F, ...)                                                                                      \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_ENUM, .offset = PARAM_OFFSET(S, F, int32_t), __VA_ARGS__                              \
+    }
+#define PARAM_COLOUR_ROW(S, F, ...)                                                                                    \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_COLOUR, .offset = PARAM_OFFSET(S, F, colour), __VA_ARGS__                             \
+    }
+#define PARAM_DIRECTION_ROW(S, F, ...)                                                                                 \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_DIRECTION, .offset = PARAM_OFFSET(S, F, direction), __VA_ARGS__                       \
+    }
+#define PARAM_PALETTE_ROW(S, F, ...)                                                                                   \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_PALETTE, .offset = PARAM_OFFSET(S, F, palette), __VA_ARGS__                           \
+    }
+#define PARAM_TEXT_ROW(S, F, ...)                                                                                      \
+    {                                                                                                                  \
+        .key = #F, .type = PARAM_TEXT, .offset = PARAM_OFFSET(S, F, param_words), .cpu_only = true, __VA_ARGS__        \
+    }
 #define PARAM_COUNT(array) (sizeof(array) / sizeof *(array))
 
 const char *param_type_text(param_type type); /* "int", "float", … */
@@ -110,15 +137,14 @@ bool param_is_auto(const param *p, const void *values);
 /* Reads as numbers whatever the type: the field's address. */
 const void *param_field(const param *p, const void *values);
 
-/* Conditions on parameters: passes, textures and rows have them, and whole techniques. Terms joined by '&', all of which must
- * hold:
- *   key               is set: not 0, false, the first word of an enum, transparent, empty or auto
+/* Conditions on parameters: passes, textures and rows have them, and whole techniques. Terms joined by '&', all of
+ * which must hold: key               is set: not 0, false, the first word of an enum, transparent, empty or auto
  *   key=word,word     prints as one of these words (param_print)
  *   key>number, key<number   of a PARAM_INT or PARAM_FLOAT; never of an enum, whose words may get another order
  * A '!' before the key turns a term round.
  *
- * Does it hold for these values? NULL always holds. A term that is wrong never does; tests/unit/conditions_test.c holds what
- * every technique says against params_condition_check. */
+ * Does it hold for these values? NULL always holds. A term that is wrong never does; tests/unit/conditions_test.c holds
+ * what every technique says against params_condition_check. */
 bool params_condition(const char *condition, const param *params, size_t count, const void *values);
 
 /* Is this a condition on these parameters? Errors: LMN_USAGE, an unknown key, a word that is no value, a comparison of

@@ -8,7 +8,8 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_SHADE] = {"t_shade", TEXEL_RGBA16F, .owner = OWNER_LAYER, .filtered = true},
     [TARGET_DEPTH] = {"t_depth", TEXEL_DEPTH32F, .owner = OWNER_LAYER},
 
-    /* The edge map: r = profile, g = inner, b = combined, a = id; 1 = no edge. That of the layer in front of this one. */
+    /* The edge map: r = profile, g = inner, b = combined, a = id; 1 = no edge. That of the layer in front of this
+     * one. */
     [TARGET_EDGE] = {"t_edge", TEXEL_RGBA16F, .owner = OWNER_FIGURE, .filtered = true, .empty = {1, 1, 1, 1}},
     [TARGET_EDGE_BEFORE] = {"t_edge_before", TEXEL_RGBA16F, .owner = OWNER_FIGURE, .empty = {1, 1, 1, 1}},
     /* Of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up. */
@@ -30,7 +31,8 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_REFLECTION] = {"t_reflection", TEXEL_RGBA16F, .owner = OWNER_FIGURE},
     /* Depth from the first light; there when the look has shadows or a pass reads it. */
     [TARGET_SHADOW] = {"t_shadow", TEXEL_DEPTH32F, SCALE_OWN, OWNER_FRAME},
-    /* The way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure; a: 1 where there is a surface. */
+    /* The way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure; a: 1 where there is a
+     * surface. */
     [TARGET_DIRECTION] = {"t_direction", TEXEL_RGBA16F, SCALE_APART, OWNER_FIGURE, .filtered = true},
 
     /* What the layers so far add up to, front to back; alpha is what still shows through. */

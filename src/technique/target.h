@@ -1,5 +1,6 @@
-/* Pictures that passes write and read. One row has all there is to know of a picture; formats, sizes, clearing, declarations in shaders and
- * lifetimes follow from it. Pictures that one technique alone makes and reads are rows of its own (technique.targets). */
+/* Pictures that passes write and read. One row has all there is to know of a picture; formats, sizes, clearing,
+ * declarations in shaders and lifetimes follow from it. Pictures that one technique alone makes and reads are rows
+ * of its own (technique.targets). */
 #ifndef LIMNER_TECHNIQUE_TARGET_H
 #define LIMNER_TECHNIQUE_TARGET_H
 
@@ -34,7 +35,15 @@ typedef enum target {
 enum { OWN_TARGETS_MAX = 4, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
 #define TARGET_OWN(index) ((target)(TARGET_COUNT + (index)))
 
-typedef enum target_format { TEXEL_NONE, TEXEL_R8, TEXEL_RGBA16F, TEXEL_RGBA32F, TEXEL_RG32UI, TEXEL_DEPTH32F, TEXEL_FORMAT_COUNT } target_format;
+typedef enum target_format {
+    TEXEL_NONE,
+    TEXEL_R8,
+    TEXEL_RGBA16F,
+    TEXEL_RGBA32F,
+    TEXEL_RG32UI,
+    TEXEL_DEPTH32F,
+    TEXEL_FORMAT_COUNT
+} target_format;
 
 /* Texels of a picture. */
 typedef enum target_scale {
@@ -61,12 +70,12 @@ typedef enum target_owner {
 #define EMPTY_FAR (-1.0f)
 
 typedef struct target_row {
-    const char   *name;     /* of the sampler, "t_edge"; passes that read a picture that is there get HAS_EDGE besides */
+    const char   *name; /* of the sampler, "t_edge"; passes that read a picture that is there get HAS_EDGE besides */
     target_format format;
     target_scale  scale;
     target_owner  owner;
     bool          filtered; /* samplers mix texels; whoever wants whole ones fetches them */
-    float         empty[4]; /* what it is cleared to: what later passes find where nothing was drawn. Of depth: always 1 */
+    float empty[4]; /* what it is cleared to: what later passes find where nothing was drawn. Of depth: always 1 */
 } target_row;
 
 extern const target_row target_rows[TARGET_COUNT];

@@ -1,5 +1,6 @@
-/* What a technique is: a room's parameters, the G-buffer channels it needs and the passes it draws, all declared as data.
- * A kind is a table of techniques that answer the same question. src/frame runs them without knowing any by name. */
+/* What a technique is: a room's parameters, the G-buffer channels it needs and the passes it draws, all declared as
+ * data. A kind is a table of techniques that answer the same question. src/frame runs them without knowing any by
+ * name. */
 #ifndef LIMNER_TECHNIQUE_TECHNIQUE_H
 #define LIMNER_TECHNIQUE_TECHNIQUE_H
 
@@ -11,9 +12,9 @@
 /* What the geometry pass can write for each pixel. Only what some technique needs is drawn. */
 typedef enum channel {
     CHANNEL_NORMAL_DEPTH = 1 << 0, /* eye-space unit normal, linear eye depth (−z, file units) */
-    CHANNEL_ID           = 1 << 1, /* part id (0 = empty), surface id */
-    CHANNEL_ALBEDO       = 1 << 2, /* unlit surface colour, linear */
-    CHANNEL_SHADE        = 1 << 3  /* the surface technique's colour, linear, premultiplied */
+    CHANNEL_ID = 1 << 1,           /* part id (0 = empty), surface id */
+    CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, linear */
+    CHANNEL_SHADE = 1 << 3         /* the surface technique's colour, linear, premultiplied */
 } channel;
 
 enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
@@ -23,38 +24,41 @@ typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_
 /* What a pass on the CPU reads: a part of its pictures, row 0 at the bottom. */
 typedef struct pass_pixels {
     const float   *values[PASS_READS_MAX]; /* of each picture that it reads, 4 a pixel */
-    const uint8_t *own;    /* not 0 where the figure's own surfaces are; NULL: all that is there is its own */
+    const uint8_t *own; /* not 0 where the figure's own surfaces are; NULL: all that is there is its own */
     int            x, y, width, height; /* of the part */
-    float          pixel;  /* side of a pixel at depth 1 in perspective, at any depth without, file units */
-    float          scale;  /* pixels of the picture to one that is seen: more than 1 with several samples */
+    float          pixel; /* side of a pixel at depth 1 in perspective, at any depth without, file units */
+    float          scale; /* pixels of the picture to one that is seen: more than 1 with several samples */
     bool           perspective;
 } pass_pixels;
 
 /* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
 typedef struct pass {
     const char *name;
-    const char *shader; /* path below src/, for example "lines/edge/four_tap.frag" */
+    const char *shader;                /* path below src/, for example "lines/edge/four_tap.frag" */
     target      reads[PASS_READS_MAX]; /* as samplers t_NAME, with HAS_NAME, in capitals, where the picture is there */
     target      writes;
     pass_blend  blend;
-    bool        depth;  /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
-    bool        geometry; /* draws the figure's parts again instead of a full screen: shaded and inked by the shader file's ink_at */
-    const char *enlarge;  /* with geometry: key of the length in pixels by which surfaces are moved along their normals; no shader */
-    bool        shell;    /* with enlarge: only faces that look away, moved across the page; their depth alone is written */
-    /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of the figure's line
-     * techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
-    bool      (*process)(const pass_pixels *in, void *out, const void *values);
+    bool depth;    /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
+    bool geometry; /* draws the figure's parts again instead of a full screen: shaded and inked by the shader file's
+                      ink_at */
+    const char *enlarge; /* with geometry: key of the length in pixels by which surfaces are moved along their normals;
+                            no shader */
+    bool shell; /* with enlarge: only faces that look away, moved across the page; their depth alone is written */
+    /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of
+     * the figure's line techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
+    bool (*process)(const pass_pixels *in, void *out, const void *values);
     bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
-    int         repeat; /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
-    const char *when;   /* condition on the technique's parameters; NULL: always */
-    bool        prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded with its geometry */
-    bool        stylised; /* left out in maps, which show what was detected */
+    int         repeat;  /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
+    const char *when;    /* condition on the technique's parameters; NULL: always */
+    bool prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded
+                      with its geometry */
+    bool stylised; /* left out in maps, which show what was detected */
 } pass;
 
 /* What a technique wants meshes to have besides positions and normals. */
 typedef struct mesh_needs {
-    bool  field;  /* the way surfaces bend */
-    float patch;  /* radius of patches that cover them, share of a mesh's diagonal; 0: none */
+    bool  field; /* the way surfaces bend */
+    float patch; /* radius of patches that cover them, share of a mesh's diagonal; 0: none */
 } mesh_needs;
 
 struct pass;
@@ -63,26 +67,29 @@ struct stroke_style;
 
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
-    /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see compose/places.glsl. With BROAD_LINES also
-     * broadening and most_broadening; see lines/ink.glsl and compose/reach.glsl. */
+    /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see
+     * compose/places.glsl. With BROAD_LINES also broadening and most_broadening; see lines/ink.glsl and
+     * compose/reach.glsl. */
     const char *places;
-    bool      (*active)(const void *values); /* false: pictures are what they are without it */
-    float     (*reach)(const void *values);  /* how far it moves anything, pixels */
-    float     (*cell)(const void *values);   /* side of the texels of coarse pictures, pixels */
-    uint32_t  (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
-    const struct pass *map; /* writes TARGET_FIELD; NULL: there is none */
-    void      (*as_hand)(struct stroke_style *style, const void *values); /* as vectors: what it does to strokes, lengths in pixels; NULL: nothing */
+    bool (*active)(const void *values); /* false: pictures are what they are without it */
+    float (*reach)(const void *values); /* how far it moves anything, pixels */
+    float (*cell)(const void *values);  /* side of the texels of coarse pictures, pixels */
+    uint32_t (*seed)(const void *values, uint32_t seed, double time_s); /* u_seed: from the drawing's */
+    const struct pass *map;                                             /* writes TARGET_FIELD; NULL: there is none */
+    void (*as_hand)(struct stroke_style *style,
+                    const void *values); /* as vectors: what it does to strokes, lengths in pixels; NULL: nothing */
 } perturbation;
 
-/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its longer side, layers, levels
- * and fact as vec4 u_NAME_facts, HAS_NAME, in capitals, and SIMILAR_NAME and NEAREST_NAME where the chain is. */
+/* A texture that a technique makes from its parameters on the CPU. Shaders get it as sampler2DArray t_NAME, its
+ * longer side, layers, levels and fact as vec4 u_NAME_facts, HAS_NAME, in capitals, and SIMILAR_NAME and
+ * NEAREST_NAME where the chain is. */
 typedef struct texture_source {
     const char *name;
     const char *when; /* condition on the parameters; NULL: always */
     /* Appends all that decides the content; equal text, equal texture. */
-    void      (*describe)(text *out, const void *values);
+    void (*describe)(text *out, const void *values);
     lmn_status (*make)(mip_chain *out, const void *values, lmn_error *error);
-    bool        kept; /* takes long: it is kept on disk */
+    bool kept; /* takes long: it is kept on disk */
 } texture_source;
 
 /* Marks that lie on a figure's surfaces and are drawn over it once it is shaded: src/halftone/marks.h. */
@@ -90,11 +97,13 @@ struct marks;
 struct mark_surface;
 typedef struct mark_source {
     /* Appends all that decides which marks there are. */
-    void       (*describe)(text *out, const void *values);
+    void (*describe)(text *out, const void *values);
     /* `extent`: diagonal of what is drawn. */
-    lmn_status (*make)(struct marks *out, const struct mark_surface *surface, double extent, const void *values, lmn_error *error);
-    const char  *vertex, *fragment; /* paths below src/ */
-    float      (*point)(const void *values); /* the largest dot's diameter, pixels: drawn as points (AS_POINTS) where the driver has such large ones, else as quads. NULL: quads */
+    lmn_status (*make)(struct marks *out, const struct mark_surface *surface, double extent, const void *values,
+                       lmn_error *error);
+    const char *vertex, *fragment;      /* paths below src/ */
+    float (*point)(const void *values); /* the largest dot's diameter, pixels: drawn as points (AS_POINTS) where the
+                                           driver has such large ones, else as quads. NULL: quads */
 } mark_source;
 
 struct layering;
@@ -102,21 +111,23 @@ struct stroke_options;
 
 /* What a surface technique is beside its passes. */
 typedef struct surface_row {
-    const char  *shader;   /* GLSL file with `vec4 surface_colour(surface_point p)` */
-    bool         direct;   /* may be drawn straight onto the page when the rule has no lines */
-    bool         forward;  /* always shaded while the geometry is drawn, whatever the layers ask for */
-    bool         reflects; /* wants TARGET_REFLECTION */
-    const char  *light_map_when; /* condition under which it wants t_light_map, the light (its function light_of) laid out by texture coordinates */
-    const char  *forward_when;   /* the same as `forward` under this condition on its parameters; NULL: never */
-    const char  *deferred_when;  /* condition under which it is shaded from the G-buffer wherever that can be; NULL: as the layers say */
+    const char *shader;         /* GLSL file with `vec4 surface_colour(surface_point p)` */
+    bool        direct;         /* may be drawn straight onto the page when the rule has no lines */
+    bool        forward;        /* always shaded while the geometry is drawn, whatever the layers ask for */
+    bool        reflects;       /* wants TARGET_REFLECTION */
+    const char *light_map_when; /* condition under which it wants t_light_map, the light (its function light_of) laid
+                                   out by texture coordinates */
+    const char *forward_when;   /* the same as `forward` under this condition on its parameters; NULL: never */
+    const char *deferred_when;  /* condition under which it is shaded from the G-buffer wherever that can be; NULL: as
+                                   the layers say */
     mesh_needs (*needs)(const void *values); /* NULL: nothing */
-    /* Changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its textures; false: all materials are alike. NULL:
-     * always so. */
-    bool       (*by_material)(void *values, const char *strokes);
+    /* Changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its
+     * textures; false: all materials are alike. NULL: always so. */
+    bool (*by_material)(void *values, const char *strokes);
     const mark_source *marks; /* what is drawn over it; NULL: nothing */
     /* As vectors. */
-    bool       (*as_fill)(colour *out, const void *values); /* its one colour, sRGB; false: it has more. NULL: it has more */
-    void       (*as_marks)(void *values); /* changes values so that one pen can draw its marks, all alike; NULL: they are */
+    bool (*as_fill)(colour *out, const void *values); /* its one colour, sRGB; false: it has more. NULL: it has more */
+    void (*as_marks)(void *values); /* changes values so that one pen can draw its marks, all alike; NULL: they are */
 } surface_row;
 
 /* What a line technique is. */
@@ -124,17 +135,18 @@ typedef struct lines_row {
     const char *detect;  /* of one pass: GLSL file with `void detect_edges()`; NULL: others */
     bool        own_ink; /* compositions get its own parameters too, with which it is inked */
     /* As vectors, lengths in pixels: which strokes and how they look; NULL: lines_as_strokes. */
-    void      (*as_strokes)(struct stroke_options *options, struct stroke_style *style, const void *values);
+    void (*as_strokes)(struct stroke_options *options, struct stroke_style *style, const void *values);
 } lines_row;
 
 /* What a composition is. */
 typedef struct compose_row {
-    const char *merges_when; /* condition on the lines' common parameters under which it runs a single line technique's `detect` itself instead of reading its
-                              * map; NULL: never */
-    const char *map_when;    /* condition on its own parameters under which it needs the map all the same, as any further pass does that reads it */
-    bool        layered;     /* takes layers, one by one */
-    bool        perturbable; /* its passes onto the page look maps up where compose/places.glsl says */
-    bool        lines_only;  /* surfaces are not drawn */
+    const char *merges_when; /* condition on the lines' common parameters under which it runs a single line technique's
+                              * `detect` itself instead of reading its map; NULL: never */
+    const char *map_when; /* condition on its own parameters under which it needs the map all the same, as any further
+                             pass does that reads it */
+    bool layered;         /* takes layers, one by one */
+    bool perturbable;     /* its passes onto the page look maps up where compose/places.glsl says */
+    bool lines_only;      /* surfaces are not drawn */
 } compose_row;
 
 /* What a technique of layers is: which surfaces are seen, src/layer/layer.h. */
@@ -144,20 +156,21 @@ typedef struct layers_row {
 
 /* What all techniques have, and a row of their kind. */
 typedef struct technique {
-    const char  *name, *doc;  /* doc: one line that ends in a full stop */
-    const char  *example;     /* JSON of a rule that shows it: test input and documentation */
-    const param *params;
-    size_t       param_count, params_size;
-    unsigned     channels;    /* of channel, that its passes read */
-    unsigned     part_channels; /* the same, needed only when the figure has several parts */
-    const pass  *passes;
-    size_t       pass_count;
-    const target_row *targets; /* pictures that these passes alone write and read: TARGET_OWN(0) and up */
-    size_t       target_count; /* at most OWN_TARGETS_MAX */
-    const texture_source *textures; /* surface, finish: what it makes on the CPU */
-    size_t       texture_count;
-    /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how many, at most NUMBERS_MAX. NULL: nothing. */
-    size_t     (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
+    const char           *name, *doc; /* doc: one line that ends in a full stop */
+    const char           *example;    /* JSON of a rule that shows it: test input and documentation */
+    const param          *params;
+    size_t                param_count, params_size;
+    unsigned              channels;      /* of channel, that its passes read */
+    unsigned              part_channels; /* the same, needed only when the figure has several parts */
+    const pass           *passes;
+    size_t                pass_count;
+    const target_row     *targets;      /* pictures that these passes alone write and read: TARGET_OWN(0) and up */
+    size_t                target_count; /* at most OWN_TARGETS_MAX */
+    const texture_source *textures;     /* surface, finish: what it makes on the CPU */
+    size_t                texture_count;
+    /* surface, perturb: what its shader needs and is the same for every pixel, into vec4 u_numbers[]; returns how
+     * many, at most NUMBERS_MAX. NULL: nothing. */
+    size_t (*numbers)(const void *values, uint32_t seed, int width, int height, float out[][4]);
     /* That of its kind; scene and finish have none. */
     const surface_row  *surface;
     const lines_row    *lines;
@@ -167,30 +180,30 @@ typedef struct technique {
 } technique;
 
 typedef enum kind_id {
-    KIND_SCENE,   /* look-wide: light and geometry preparation */
+    KIND_SCENE, /* look-wide: light and geometry preparation */
     KIND_LAYERS,
     KIND_SURFACE,
     KIND_LINES,
     KIND_PERTURB,
     KIND_COMPOSE,
-    KIND_FINISH,  /* look-wide: the sheet */
+    KIND_FINISH, /* look-wide: the sheet */
     KIND_COUNT
 } kind_id;
 
-/* A table of techniques. Parameters in `common` belong to every technique of the kind; their struct is the first member of
- * each technique's parameter struct. */
+/* A table of techniques. Parameters in `common` belong to every technique of the kind; their struct is the first
+ * member of each technique's parameter struct. */
 typedef struct kind {
     kind_id                 id;
     const char             *name, *doc;
     const technique *const *techniques;
     size_t                  technique_count;
     const technique        *standard; /* used when a rule does not say; NULL: nothing is drawn by this kind */
-    const char             *selector_key; /* "technique", or another key that names the technique ("operator" for lines) */
-    bool                    look_wide;    /* one for the whole look instead of one a rule */
-    bool                    array;        /* a rule may hold several, drawn in order */
-    const param            *common;
-    size_t                  common_count;
-    const pass             *fold; /* array kinds: drawn after each use but the last, to take its result into the picture */
+    const char  *selector_key;        /* "technique", or another key that names the technique ("operator" for lines) */
+    bool         look_wide;           /* one for the whole look instead of one a rule */
+    bool         array;               /* a rule may hold several, drawn in order */
+    const param *common;
+    size_t       common_count;
+    const pass  *fold; /* array kinds: drawn after each use but the last, to take its result into the picture */
 } kind;
 
 /* A technique with values for its parameters. */

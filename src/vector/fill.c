@@ -1,6 +1,7 @@
-/* Areas of parts: what is seen of each, in one colour. Parts run through each other and lie before and behind each other at once, so that no order of painting is right; visibility is worked
- * out in a picture of part numbers several times as fine as the page's pixels, and its borders are traced and straightened. They are off by about a third of a pixel, below lines that
- * are wider; on large pages by more. */
+/* Areas of parts: what is seen of each, in one colour. Parts run through each other and lie before and behind each
+ * other at once, so that no order of painting is right; visibility is worked out in a picture of part numbers
+ * several times as fine as the page's pixels, and its borders are traced and straightened. They are off by about a
+ * third of a pixel, below lines that are wider; on large pages by more. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,8 @@ static const double cells_a_pixel = 3, cells_most = 1e7;
 static const double nearest_w = 1e-9;
 static const float  straight_within = 0.75f; /* cells that a border may be moved by */
 
-/* A piece of border between two cells: from a corner of the grid of cells to the next one, its own part on its left. */
+/* A piece of border between two cells: from a corner of the grid of cells to the next one, its own part on its
+ * left. */
 typedef struct crack {
     uint32_t from, to, part;
 } crack;
@@ -22,18 +24,18 @@ typedef struct fill_job {
     const vector_view  *view;
     const stroke_scene *strokes;
     int                 columns, rows;
-    uint32_t           *parts;  /* of each cell, id; 0: nothing */
+    uint32_t           *parts; /* of each cell, id; 0: nothing */
     float              *depths;
     crack              *cracks;
     size_t              crack_count, crack_capacity;
     uint32_t           *heads, *next; /* cracks that leave a corner, + 1 */
-    float             (*loop)[2], (*kept)[2];
-    size_t              loop_count, loop_capacity, kept_capacity;
-    bool               *stays;
-    size_t              stays_capacity;
+    float (*loop)[2], (*kept)[2];
+    size_t loop_count, loop_capacity, kept_capacity;
+    bool  *stays;
+    size_t stays_capacity;
 } fill_job;
 
-/* --- the picture ------------------------------------------------------------------------------------------------------- */
+/* --- the picture ---------------------------------------------------------------------------------------- */
 
 typedef struct corner {
     double x, y, z; /* cells; depth that is affine on the page */
@@ -76,7 +78,8 @@ static void draw_triangle(fill_job *j, const corner p[3], uint32_t part)
             to = fmax(to, x);
         }
         if (from < to)
-            draw_row(j, row, fmax(from, -1), fmin(to, j->columns + 1.0), p[0].z + dy * (y - p[0].y) - dx * p[0].x, dx, part);
+            draw_row(j, row, fmax(from, -1), fmin(to, j->columns + 1.0), p[0].z + dy * (y - p[0].y) - dx * p[0].x, dx,
+                     part);
     }
 }
 
@@ -105,7 +108,8 @@ static void draw_clipped(fill_job *j, const double clip[3][4], uint32_t part)
 static void draw_faces(fill_job *j, const stroke_item *item)
 {
     const edge_mesh *m = &j->strokes->meshes[item->mesh];
-    mat4             both = mat4_multiply(&j->view->camera.projection, &j->view->camera.view), all = mat4_multiply(&both, &item->world);
+    mat4             both = mat4_multiply(&j->view->camera.projection, &j->view->camera.view),
+         all = mat4_multiply(&both, &item->world);
     for (uint32_t f = 0; f < m->face_count; f++) {
         double clip[3][4] = {{0}};
         for (int k = 0; k < 3; k++) {
@@ -114,7 +118,7 @@ static void draw_faces(fill_job *j, const stroke_item *item)
             for (int n = 0; n < 16; n++)
                 clip[k][n % 4] += all.m[n] * from[n / 4];
         }
-        draw_clipped(j, (const double (*)[4])clip, item->part_index + 1);
+        draw_clipped(j, (const double(*)[4])clip, item->part_index + 1);
     }
 }
 
@@ -135,7 +139,7 @@ static bool draw_parts(fill_job *j)
     return true;
 }
 
-/* --- borders ------------------------------------------------------------------------------------------------------------ */
+/* --- borders -------------------------------------------------------------------------------------------- */
 
 static uint32_t part_at(const fill_job *j, int x, int y)
 {
@@ -147,7 +151,8 @@ static bool add_crack(fill_job *j, int x0, int y0, int x1, int y1, uint32_t part
     size_t across = (size_t)j->columns + 1;
     if (!mem_grow((void **)&j->cracks, &j->crack_capacity, j->crack_count + 1, sizeof *j->cracks))
         return false;
-    j->cracks[j->crack_count++] = (crack){(uint32_t)((size_t)y0 * across + (size_t)x0), (uint32_t)((size_t)y1 * across + (size_t)x1), part};
+    j->cracks[j->crack_count++] =
+        (crack){(uint32_t)((size_t)y0 * across + (size_t)x0), (uint32_t)((size_t)y1 * across + (size_t)x1), part};
     return true;
 }
 
@@ -189,7 +194,8 @@ static void keep_bends(fill_job *j, size_t from, size_t to)
         size_t       farthest = from;
         for (size_t i = from + 1; i < to; i++) {
             const float *p = j->loop[i];
-            float        off = length > 0 ? fabsf(dx * (p[1] - a[1]) - dy * (p[0] - a[0])) / length : hypotf(p[0] - a[0], p[1] - a[1]);
+            float        off =
+                length > 0 ? fabsf(dx * (p[1] - a[1]) - dy * (p[0] - a[0])) / length : hypotf(p[0] - a[0], p[1] - a[1]);
             if (off > most) {
                 most = off;
                 farthest = i;
@@ -234,7 +240,7 @@ static bool put_loop(fill_job *j, sheet *s, uint32_t corner_index)
             j->kept[count][0] = (float)(j->ink->origin[0] + (double)j->loop[i][0] / j->columns * j->view->box[2]);
             j->kept[count++][1] = (float)(j->ink->origin[1] + (double)j->loop[i][1] / j->rows * j->view->box[3]);
         }
-    sheet_add_path(s, &(sheet_path){.closed = true, .filled = true}, (const float (*)[2])j->kept, count);
+    sheet_add_path(s, &(sheet_path){.closed = true, .filled = true}, (const float(*)[2])j->kept, count);
     return true;
 }
 
@@ -273,12 +279,12 @@ static bool put_parts(fill_job *j, sheet *s, uint32_t group, const plan *plan)
     return true;
 }
 
-lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes, const plan *plan, lmn_progress_fn progress,
-                            void *user, lmn_error *error)
+lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes,
+                            const plan *plan, lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    fill_job   j = {.ink = ink, .view = view, .strokes = strokes};
-    uint32_t   group = sheet_add_group(s, (int32_t)ink->group, "fills", "fills", 0);
-    bool       good = draw_parts(&j), goes_on = !progress || progress(0, "filling", user);
+    fill_job j = {.ink = ink, .view = view, .strokes = strokes};
+    uint32_t group = sheet_add_group(s, (int32_t)ink->group, "fills", "fills", 0);
+    bool     good = draw_parts(&j), goes_on = !progress || progress(0, "filling", user);
     if (good && goes_on)
         good = find_cracks(&j) && put_parts(&j, s, group, plan);
     mem_free(j.parts);

@@ -1,4 +1,5 @@
-/* Ribbons on the sheet. An even ribbon is a line with a width; an uneven one is its outline, in pieces from one sharp corner to the next that overlap there. */
+/* Ribbons on the sheet. An even ribbon is a line with a width; an uneven one is its outline, in pieces from one
+ * sharp corner to the next that overlap there. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +8,7 @@
 #include "base/memory.h"
 #include "vector/vector_private.h"
 
-static const float sharp_cosine = 0.6f;  /* outlines are cut at corners that turn by more */
+static const float sharp_cosine = 0.6f; /* outlines are cut at corners that turn by more */
 static const float miter_most = 1.25f;
 enum { CAP_PIECES = 6, OPACITY_STEPS = 32, WIDTH_STEPS = 20 /* to the pixel */ };
 
@@ -21,16 +22,16 @@ typedef struct inked {
 typedef struct ink_writer {
     const vector_ink *how;
     vector_pen        pen;
-    int32_t           groups[2];    /* what is hidden, what is visible; −1: not there yet */
+    int32_t           groups[2]; /* what is hidden, what is visible; −1: not there yet */
     int32_t           part_group, class_group;
-    const ribbon     *before;       /* of the group and item that are open */
+    const ribbon     *before;         /* of the group and item that are open */
     float             width, opacity; /* of the item */
 } ink_writer;
 
 static int compare_inked(const void *a, const void *b)
 {
     const inked *one = a, *other = b;
-    bool one_hidden = one->r->hidden_by > 0, other_hidden = other->r->hidden_by > 0;
+    bool         one_hidden = one->r->hidden_by > 0, other_hidden = other->r->hidden_by > 0;
     if (one_hidden != other_hidden)
         return one_hidden ? -1 : 1;
     if (one->r->part != other->r->part)
@@ -40,7 +41,7 @@ static int compare_inked(const void *a, const void *b)
     return one->order < other->order ? -1 : one->order > other->order;
 }
 
-/* --- points -------------------------------------------------------------------------------------------------------------- */
+/* --- points --------------------------------------------------------------------------------------------- */
 
 static void add_point(vector_pen *w, float x, float y)
 {
@@ -87,8 +88,10 @@ static float bisect(const ribbon_point *points, size_t count, size_t i, float ou
 static void add_cap(vector_pen *w, const ribbon_point *p, const float direction[2])
 {
     for (int i = 1; i < CAP_PIECES; i++) {
-        float angle = (float)i * 3.14159265f / CAP_PIECES, along = sinf(angle) * p->half, across = cosf(angle) * p->half;
-        add_point(w, p->x + along * direction[0] + across * direction[1], p->y + along * direction[1] - across * direction[0]);
+        float angle = (float)i * 3.14159265f / CAP_PIECES, along = sinf(angle) * p->half,
+              across = cosf(angle) * p->half;
+        add_point(w, p->x + along * direction[0] + across * direction[1],
+                  p->y + along * direction[1] - across * direction[0]);
     }
 }
 
@@ -97,7 +100,8 @@ static void add_side(vector_pen *w, const ribbon_point *points, size_t count, bo
 {
     for (size_t n = 0; n < count; n++) {
         size_t i = back ? count - 1 - n : n;
-        float  direction[2], grown = bisect(points, count, i, direction), offset = points[i].half * grown * (back ? -1 : 1);
+        float  direction[2], grown = bisect(points, count, i, direction),
+                            offset = points[i].half * grown * (back ? -1 : 1);
         add_point(w, points[i].x + offset * direction[1], points[i].y - offset * direction[0]);
     }
 }
@@ -115,7 +119,8 @@ static void put_outline(vector_pen *w, const ribbon_point *points, size_t count,
     if (round)
         add_cap(w, &points[0], (const float[2]){-direction[0], -direction[1]});
     if (!w->failed)
-        sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true}, (const float (*)[2])w->points, w->count);
+        sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true}, (const float(*)[2])w->points,
+                       w->count);
 }
 
 void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, ribbon_end end)
@@ -123,7 +128,8 @@ void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, 
     size_t begin = 0;
     for (size_t i = 1; i < count; i++) {
         float before[2], after[2];
-        bool  sharp = i + 1 < count && direction_between(&points[i - 1], &points[i], before) && direction_between(&points[i], &points[i + 1], after) &&
+        bool  sharp = i + 1 < count && direction_between(&points[i - 1], &points[i], before) &&
+                     direction_between(&points[i], &points[i + 1], after) &&
                      before[0] * after[0] + before[1] * after[1] < sharp_cosine;
         if (!sharp && i + 1 < count)
             continue;
@@ -139,10 +145,10 @@ void vector_pen_even(vector_pen *w, const ribbon_point *points, size_t count, co
     for (size_t i = 0; i < count; i++)
         add_point(w, points[i].x, points[i].y);
     if (!w->failed)
-        sheet_add_path(w->how->page, style, (const float (*)[2])w->points, w->count);
+        sheet_add_path(w->how->page, style, (const float(*)[2])w->points, w->count);
 }
 
-/* --- groups and items ------------------------------------------------------------------------------------------------------ */
+/* --- groups and items ----------------------------------------------------------------------------------- */
 
 static const char *part_name(const vector_ink *how, uint32_t part)
 {
@@ -154,7 +160,8 @@ static void open_groups(ink_writer *w, const ribbon *r)
     sheet      *page = w->how->page;
     bool        visible = r->hidden_by == 0, first = !w->before;
     const char *state = visible ? "visible" : "hidden";
-    bool        other_state = first || (w->before->hidden_by == 0) != visible, other_part = other_state || w->before->part != r->part;
+    bool        other_state = first || (w->before->hidden_by == 0) != visible,
+         other_part = other_state || w->before->part != r->part;
     if (w->groups[visible] < 0)
         w->groups[visible] = (int32_t)sheet_add_group(page, (int32_t)w->how->group, state, state, 0);
     if (other_part)
@@ -196,16 +203,19 @@ static void put_ribbon(ink_writer *w, const inked *what)
     if (!r->even)
         width = fmaxf(quantised(width, WIDTH_STEPS), 1.0f / WIDTH_STEPS);
     open_groups(w, r);
-    bool same = w->before && w->before->chain == r->chain && w->before->part == r->part && w->before->kind == r->kind && w->before->even == r->even &&
-                (w->before->hidden_by > 0) == (r->hidden_by > 0) && memcmp(&w->before->ink, &r->ink, sizeof r->ink) == 0 && opacity == w->opacity && r->id == w->before->id;
+    bool same = w->before && w->before->chain == r->chain && w->before->part == r->part && w->before->kind == r->kind &&
+                w->before->even == r->even && (w->before->hidden_by > 0) == (r->hidden_by > 0) &&
+                memcmp(&w->before->ink, &r->ink, sizeof r->ink) == 0 && opacity == w->opacity && r->id == w->before->id;
     if (!same) {
         colour ink = r->ink;
         ink.a *= opacity;
         sheet_add_item(w->how->page, SHEET_PATH, (uint32_t)w->class_group, ink, r->id);
     }
     if (r->even || w->how->lines_only)
-        vector_pen_even(&w->pen, points, r->count, &(sheet_path){.closed = r->closed, .width = (float)((double)width / VECTOR_PIXELS_PER_MM),
-                                                                .cap = r->end == RIBBON_BUTT ? SHEET_CAP_BUTT : SHEET_CAP_ROUND});
+        vector_pen_even(&w->pen, points, r->count,
+                        &(sheet_path){.closed = r->closed,
+                                      .width = (float)((double)width / VECTOR_PIXELS_PER_MM),
+                                      .cap = r->end == RIBBON_BUTT ? SHEET_CAP_BUTT : SHEET_CAP_ROUND});
     else
         vector_pen_uneven(&w->pen, points, r->count, r->end);
     w->before = r;

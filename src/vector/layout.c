@@ -1,15 +1,18 @@
-/* Where the views of a sheet lie: columns and rows around the front view, all at one scale, so that what belongs together is in one line. */
+/* Where the views of a sheet lie: columns and rows around the front view, all at one scale, so that what belongs
+ * together is in one line. */
 #include <math.h>
 
 #include "vector/vector_private.h"
 
 enum { COLUMNS = 5, ROWS = 3, FRONT_COLUMN = 2, FRONT_ROW = 1 };
 
-/* Column and row beside the front view, third angle. In first angle views lie on the other side; the pictorial one stays where there is room. */
+/* Column and row beside the front view, third angle. In first angle views lie on the other side; the pictorial one
+ * stays where there is room. */
 static void cell_of(lmn_view view, lmn_angle angle, int out[2])
 {
-    static const int third[VIEWS_MOST][2] = {[LMN_VIEW_ISO] = {1, -1},  [LMN_VIEW_FRONT] = {0, 0}, [LMN_VIEW_BACK] = {2, 0},  [LMN_VIEW_LEFT] = {-1, 0},
-                                             [LMN_VIEW_RIGHT] = {1, 0}, [LMN_VIEW_TOP] = {0, -1},  [LMN_VIEW_BOTTOM] = {0, 1}};
+    static const int third[VIEWS_MOST][2] = {
+        [LMN_VIEW_ISO] = {1, -1},  [LMN_VIEW_FRONT] = {0, 0}, [LMN_VIEW_BACK] = {2, 0},  [LMN_VIEW_LEFT] = {-1, 0},
+        [LMN_VIEW_RIGHT] = {1, 0}, [LMN_VIEW_TOP] = {0, -1},  [LMN_VIEW_BOTTOM] = {0, 1}};
     bool turned = angle == LMN_FIRST_ANGLE && view != LMN_VIEW_ISO && view != LMN_VIEW_BACK;
     out[0] = FRONT_COLUMN + (turned ? -third[view][0] : third[view][0]);
     out[1] = FRONT_ROW + (turned ? -third[view][1] : third[view][1]);
@@ -51,7 +54,8 @@ double vector_place_views(const vector_layout *how, vector_view *views, size_t c
     }
     double width = total(widths, COLUMNS, &columns), height = total(heights, ROWS, &rows), scale = how->scale;
     if (!(scale > 0)) {
-        double across = (how->area[2] * how->fit - how->gap * columns) / width, down = (how->area[3] * how->fit - how->gap * rows) / height;
+        double across = (how->area[2] * how->fit - how->gap * columns) / width,
+               down = (how->area[3] * how->fit - how->gap * rows) / height;
         scale = fmin(width > 0 ? across : INFINITY, height > 0 ? down : INFINITY);
         if (!(scale > 0) || !isfinite(scale))
             scale = 1;

@@ -1,4 +1,5 @@
-/* Dots and strokes that lie on surfaces, on the sheet: dots as dots of a few sizes, strokes as outlines, since they run out at their ends, or for plotters by their axis. */
+/* Dots and strokes that lie on surfaces, on the sheet: dots as dots of a few sizes, strokes as outlines, since they
+ * run out at their ends, or for plotters by their axis. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,9 +11,10 @@
 #include "surface/surface.h"
 
 enum { SIZE_STEPS = 20 /* to the pixel: dots of few sizes are few paths */ };
-static const float bend_most = 0.08f;  /* pixels by which points of a stroke may be moved, and its width changed, for fewer of them */
+static const float bend_most =
+    0.08f; /* pixels by which points of a stroke may be moved, and its width changed, for fewer of them */
 static const float surely_there = 0.001f; /* least share over which marks come and go */
-static const float blunt_end = 0.2f;   /* pixels: half a width from which ends are round */
+static const float blunt_end = 0.2f;      /* pixels: half a width from which ends are round */
 
 /* A dot or line in the order of the sheet. */
 typedef struct placed {
@@ -25,9 +27,9 @@ typedef struct mark_writer {
     const vector_ink *ink;
     const marks_page *page;
     float             pen_width; /* of plotters, pixels; 0: each mark has its own */
-    const char       *name;   /* of groups: "dots", "marks" */
-    int32_t           group;  /* of them all; −1: not there yet */
-    uint32_t          own;    /* of the part */
+    const char       *name;      /* of groups: "dots", "marks" */
+    int32_t           group;     /* of them all; −1: not there yet */
+    uint32_t          own;       /* of the part */
     vector_pen        pen;
     ribbon_point     *points;
     size_t            capacity;
@@ -58,7 +60,7 @@ static void open_part(mark_writer *w, uint32_t part)
     w->own = sheet_add_group(ink->page, w->group, known ? ink->scene->parts[part - 1].name : w->name, w->name, part);
 }
 
-/* --- dots -------------------------------------------------------------------------------------------------------------- */
+/* --- dots ----------------------------------------------------------------------------------------------- */
 
 static bool put_dots_of_size(mark_writer *w, const placed *dots, size_t count)
 {
@@ -74,7 +76,7 @@ static bool put_dots_of_size(mark_writer *w, const placed *dots, size_t count)
     sheet_add_item(w->ink->page, SHEET_DOTS, w->own, w->page->ink, 0);
     size_t step = w->pen_width > 0 ? 1 : count;
     for (size_t i = 0; i < count; i += step)
-        sheet_add_path(w->ink->page, &style, (const float (*)[2])pen->points + i, step);
+        sheet_add_path(w->ink->page, &style, (const float(*)[2])pen->points + i, step);
     return true;
 }
 
@@ -85,7 +87,8 @@ static bool put_dots(mark_writer *w)
     bool    good = dots != NULL;
     for (size_t i = 0; good && i < count; i++) {
         const marks_page_point *d = &w->page->dots[i];
-        dots[i] = (placed){d->part, (int32_t)fmaxf(roundf((w->pen_width > 0 ? w->pen_width : d->width) * SIZE_STEPS), 1), i};
+        dots[i] =
+            (placed){d->part, (int32_t)fmaxf(roundf((w->pen_width > 0 ? w->pen_width : d->width) * SIZE_STEPS), 1), i};
     }
     if (good && count)
         qsort(dots, count, sizeof *dots, compare_placed);
@@ -100,17 +103,18 @@ static bool put_dots(mark_writer *w)
     return good;
 }
 
-/* --- strokes ------------------------------------------------------------------------------------------------------------ */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
 /* Do the points between two of a line lie where the straight one between these has them, as wide? */
 static bool is_straight(const marks_page_point *a, size_t count)
 {
     const marks_page_point *b = &a[count - 1];
-    float dx = b->x - a->x, dy = b->y - a->y, square = dx * dx + dy * dy;
+    float                   dx = b->x - a->x, dy = b->y - a->y, square = dx * dx + dy * dy;
     for (size_t i = 1; i + 1 < count; i++) {
         float along = square > 0 ? ((a[i].x - a->x) * dx + (a[i].y - a->y) * dy) / square : 0;
         along = fminf(fmaxf(along, 0), 1);
-        if (hypotf(a->x + along * dx - a[i].x, a->y + along * dy - a[i].y) > bend_most || fabsf(a->width + along * (b->width - a->width) - a[i].width) > bend_most)
+        if (hypotf(a->x + along * dx - a[i].x, a->y + along * dy - a[i].y) > bend_most ||
+            fabsf(a->width + along * (b->width - a->width) - a[i].width) > bend_most)
             return false;
     }
     return true;
@@ -120,7 +124,7 @@ static bool is_straight(const marks_page_point *a, size_t count)
 static size_t take_points(mark_writer *w, const marks_page_line *l)
 {
     const marks_page_point *from = &w->page->points[l->first];
-    size_t count = 0;
+    size_t                  count = 0;
     if (!mem_grow((void **)&w->points, &w->capacity, l->count, sizeof *w->points))
         return 0;
     for (size_t i = 0, next; i < l->count; i = next) {
@@ -149,8 +153,10 @@ static bool put_line(mark_writer *w, const marks_page_line *l)
     if (count == 0)
         return false;
     if (w->ink->lines_only) {
-        float width = w->pen_width > 0 ? w->pen_width : fmaxf(roundf(mean_width(w->points, count) * SIZE_STEPS), 1) / SIZE_STEPS;
-        vector_pen_even(&w->pen, w->points, count, &(sheet_path){.width = (float)((double)width / VECTOR_PIXELS_PER_MM), .cap = SHEET_CAP_ROUND});
+        float width =
+            w->pen_width > 0 ? w->pen_width : fmaxf(roundf(mean_width(w->points, count) * SIZE_STEPS), 1) / SIZE_STEPS;
+        vector_pen_even(&w->pen, w->points, count,
+                        &(sheet_path){.width = (float)((double)width / VECTOR_PIXELS_PER_MM), .cap = SHEET_CAP_ROUND});
     } else {
         bool blunt = w->points[0].half > blunt_end || w->points[count - 1].half > blunt_end;
         vector_pen_uneven(&w->pen, w->points, count, blunt ? RIBBON_ROUND : RIBBON_BUTT);
@@ -178,7 +184,7 @@ static bool put_lines(mark_writer *w)
     return good;
 }
 
-/* --- both ----------------------------------------------------------------------------------------------------------------- */
+/* --- both ----------------------------------------------------------------------------------------------- */
 
 static void count_marks(vector_marks *m, const marks_page *page, size_t part_count)
 {
@@ -212,7 +218,7 @@ lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *e
 {
     const technique_use *asked = m->options.surface;
     technique_use        surface = {asked->technique, mem_copy(asked->values, asked->technique->params_size)};
-    mark_page_options     options = m->options;
+    mark_page_options    options = m->options;
     marks_page           page = {.dots = NULL};
     mark_values         *common = surface.values;
     if (!common)
@@ -224,8 +230,9 @@ lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *e
     options.hidden = count_in_front;
     options.user = (void *)(uintptr_t)m->view;
     lmn_status  status = marks_on_page(&page, &options, error);
-    mark_writer w = {.ink = ink, .page = &page, .pen_width = pen_width, .name = "dots", .group = -1, .pen = {.how = ink}};
-    bool        good = status != LMN_OK || put_dots(&w);
+    mark_writer w = {
+        .ink = ink, .page = &page, .pen_width = pen_width, .name = "dots", .group = -1, .pen = {.how = ink}};
+    bool good = status != LMN_OK || put_dots(&w);
     w.name = "marks";
     w.group = -1;
     good = good && (status != LMN_OK || put_lines(&w));

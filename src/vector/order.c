@@ -1,5 +1,5 @@
-/* Lines in an order for plotters: pen by pen, and for each pen always on to the line that begins or ends nearest, which is then drawn from there. Ends of lines not drawn yet lie in a grid
- * that is searched in growing rings. */
+/* Lines in an order for plotters: pen by pen, and for each pen always on to the line that begins or ends nearest,
+ * which is then drawn from there. Ends of lines not drawn yet lie in a grid that is searched in growing rings. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,12 +22,12 @@ typedef struct plotted {
 } plotted;
 
 typedef struct plotter {
-    sheet    *page;
-    plotted  *lines;
-    size_t    count;
+    sheet   *page;
+    plotted *lines;
+    size_t   count;
     /* of the pen in hand: its lines are begin … end−1 */
     size_t    begin, end, left;
-    int       side;         /* cells */
+    int       side; /* cells */
     double    cell[2];
     uint32_t *heads, *next; /* ends: 2·line and 2·line + 1, + 1 */
 } plotter;
@@ -35,7 +35,7 @@ typedef struct plotter {
 static int compare_pens(const void *a, const void *b)
 {
     const plotted *one = a, *other = b;
-    int ink = memcmp(&one->ink, &other->ink, sizeof one->ink);
+    int            ink = memcmp(&one->ink, &other->ink, sizeof one->ink);
     if (ink)
         return ink;
     if (one->width != other->width)
@@ -56,7 +56,8 @@ static bool gather(plotter *p)
         for (uint32_t k = 0; k < item->count; k++) {
             const sheet_path *path = &p->page->paths[item->first + k];
             if (path->count)
-                p->lines[p->count++] = (plotted){item->first + k, item->group, item->id, item->kind, item->ink, path->width, false};
+                p->lines[p->count++] =
+                    (plotted){item->first + k, item->group, item->id, item->kind, item->ink, path->width, false};
         }
     }
     if (p->lines && p->count)
@@ -80,7 +81,7 @@ static size_t cell_of(const plotter *p, const float *place, int out[2])
 
 static void fill_grid(plotter *p)
 {
-    int cell[2];
+    int    cell[2];
     size_t lines = p->end - p->begin;
     p->side = 1;
     while (p->side < CELLS_A_SIDE_MOST && (size_t)p->side * (size_t)p->side < lines)
@@ -106,7 +107,7 @@ static void search_cell(plotter *p, size_t at, const float *from, double *best, 
             continue;
         }
         const float *place = end_at(p, end);
-        double distance = hypot((double)(place[0] - from[0]), (double)(place[1] - from[1]));
+        double       distance = hypot((double)(place[0] - from[0]), (double)(place[1] - from[1]));
         if (distance < *best || (distance == *best && end < *found)) {
             *best = distance;
             *found = end;
@@ -125,7 +126,8 @@ static size_t nearest(plotter *p, const float *from)
     for (int ring = 0; ring < p->side && !(best <= (ring - 1) * step); ring++)
         for (int row = middle[1] - ring; row <= middle[1] + ring; row++)
             for (int column = middle[0] - ring; column <= middle[0] + ring; column++) {
-                bool border = row == middle[1] - ring || row == middle[1] + ring || column == middle[0] - ring || column == middle[0] + ring;
+                bool border = row == middle[1] - ring || row == middle[1] + ring || column == middle[0] - ring ||
+                              column == middle[0] + ring;
                 if (border && row >= 0 && column >= 0 && row < p->side && column < p->side)
                     search_cell(p, (size_t)row * (size_t)p->side + (size_t)column, from, &best, &found);
             }
@@ -178,7 +180,8 @@ static bool rebuild(plotter *p, const uint32_t *order)
             group = sheet_add_group(page, -1, name, "pen", 0);
         }
         paths[i] = page->paths[line->path];
-        items[i] = (sheet_item){.kind = line->kind, .group = group, .ink = line->ink, .id = line->id, .first = (uint32_t)i, .count = 1};
+        items[i] = (sheet_item){
+            .kind = line->kind, .group = group, .ink = line->ink, .id = line->id, .first = (uint32_t)i, .count = 1};
     }
     for (size_t i = 0; i < page->item_count; i++) {
         mem_free(page->items[i].png);

@@ -11,8 +11,9 @@ static const struct {
     const char *name;
     double      size[2]; /* mm; as it lies usually */
 } pages[] = {
-    {"A0", {1189, 841}}, {"A1", {841, 594}}, {"A2", {594, 420}}, {"A3", {420, 297}}, {"A4", {210, 297}},
-    {"A5", {148, 210}},  {"A6", {105, 148}}, {"letter", {215.9, 279.4}}, {"legal", {215.9, 355.6}}, {"tabloid", {431.8, 279.4}},
+    {"A0", {1189, 841}},       {"A1", {841, 594}},          {"A2", {594, 420}}, {"A3", {420, 297}},
+    {"A4", {210, 297}},        {"A5", {148, 210}},          {"A6", {105, 148}}, {"letter", {215.9, 279.4}},
+    {"legal", {215.9, 355.6}}, {"tabloid", {431.8, 279.4}},
 };
 
 static bool same_letters(const char *a, const char *b, size_t count)
@@ -25,7 +26,10 @@ static bool same_letters(const char *a, const char *b, size_t count)
 
 static lmn_status refuse_page(const char *given, lmn_error *error)
 {
-    error_set(error, LMN_USAGE, "the page is '%.60s'; allowed is A0 to A6, letter, legal, tabloid, each with -landscape or -portrait, or WIDTHxHEIGHTmm", given);
+    error_set(error, LMN_USAGE,
+              "the page is '%.60s'; allowed is A0 to A6, letter, legal, tabloid, each with -landscape or -portrait, or "
+              "WIDTHxHEIGHTmm",
+              given);
     error_hint(error, "for example A4, A3-portrait or 120x80mm; sides of 1 to %d mm", PAGE_SIDE_MOST);
     return LMN_USAGE;
 }
@@ -93,10 +97,14 @@ lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], siz
     *count = 0;
     for (const char *at = text;; at++) {
         size_t length = strcspn(at, ","), which = 0;
-        while (which < VIEWS_MOST && !(strlen(view_names[which]) == length && strncmp(view_names[which], at, length) == 0))
+        while (which < VIEWS_MOST &&
+               !(strlen(view_names[which]) == length && strncmp(view_names[which], at, length) == 0))
             which++;
         if (which == VIEWS_MOST)
-            return error_set(error, LMN_USAGE, "the views are '%.80s'; allowed is iso, front, back, left, right, top and bottom, separated by commas", text);
+            return error_set(
+                error, LMN_USAGE,
+                "the views are '%.80s'; allowed is iso, front, back, left, right, top and bottom, separated by commas",
+                text);
         for (size_t i = 0; i < *count; i++)
             if (out[i].direction == (lmn_view)which)
                 return error_set(error, LMN_USAGE, "the views are '%.80s'; %s is there twice", text, view_names[which]);
@@ -108,7 +116,8 @@ lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], siz
     }
 }
 
-lmn_status vector_parse_unit(const char *text, const lmn_scene *scene, double *mm, const char **name, bool *stated, lmn_error *error)
+lmn_status vector_parse_unit(const char *text, const lmn_scene *scene, double *mm, const char **name, bool *stated,
+                             lmn_error *error)
 {
     static const struct {
         const char *name;
@@ -118,7 +127,8 @@ lmn_status vector_parse_unit(const char *text, const lmn_scene *scene, double *m
     if (!text && scene->file_count)
         file_ending(scene->files[0], ending, sizeof ending);
     bool metres = strcmp(ending, ".gltf") == 0 || strcmp(ending, ".glb") == 0;
-    *stated = text || metres || strcmp(ending, ".stl") == 0 || strcmp(ending, ".csg") == 0 || strcmp(ending, ".scad") == 0;
+    *stated =
+        text || metres || strcmp(ending, ".stl") == 0 || strcmp(ending, ".csg") == 0 || strcmp(ending, ".scad") == 0;
     const char *wanted = text ? text : metres ? "m" : "mm";
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (strcmp(units[i].name, wanted) == 0) {
@@ -139,7 +149,8 @@ static double from_series(const double *series, size_t count, double value)
     return best;
 }
 
-/* ISO 5455 has 1, 2 and 5 times powers of ten. Where that would leave much of the page empty, the scales that drawing offices use between these. */
+/* ISO 5455 has 1, 2 and 5 times powers of ten. Where that would leave much of the page empty, the scales that
+ * drawing offices use between these. */
 double vector_usual_scale(double scale)
 {
     static const double standard[] = {1, 2, 5}, larger[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};

@@ -16,8 +16,9 @@ static json_t *sheet_json(const lmn_sheet *s)
 {
     json_t *views = json_array(), *out = json_object();
     for (size_t i = 0; i < s->view_count; i++)
-        json_array_append_new(views, json_pack("{s:s, s:o, s:o}", "name", s->views[i].name, "box", numbers(s->views[i].box, 4), "camera",
-                                               report_camera_json(&s->views[i].camera)));
+        json_array_append_new(views,
+                              json_pack("{s:s, s:o, s:o}", "name", s->views[i].name, "box", numbers(s->views[i].box, 4),
+                                        "camera", report_camera_json(&s->views[i].camera)));
     json_object_set_new(out, "width_mm", json_real(s->page.width));
     json_object_set_new(out, "height_mm", json_real(s->page.height));
     json_object_set_new(out, "scale", *s->scale_text ? json_string(s->scale_text) : json_null());
@@ -31,7 +32,8 @@ static json_t *parts_json(const lmn_sheet *s)
     json_t *array = json_array();
     for (size_t i = 0; i < s->facts.part_count; i++)
         if (s->part_strokes[i] || s->part_marks[i]) {
-            json_t *part = json_pack("{s:I, s:s, s:I}", "id", (json_int_t)(i + 1), "name", s->facts.part_names[i], "strokes", (json_int_t)s->part_strokes[i]);
+            json_t *part = json_pack("{s:I, s:s, s:I}", "id", (json_int_t)(i + 1), "name", s->facts.part_names[i],
+                                     "strokes", (json_int_t)s->part_strokes[i]);
             if (s->part_marks[i])
                 json_object_set_new(part, "marks", json_integer((json_int_t)s->part_marks[i]));
             json_array_append_new(array, part);
@@ -60,7 +62,9 @@ char *vector_report_json(const lmn_sheet *s)
     json_object_set_new(root, "strokes", strokes_json(s));
     json_object_set_new(root, "hidden_strokes", json_integer((json_int_t)s->hidden));
     if (s->verified)
-        json_object_set_new(root, "verify", json_pack("{s:I, s:I}", "samples", (json_int_t)s->check.samples, "wrong", (json_int_t)s->check.wrong));
+        json_object_set_new(
+            root, "verify",
+            json_pack("{s:I, s:I}", "samples", (json_int_t)s->check.samples, "wrong", (json_int_t)s->check.wrong));
     json_object_set_new(root, "parts_visible", parts_json(s));
     json_object_set_new(root, "warnings", report_warnings_json(&s->warnings));
     return report_dump(root);

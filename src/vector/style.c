@@ -1,4 +1,5 @@
-/* Looks as strokes. Looks whose lines are found in pictures say how wide they are, in which colours, and how those behind are drawn; that is taken over, and strokes answer where lines are. */
+/* Looks as strokes. Looks whose lines are found in pictures say how wide they are, in which colours, and how those
+ * behind are drawn; that is taken over, and strokes answer where lines are. */
 #include <math.h>
 #include <string.h>
 
@@ -10,9 +11,9 @@
 #include "surface/marks.h"
 
 /* What a picture's lines do not say. */
-static const float hidden_apart = 3;     /* hidden lines nearer than this turn into grey, pixels */
-static const float hidden_share = 0.6f;  /* width of hidden lines that have none of their own */
-enum { FILL_SAMPLES = 9973 };            /* of a texture, for its mean; a prime, so that they do not fall on columns */
+static const float hidden_apart = 3;    /* hidden lines nearer than this turn into grey, pixels */
+static const float hidden_share = 0.6f; /* width of hidden lines that have none of their own */
+enum { FILL_SAMPLES = 9973 };           /* of a texture, for its mean; a prime, so that they do not fall on columns */
 
 static colour or_else(colour c, colour otherwise)
 {
@@ -28,13 +29,15 @@ static void take_layers(stroke_options *options, stroke_style *style, const rule
         return;
     }
     const layer_style *behind = compose->values;
-    const layering how = layering_of(rule_use(r, KIND_LAYERS));
+    const layering     how = layering_of(rule_use(r, KIND_LAYERS));
     style->hidden_colour = or_else(behind->hidden_colour, style->colours[STROKE_CONTOUR]);
     style->hidden_colour.a *= behind->hidden_opacity;
     style->hidden_width = isnan(behind->hidden_width) ? style->width * hidden_share : behind->hidden_width;
     style->hidden_dash = behind->hidden_dash;
     style->hidden_gap = behind->hidden_gap;
-    style->hidden = !(style->hidden_colour.a > 0) ? HIDDEN_NONE : behind->hidden_dash > 0 ? HIDDEN_DASHED : HIDDEN_SOLID;
+    style->hidden = !(style->hidden_colour.a > 0) ? HIDDEN_NONE
+                    : behind->hidden_dash > 0     ? HIDDEN_DASHED
+                                                  : HIDDEN_SOLID;
     style->hidden_fade = behind->fade * behind->fade; /* two surfaces are one pair */
     style->hidden_depth = how.several && how.count > 0 ? how.count - 1 : 0;
     style->hidden_crowd = hidden_apart;
@@ -72,10 +75,18 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
 {
     const technique_use *lines = lines_of(r);
     *options = (stroke_options)STROKE_OPTIONS_INIT;
-    *style = (stroke_style){.width = 2, .crease_width = 1, .wobble_length = 60, .repeats = 1, .gap = 4, .hidden = HIDDEN_NONE, .hidden_fade = 1, .hidden_gap = 4};
+    *style = (stroke_style){.width = 2,
+                            .crease_width = 1,
+                            .wobble_length = 60,
+                            .repeats = 1,
+                            .gap = 4,
+                            .hidden = HIDDEN_NONE,
+                            .hidden_fade = 1,
+                            .hidden_gap = 4};
     if (!lines)
         return false;
-    (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(options, style, lines->values);
+    (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(options, style,
+                                                                                                   lines->values);
     if (draws_strokes(lines->technique)) {
         if (!(style->wobble > 0))
             take_hand(style, r);
@@ -86,7 +97,7 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
     return options->contours != CONTOURS_NONE || options->creases || options->borders;
 }
 
-/* --- surfaces ------------------------------------------------------------------------------------------------------------ */
+/* --- surfaces ------------------------------------------------------------------------------------------- */
 
 static bool same_colour(colour a, colour b)
 {
@@ -114,7 +125,8 @@ bool vector_rule_needs_pixels(const rule *r, colour ground)
     colour               only;
     if (!surface || (compose && compose->technique->compose->lines_only))
         return false; /* nothing but lines */
-    return !marks_on_ground(r, ground) && !(only_colour(surface, &only) && (!(only.a > 0) || same_colour(only, ground)));
+    return !marks_on_ground(r, ground) &&
+           !(only_colour(surface, &only) && (!(only.a > 0) || same_colour(only, ground)));
 }
 
 bool vector_needs_pixels(const lmn_look *look)
@@ -137,7 +149,9 @@ static vec4 mean_colour(const lmn_scene *scene, int32_t index)
     for (size_t i = 0; i < count; i += step, taken++)
         for (size_t k = 0; k < 3; k++)
             sum[k] += (double)colour_to_linear((float)picture->pixels[4 * i + k] / 255);
-    return taken ? (vec4){(float)(sum[0] / (double)taken), (float)(sum[1] / (double)taken), (float)(sum[2] / (double)taken), 1} : (vec4){1, 1, 1, 1};
+    return taken ? (vec4){(float)(sum[0] / (double)taken), (float)(sum[1] / (double)taken),
+                          (float)(sum[2] / (double)taken), 1}
+                 : (vec4){1, 1, 1, 1};
 }
 
 colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index)
@@ -147,9 +161,11 @@ colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_ind
     if (surface && only_colour(surface, &only) && only.a > 0)
         return (colour){colour_to_linear(only.r), colour_to_linear(only.g), colour_to_linear(only.b), only.a};
     const node *n = &scene->nodes[scene->parts[part_index].node];
-    int32_t     material = n->mesh >= 0 && scene->meshes[n->mesh].primitive_count ? scene->meshes[n->mesh].primitives[0].material : NONE;
+    int32_t     material =
+        n->mesh >= 0 && scene->meshes[n->mesh].primitive_count ? scene->meshes[n->mesh].primitives[0].material : NONE;
     if (material < 0)
         return (colour){0.6f, 0.6f, 0.6f, 1};
-    vec4 c = scene->materials[material].base_colour, mean = mean_colour(scene, scene->materials[material].base_texture.image);
+    vec4 c = scene->materials[material].base_colour,
+         mean = mean_colour(scene, scene->materials[material].base_texture.image);
     return (colour){c.x * mean.x, c.y * mean.y, c.z * mean.z, c.w};
 }

@@ -30,11 +30,11 @@ typedef struct vector_job {
     const lmn_draw_desc  *desc;
     const lmn_sheet_desc *wanted;
     bool                  lines_only, pixels, usual_scale;
-    double                scale;    /* 0: as large as fits */
+    double                scale; /* 0: as large as fits */
     double                unit_mm;
-    bool                 *stroked;  /* per part: drawn by some rule, and no solid */
+    bool                 *stroked; /* per part: drawn by some rule, and no solid */
     stroke_scene          strokes;
-    stroke_scene          as_is;   /* the same where `strokes` is refined and marks lie on what is not; else empty */
+    stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
     double                begun, share, reported; /* progress: of the stage at hand, and the most that was told */
 } vector_job;
 
@@ -58,23 +58,24 @@ static refusal refusal_of(const vector_job *j, lmn_error *error)
     return (refusal){j->scene, j->desc->lenient, &j->out->warnings, error};
 }
 
-/* --- what is drawn --------------------------------------------------------------------------------------------------- */
+/* --- what is drawn -------------------------------------------------------------------------------------- */
 
-/* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they lack. */
+/* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they
+ * lack. */
 static bool lacks_solids(const vector_job *j, const rule *r)
 {
     stroke_options options;
-    stroke_style  style;
+    stroke_style   style;
     return !j->pixels || vector_rule_strokes(r, &options, &style) || vector_rule_marks(r);
 }
 
 /* Which parts are drawn, by which rules. Solids have no strokes. */
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
-    const lmn_scene  *scene = j->scene;
+    const lmn_scene   *scene = j->scene;
     const plan_options options = {.select = j->desc->select, .background = j->desc->background, .parts_only = true};
-    size_t            solids = 0;
-    lmn_status        status = pose_create(&j->pose, scene, error);
+    size_t             solids = 0;
+    lmn_status         status = pose_create(&j->pose, scene, error);
     if (status == LMN_OK)
         status = plan_create(&j->plan, &j->pose, j->look, &options, &j->out->warnings, error);
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
@@ -83,8 +84,9 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
         j->stroked[i] = plan_rule(&j->plan, i) && !solid;
     }
     refusal r = refusal_of(j, error);
-    return status == LMN_OK && solids ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)", "%zu solids of set operations have no lines in vector drawings%s", solids,
-                                               j->pixels ? "" : " and are left out")
+    return status == LMN_OK && solids ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)",
+                                               "%zu solids of set operations have no lines in vector drawings%s",
+                                               solids, j->pixels ? "" : " and are left out")
                                       : status;
 }
 
@@ -92,7 +94,9 @@ static lmn_status refuse_section(const vector_job *j, lmn_error *error)
 {
     const scene_values *values = j->look->wide[KIND_SCENE].values;
     refusal             r = refusal_of(j, error);
-    return values->cut.text[0] ? refuse(&r, LMN_USAGE, WARNING_NO_STROKES, "draw a picture (.png)", "sections have no lines in vector drawings, which show the model whole") : LMN_OK;
+    return values->cut.text[0] ? refuse(&r, LMN_USAGE, WARNING_NO_STROKES, "draw a picture (.png)",
+                                        "sections have no lines in vector drawings, which show the model whole")
+                               : LMN_OK;
 }
 
 static void lay_ground(vector_job *j)
@@ -101,10 +105,11 @@ static void lay_ground(vector_job *j)
     colour              c = j->plan.ground;
     j->out->page.ground = (colour){colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), c.a};
     if (finish->paper && !j->pixels)
-        warnings_add(&j->out->warnings, WARNING_UNUSED, "finish.paper: the grain of paper is left out of drawings of lines alone");
+        warnings_add(&j->out->warnings, WARNING_UNUSED,
+                     "finish.paper: the grain of paper is left out of drawings of lines alone");
 }
 
-/* --- views ------------------------------------------------------------------------------------------------------------- */
+/* --- views ---------------------------------------------------------------------------------------------- */
 
 /* The description that a view's camera is placed by. */
 static lmn_draw_desc view_desc(const vector_job *j, const vector_view *v)
@@ -125,15 +130,18 @@ static lmn_draw_desc view_desc(const vector_job *j, const vector_view *v)
 /* Width and height of the model as a view shows it, its unit. */
 static lmn_status measure_view(const vector_job *j, const vector_view *v, double out[2], lmn_error *error)
 {
-    vector_view   square = *v;
-    view_camera   c;
+    vector_view square = *v;
+    view_camera c;
     square.width = square.height = 64;
     lmn_draw_desc d = view_desc(j, &square);
     lmn_status    status = camera_place(&c, &d, &j->pose, j->plan.box, error);
     out[0] = out[1] = 0;
     for (int i = 0; i < 8 && status == LMN_OK && !box3_is_empty(j->plan.box); i++) {
-        const double *m = c.view.m, corner[3] = {(double)(i & 1 ? j->plan.box.max.x : j->plan.box.min.x), (double)(i & 2 ? j->plan.box.max.y : j->plan.box.min.y),
-                                                 (double)(i & 4 ? j->plan.box.max.z : j->plan.box.min.z)}, middle[3] = {c.target[0], c.target[1], c.target[2]};
+        const double *m = c.view.m,
+                     corner[3] = {(double)(i & 1 ? j->plan.box.max.x : j->plan.box.min.x),
+                                  (double)(i & 2 ? j->plan.box.max.y : j->plan.box.min.y),
+                                  (double)(i & 4 ? j->plan.box.max.z : j->plan.box.min.z)},
+                     middle[3] = {c.target[0], c.target[1], c.target[2]};
         for (int k = 0; k < 2; k++) {
             double from_middle = 0;
             for (int n = 0; n < 3; n++)
@@ -154,7 +162,8 @@ static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error
         v->box[2 + k] -= over;
         double pixels = fmax(round(v->box[2 + k] * VECTOR_PIXELS_PER_MM), 1);
         if (!(pixels <= LIMIT_PICTURE_SIDE))
-            return error_set(error, LMN_LIMIT, "a view is %.0f mm wide or high on the sheet, the limit is %.0f mm", v->box[2 + k], LIMIT_PICTURE_SIDE / VECTOR_PIXELS_PER_MM);
+            return error_set(error, LMN_LIMIT, "a view is %.0f mm wide or high on the sheet, the limit is %.0f mm",
+                             v->box[2 + k], LIMIT_PICTURE_SIDE / VECTOR_PIXELS_PER_MM);
         *sides[k] = (int)pixels;
         double size = pixels / VECTOR_PIXELS_PER_MM;
         v->box[k] += (v->box[2 + k] - size) / 2;
@@ -171,7 +180,8 @@ static lmn_status place_camera(vector_job *j, vector_view *v, lmn_error *error)
         return status;
     double scale = j->out->scale; /* paper over model */
     if (scale > 0 && !v->camera.orthographic) {
-        error_set(error, LMN_USAGE, "a scale needs parallel projection, and the camera '%s' has perspective", d.camera ? d.camera : "");
+        error_set(error, LMN_USAGE, "a scale needs parallel projection, and the camera '%s' has perspective",
+                  d.camera ? d.camera : "");
         return LMN_USAGE;
     }
     if (scale > 0)
@@ -195,12 +205,17 @@ static lmn_status arrange_views(vector_job *j, const double area[4], lmn_error *
     }
     if (status != LMN_OK)
         return status;
-    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12), .angle = j->wanted->angle, .scale = j->scale, .usual = j->usual_scale, .fit = 1};
+    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12),
+                         .angle = j->wanted->angle,
+                         .scale = j->scale,
+                         .usual = j->usual_scale,
+                         .fit = 1};
     memcpy(how.area, area, sizeof how.area);
-    s->scale = vector_place_views(&how, s->views, s->view_count, (const double (*)[2])sizes);
+    s->scale = vector_place_views(&how, s->views, s->view_count, (const double(*)[2])sizes);
     for (size_t i = 0; i < s->view_count; i++) {
         const double *box = s->views[i].box;
-        if (box[0] < area[0] - how.gap || box[1] < area[1] - how.gap || box[0] + box[2] > area[0] + area[2] + how.gap || box[1] + box[3] > area[1] + area[3] + how.gap) {
+        if (box[0] < area[0] - how.gap || box[1] < area[1] - how.gap || box[0] + box[2] > area[0] + area[2] + how.gap ||
+            box[1] + box[3] > area[1] + area[3] + how.gap) {
             char scale[32];
             vector_print_scale(scale, s->scale);
             warnings_add(&s->warnings, WARNING_PAGE, "at %s the views do not fit on the page", scale);
@@ -255,7 +270,7 @@ static lmn_status begin_page(vector_job *j, lmn_error *error)
     return LMN_OK;
 }
 
-/* --- drawing --------------------------------------------------------------------------------------------------------------- */
+/* --- drawing -------------------------------------------------------------------------------------------- */
 
 /* The surfaces of a view as pixels. The eye is given, so that the camera is the same. */
 static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
@@ -268,7 +283,8 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
     d.maps = d.profile = false;
     d.progress = NULL;
     if (!d.camera) {
-        double distance = v->camera.orthographic ? v->camera.half_height / tan(d.fov_deg * (3.14159265358979323846 / 360)) : 0;
+        double distance =
+            v->camera.orthographic ? v->camera.half_height / tan(d.fov_deg * (3.14159265358979323846 / 360)) : 0;
         for (int k = 0; k < 3; k++) {
             double forward = -v->camera.view.m[4 * k + 2];
             d.eye[k] = v->camera.orthographic ? v->camera.target[k] - forward * distance : v->camera.eye[k];
@@ -293,7 +309,8 @@ static void count_strokes(vector_job *j, const stroke_set *set, const stroke_sty
 {
     for (size_t i = 0; i < set->stroke_count; i++) {
         const stroke *s = &set->strokes[i];
-        bool drawn = s->hidden_by == 0 || (style->hidden != HIDDEN_NONE && (style->hidden_depth <= 0 || s->hidden_by <= (uint32_t)style->hidden_depth));
+        bool          drawn = s->hidden_by == 0 || (style->hidden != HIDDEN_NONE &&
+                                           (style->hidden_depth <= 0 || s->hidden_by <= (uint32_t)style->hidden_depth));
         j->out->counts[s->kind] += drawn;
         j->out->hidden += drawn && s->hidden_by > 0;
         if (s->hidden_by == 0 && s->part > 0 && s->part <= j->out->facts.part_count)
@@ -314,7 +331,8 @@ static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
 }
 
 /* The marks of one rule's parts. */
-static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vector_view *v, const rule *r, const vector_ink *ink, lmn_error *error)
+static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vector_view *v, const rule *r,
+                             const vector_ink *ink, lmn_error *error)
 {
     const technique_use *surface = vector_rule_marks(r);
     size_t               count = 0;
@@ -323,10 +341,20 @@ static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vecto
     bool *parts = parts_of(j, r, &count);
     if (!parts)
         return error_memory(error);
-    vector_marks m = {.view = view, .ground = j->plan.ground, .one_pen = j->wanted->plotter, .part_marks = j->out->part_marks,
-                      .options = {.pose = &j->pose, .look = j->look, .parts = parts, .part_count = j->scene->part_count, .crease_angle = j->plan.crease_angle,
-                                 .surface = surface, .camera = &v->camera, .width = v->width, .height = v->height}};
-    lmn_status status = LMN_OK;
+    vector_marks m = {.view = view,
+                      .ground = j->plan.ground,
+                      .one_pen = j->wanted->plotter,
+                      .part_marks = j->out->part_marks,
+                      .options = {.pose = &j->pose,
+                                  .look = j->look,
+                                  .parts = parts,
+                                  .part_count = j->scene->part_count,
+                                  .crease_angle = j->plan.crease_angle,
+                                  .surface = surface,
+                                  .camera = &v->camera,
+                                  .width = v->width,
+                                  .height = v->height}};
+    lmn_status   status = LMN_OK;
     if (!report_part(0, "marks", j))
         status = error_set(error, LMN_CANCELLED, "cancelled");
     else if (count)
@@ -337,15 +365,18 @@ static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vecto
     return status;
 }
 
-/* Where parts of two rules run through each other, the line is its own part's; the other rule has it only where that one draws no such lines. */
+/* Where parts of two rules run through each other, the line is its own part's; the other rule has it only where
+ * that one draws no such lines. */
 static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule *r)
 {
     size_t kept = 0;
     for (size_t i = 0; i < set->stroke_count; i++) {
-        const stroke *s = &set->strokes[i];
-        const rule   *owner = s->kind == STROKE_INTERSECTION && s->part > 0 && s->part <= j->scene->part_count ? plan_rule(&j->plan, s->part - 1) : r;
+        const stroke  *s = &set->strokes[i];
+        const rule    *owner = s->kind == STROKE_INTERSECTION && s->part > 0 && s->part <= j->scene->part_count
+                                   ? plan_rule(&j->plan, s->part - 1)
+                                   : r;
         stroke_options options = {.intersections = false};
-        stroke_style  style;
+        stroke_style   style;
         if (owner != r && owner && vector_rule_strokes(owner, &options, &style) && options.intersections)
             continue;
         set->strokes[kept++] = *s;
@@ -357,9 +388,9 @@ static void keep_own_crossings(const vector_job *j, stroke_set *set, const rule 
 static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, ribbon_set *out, lmn_error *error)
 {
     stroke_options options;
-    stroke_style  style;
-    stroke_set    set = {0};
-    size_t        count = 0;
+    stroke_style   style;
+    stroke_set     set = {0};
+    size_t         count = 0;
     *out = (ribbon_set){0};
     if (!vector_rule_strokes(r, &options, &style))
         return LMN_OK;
@@ -403,7 +434,8 @@ static lmn_status draw_lines(vector_job *j, stroke_view *view, const vector_ink 
 static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
 {
     stroke_view  *view = NULL;
-    stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width, v->height};
+    stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width,
+                            v->height};
     lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
     stroke_view  *as_is = NULL;
     if (status == LMN_OK && j->as_is.item_count)
@@ -447,19 +479,22 @@ static lmn_status make_scene(vector_job *j, lmn_error *error)
     bool    bends = false;
     for (size_t i = 0; i < j->scene->part_count; i++) {
         stroke_options options;
-        stroke_style  style;
+        stroke_style   style;
         if (!j->stroked[i] || !vector_rule_strokes(plan_rule(&j->plan, i), &options, &style))
             continue;
         refine = options.refine > refine ? options.refine : refine;
         bends = bends || stroke_options_bend(&options);
     }
-    lmn_status status = stroke_scene_create_refined(&j->strokes, &j->pose, j->stroked, crease, refine, report_part, j, error);
+    lmn_status status =
+        stroke_scene_create_refined(&j->strokes, &j->pose, j->stroked, crease, refine, report_part, j, error);
     if (status == LMN_OK && bends)
         status = stroke_scene_bend(&j->strokes, report_part, j, error);
     bool marked = false;
     for (size_t i = 0; i < j->look->rule_count; i++)
         marked = marked || vector_rule_marks(&j->look->rules[i]);
-    return status == LMN_OK && marked && refine > 0 ? stroke_scene_create(&j->as_is, &j->pose, j->stroked, crease, report_part, j, error) : status;
+    return status == LMN_OK && marked && refine > 0
+               ? stroke_scene_create(&j->as_is, &j->pose, j->stroked, crease, report_part, j, error)
+               : status;
 }
 
 /* The largest usual scale at which all views lie on the page; 0: there is none. */
@@ -478,9 +513,12 @@ static double scale_that_fits(const vector_job *j, lmn_error *error)
         if (!(sizes[i][0] > 0 || sizes[i][1] > 0))
             return 0;
     }
-    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12), .angle = j->wanted->angle, .usual = true, .fit = 1};
+    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12),
+                         .angle = j->wanted->angle,
+                         .usual = true,
+                         .fit = 1};
     memcpy(how.area, area, sizeof how.area);
-    return vector_place_views(&how, views, s->view_count, (const double (*)[2])sizes);
+    return vector_place_views(&how, views, s->view_count, (const double(*)[2])sizes);
 }
 
 /* How large the largest view of the model is on the page, mm; infinite where that is not told by a scale. */
@@ -507,7 +545,8 @@ static lmn_status check_page(vector_job *j, lmn_error *error)
     if (s->page.item_count > 0 && !speck)
         return LMN_OK;
     if (!j->wanted->scale && s->view_count == 1 && !j->desc->eye_given && !j->desc->camera)
-        return refuse(&r, LMN_USAGE, WARNING_PAGE, "take another look, or draw a picture (.png)", "nothing of the model lies on the page: the look '%s' has no strokes for it",
+        return refuse(&r, LMN_USAGE, WARNING_PAGE, "take another look, or draw a picture (.png)",
+                      "nothing of the model lies on the page: the look '%s' has no strokes for it",
                       j->look->name ? j->look->name : "");
     double fitting = scale_that_fits(j, error);
     if (fitting > 0 && s->scale > 0) {
@@ -515,8 +554,11 @@ static lmn_status check_page(vector_job *j, lmn_error *error)
         snprintf(instead, sizeof instead, "it fits at --scale %s", scale);
     }
     if (speck)
-        return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "at %s the model is %.2g mm large on the page, with %s as its unit", s->scale_text, size, s->unit);
-    return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "nothing of the model lies on the page%s%s", s->scale > 0 ? " at " : "", s->scale > 0 ? s->scale_text : "");
+        return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL,
+                      "at %s the model is %.2g mm large on the page, with %s as its unit", s->scale_text, size,
+                      s->unit);
+    return refuse(&r, LMN_USAGE, WARNING_PAGE, *instead ? instead : NULL, "nothing of the model lies on the page%s%s",
+                  s->scale > 0 ? " at " : "", s->scale > 0 ? s->scale_text : "");
 }
 
 /* What reaches beyond the paper, or the inside of its frame, is cut off: plotters and CAD programs have no clips. */
@@ -561,16 +603,19 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 static void note_marks(vector_job *j)
 {
     const scene_values *scene = j->look->wide[KIND_SCENE].values;
-    bool any = false, again = false;
+    bool                any = false, again = false;
     for (size_t i = 0; i < j->look->rule_count; i++) {
         const technique_use *surface = rule_use(&j->look->rules[i], KIND_SURFACE);
         any = any || vector_rule_marks(&j->look->rules[i]);
         again = again || (surface && surface->technique->surface->marks && rule_shades_again(&j->look->rules[i]));
     }
     if (again)
-        warnings_add(&j->out->warnings, WARNING_UNUSED, "a composition that shades again leaves out the marks of surfaces; 'opaque' draws them");
+        warnings_add(&j->out->warnings, WARNING_UNUSED,
+                     "a composition that shades again leaves out the marks of surfaces; 'opaque' draws them");
     if (any && (scene->shadows || scene->occlusion > 0 || scene->focus > 0))
-        warnings_add(&j->out->warnings, WARNING_UNUSED, "shadows, occlusion and depth focus do not change the dots and strokes of surfaces in vector drawings");
+        warnings_add(
+            &j->out->warnings, WARNING_UNUSED,
+            "shadows, occlusion and depth focus do not change the dots and strokes of surfaces in vector drawings");
 }
 
 static lmn_status keep_facts(vector_job *j, lmn_error *error)
@@ -588,7 +633,8 @@ static lmn_status keep_facts(vector_job *j, lmn_error *error)
     for (size_t i = 0; i < count; i++)
         s->facts.triangles += j->scene->parts[i].triangles * node_draw_count(&j->scene->nodes[j->scene->parts[i].node]);
     char description[256];
-    snprintf(description, sizeof description, "Look %.100s; %zu parts%s%s", s->facts.look, count, *s->scale_text ? "; scale " : "", s->scale_text);
+    snprintf(description, sizeof description, "Look %.100s; %zu parts%s%s", s->facts.look, count,
+             *s->scale_text ? "; scale " : "", s->scale_text);
     const char *file = j->scene->file_count ? strrchr(j->scene->files[0], '/') : NULL, *title = j->wanted->title;
     file = file ? file + 1 : j->scene->file_count ? j->scene->files[0] : NULL;
     sheet_set_title(&s->page, title && *title ? title : file, description);
@@ -621,13 +667,19 @@ static void end_job(vector_job *j)
     mem_free(j->stroked);
 }
 
-lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, const lmn_sheet_desc *wanted, surfaces_fn draw_surfaces, void *user,
-                       lmn_error *error)
+lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                       const lmn_sheet_desc *wanted, surfaces_fn draw_surfaces, void *user, lmn_error *error)
 {
     double start = clock_ms();
     bool   surfaces = vector_needs_pixels(look);
     *out = NULL;
-    vector_job j = {.draw_surfaces = draw_surfaces, .user = user, .scene = scene, .look = look, .desc = desc, .wanted = wanted, .lines_only = wanted->lines_only || wanted->plotter};
+    vector_job j = {.draw_surfaces = draw_surfaces,
+                    .user = user,
+                    .scene = scene,
+                    .look = look,
+                    .desc = desc,
+                    .wanted = wanted,
+                    .lines_only = wanted->lines_only || wanted->plotter};
     bool       wants_pixels = surfaces && !j.lines_only && !wanted->fill;
     j.out = mem_calloc(1, sizeof *j.out);
     j.stroked = mem_calloc(scene->part_count, sizeof *j.stroked);
@@ -636,7 +688,9 @@ lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *
     if (status == LMN_OK) {
         warnings_append(&j.out->warnings, &scene->warnings);
         if (wants_pixels && !draw_surfaces)
-            warnings_add(&j.out->warnings, WARNING_NO_STROKES, "the surfaces of the look '%s' need pixels and a renderer; lines alone are drawn", look->name ? look->name : "");
+            warnings_add(&j.out->warnings, WARNING_NO_STROKES,
+                         "the surfaces of the look '%s' need pixels and a renderer; lines alone are drawn",
+                         look->name ? look->name : "");
         status = prepare(&j, error);
     }
     if (status == LMN_OK)

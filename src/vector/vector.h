@@ -1,4 +1,5 @@
-/* One drawing as vectors: strokes of all figures on a sheet, with a picture below them where surfaces need pixels. Needs no GPU otherwise. */
+/* One drawing as vectors: strokes of all figures on a sheet, with a picture below them where surfaces need pixels.
+ * Needs no GPU otherwise. */
 #ifndef LIMNER_VECTOR_VECTOR_H
 #define LIMNER_VECTOR_VECTOR_H
 
@@ -15,41 +16,43 @@ enum { VIEWS_MOST = 7 };
 
 /* One view of the scene on the sheet. */
 typedef struct vector_view {
-    const char *name;       /* "front", "iso" …, "view" when the drawing says where the eye is; lasts */
-    lmn_view    direction;  /* where it is one of these */
-    double      box[4];     /* on the sheet: x, y, width, height, mm */
+    const char *name;          /* "front", "iso" …, "view" when the drawing says where the eye is; lasts */
+    lmn_view    direction;     /* where it is one of these */
+    double      box[4];        /* on the sheet: x, y, width, height, mm */
     int         width, height; /* the same in pixels */
     view_camera camera;
 } vector_view;
 
 struct lmn_sheet {
-    sheet       page;
-    warnings    warnings;
+    sheet    page;
+    warnings warnings;
     /* for the report */
     report_facts facts;
-    vector_view views[VIEWS_MOST];
-    size_t      view_count;
-    double      scale;      /* millimetres of paper for one of the model; 0: perspective */
-    char        scale_text[32]; /* "1:20"; empty: perspective */
-    const char *unit;       /* lasts */
-    uint64_t   *part_strokes; /* visible ones of each part */
-    uint64_t   *part_marks;   /* dots and strokes on its surface */
-    double      frame_ms;
-    uint64_t    counts[STROKE_CLASS_COUNT], hidden;
-    uint64_t    dots, marks;    /* that lie on surfaces: dots, strokes */
-    bool        verified;
+    vector_view  views[VIEWS_MOST];
+    size_t       view_count;
+    double       scale;          /* millimetres of paper for one of the model; 0: perspective */
+    char         scale_text[32]; /* "1:20"; empty: perspective */
+    const char  *unit;           /* lasts */
+    uint64_t    *part_strokes;   /* visible ones of each part */
+    uint64_t    *part_marks;     /* dots and strokes on its surface */
+    double       frame_ms;
+    uint64_t     counts[STROKE_CLASS_COUNT], hidden;
+    uint64_t     dots, marks; /* that lie on surfaces: dots, strokes */
+    bool         verified;
     stroke_check check;
 };
 
 /* Do the surfaces of the look need pixels? */
 bool vector_needs_pixels(const lmn_look *look);
 
-/* Draws the surfaces of the scene and look alone, without what vectors draw themselves: RGBA, row 0 on top, desc->width times desc->height. *out is the caller's to free with mem_free. */
+/* Draws the surfaces of the scene and look alone, without what vectors draw themselves: RGBA, row 0 on top,
+ * desc->width times desc->height. *out is the caller's to free with mem_free. */
 typedef lmn_status (*surfaces_fn)(uint8_t **out, const lmn_draw_desc *desc, void *user, lmn_error *error);
 
-/* See limner/sheet.h; `draw_surfaces` (NULL: there is no renderer) is asked for the pixels below the lines; arguments are checked but for what they say. */
-lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, const lmn_sheet_desc *wanted, surfaces_fn draw_surfaces, void *user,
-                       lmn_error *error);
+/* See limner/sheet.h; `draw_surfaces` (NULL: there is no renderer) is asked for the pixels below the lines;
+ * arguments are checked but for what they say. */
+lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                       const lmn_sheet_desc *wanted, surfaces_fn draw_surfaces, void *user, lmn_error *error);
 char      *vector_report_json(const lmn_sheet *s);
 void       vector_destroy(lmn_sheet **s);
 

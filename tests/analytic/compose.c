@@ -1,5 +1,5 @@
-/* How figures meet: depth sprites against the real visibility, the other forms of drawing lines, complements, mirrors, and
- * where the lines lie on both sides of a boundary. */
+/* How figures meet: depth sprites against the real visibility, the other forms of drawing lines, complements,
+ * mirrors, and where the lines lie on both sides of a boundary. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "feature.h"
 #include "picture.h"
 
-#define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[" RULES "]}"
+#define LOOK(RULES)  "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[" RULES "]}"
 #define HIDDEN_LINES "\"lines\":{\"operator\":\"four-tap\",\"colour\":\"#00000000\"}"
 
 static const shot_view views[] = {
@@ -40,16 +40,18 @@ static void knot(shape *s)
 /* Each part is drawn in another way and has a colour of its own, so that the picture tells which part won. */
 static void sprites_interleave(void)
 {
-    static const char look[] = LOOK(
-        "{\"select\":\"first\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
-        "{\"select\":\"second\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#00ff00\"}," HIDDEN_LINES "},"
-        "{\"select\":\"third\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},\"compose\":\"superimpose\"," HIDDEN_LINES "},"
-        "{\"select\":\"fourth\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffff00\"},\"compose\":\"merged\"," HIDDEN_LINES "}");
+    static const char look[] =
+        LOOK("{\"select\":\"first\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
+             "{\"select\":\"second\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#00ff00\"}," HIDDEN_LINES "},"
+             "{\"select\":\"third\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},\"compose\":"
+             "\"superimpose\"," HIDDEN_LINES "},"
+             "{\"select\":\"fourth\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffff00\"},\"compose\":"
+             "\"merged\"," HIDDEN_LINES "}");
     static const int colours[5][3] = {{255, 255, 255}, {255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 0}};
     for (int v = 0; v < 4; v++) {
-        shape s = {0};
-        shot  drawing;
-        shot_view view = views[v / 2];
+        shape       s = {0};
+        shot        drawing;
+        shot_view   view = views[v / 2];
         const char *changes[] = {"layers.complement", v % 2 ? "false" : "true", NULL};
         view.without_maps = v % 2;
         knot(&s);
@@ -60,11 +62,12 @@ static void sprites_interleave(void)
             trace_map_make(&map, t, &drawing);
             for (int i = 0; i < count; i++) {
                 const int *c = colours[map.id[i]];
-                bool differs = !is_colour(&drawing.picture[4 * i], c[0], c[1], c[2], 1);
+                bool       differs = !is_colour(&drawing.picture[4 * i], c[0], c[1], c[2], 1);
                 wrong += differs;
                 inside += differs && !trace_map_border(&map, i % drawing.width, i / drawing.width, 1);
             }
-            check_at_least("E03", 1 - (double)wrong / count, 0.999, "share of pixels that show the right part%s", v % 2 ? " (without maps and complement)" : "");
+            check_at_least("E03", 1 - (double)wrong / count, 0.999, "share of pixels that show the right part%s",
+                           v % 2 ? " (without maps and complement)" : "");
             check_at_most("E03", inside, 0, "wrong pixels away from borders");
             trace_map_release(&map);
             tracer_destroy(t);
@@ -74,22 +77,24 @@ static void sprites_interleave(void)
     }
 }
 
-/* Two plates that cross at a degree: a thousandth of depth moves the line where they change places by many pixels. Without the
- * complement nothing but the sprite's depth decides. */
+/* Two plates that cross at a degree: a thousandth of depth moves the line where they change places by many pixels.
+ * Without the complement nothing but the sprite's depth decides. */
 static void shallow_crossing(void)
 {
     static const char *const forms[] = {"opaque", "superimpose", "merged"};
     for (int f = 0; f < 3; f++)
         for (int v = 0; v < 2; v++) {
-            char  look[512];
-            shape s = {0};
-            shot  drawing;
-            int   wrong = 0;
+            char      look[512];
+            shape     s = {0};
+            shot      drawing;
+            int       wrong = 0;
             shot_view view = views[v];
             view.without_maps = true; /* else all figures are sprites, and wrong in the same way */
-            snprintf(look, sizeof look, LOOK("{\"select\":\"one\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
-                                             "{\"select\":\"two\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},"
-                                             "\"layers\":{\"complement\":false},\"compose\":\"%s\"," HIDDEN_LINES "}"), forms[f]);
+            snprintf(look, sizeof look,
+                     LOOK("{\"select\":\"one\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},"
+                          "{\"select\":\"two\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#0000ff\"},"
+                          "\"layers\":{\"complement\":false},\"compose\":\"%s\"," HIDDEN_LINES "}"),
+                     forms[f]);
             shape_quad(&s, "one", 1, 0);
             shape_quad(&s, "two", 1, 0);
             shape_place(&s, dvec_of(0, 1, 0.3), 1, dvec_of(0.002, 0.001, 0.003));
@@ -99,8 +104,10 @@ static void shallow_crossing(void)
                 trace_map map;
                 trace_map_make(&map, t, &drawing);
                 for (int i = 0; i < drawing.width * drawing.height; i++)
-                    if ((map.id[i] == 1 || map.id[i] == 2) && !trace_map_border(&map, i % drawing.width, i / drawing.width, 1))
-                        wrong += !is_colour(&drawing.picture[4 * i], map.id[i] == 1 ? 255 : 0, 0, map.id[i] == 2 ? 255 : 0, 1);
+                    if ((map.id[i] == 1 || map.id[i] == 2) &&
+                        !trace_map_border(&map, i % drawing.width, i / drawing.width, 1))
+                        wrong += !is_colour(&drawing.picture[4 * i], map.id[i] == 1 ? 255 : 0, 0,
+                                            map.id[i] == 2 ? 255 : 0, 1);
                 trace_map_release(&map);
                 tracer_destroy(t);
             }
@@ -124,16 +131,17 @@ static void deferred_shading(void)
     static const char *const surfaces[] = {"lambert", "lit", "tones", "toon", "gooch", "textured", "flat"};
     for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++) {
         static const char *const deferred[] = {"layers.shading", "deferred", NULL};
-        char  look[256];
-        shape s = {0};
-        shot  forward, later;
+        char                     look[256];
+        shape                    s = {0};
+        shot                     forward, later;
         knot(&s);
         for (size_t k = 0; k < s.count; k++)
             s.parts[k].colour[k % 3] = 0.4f;
         snprintf(look, sizeof look, LOOK("{\"surface\":\"%s\",\"lines\":{\"operator\":\"four-tap\"}}"), surfaces[i]);
         bool first = shot_of_shape(&forward, &s, "deferred.glb", look, NULL, &views[0]);
         if (shot_of_shape(&later, &s, "deferred.glb", look, deferred, &views[0]) && first)
-            check_at_most("E04", largest_difference(&forward, &later, NULL), 2, "levels between forward and deferred: %s", surfaces[i]);
+            check_at_most("E04", largest_difference(&forward, &later, NULL), 2,
+                          "levels between forward and deferred: %s", surfaces[i]);
         shot_release(&forward);
         shot_release(&later);
         shape_release(&s);
@@ -146,15 +154,16 @@ static void forms_agree(void)
     static const char *const operators[] = {"four-tap", "sobel", "saito", "discontinuity", "id"};
     for (size_t i = 0; i < sizeof operators / sizeof *operators; i++) {
         static const char *const forms[] = {"opaque", "superimpose", "merged"};
-        char  look[256];
-        shape s = {0};
-        shot  drawn[3];
-        bool  ok = true;
+        char                     look[256];
+        shape                    s = {0};
+        shot                     drawn[3];
+        bool                     ok = true;
         knot(&s);
-        snprintf(look, sizeof look, LOOK("{\"surface\":\"lit\",\"lines\":{\"operator\":\"%s\",\"gain\":4}}"), operators[i]);
+        snprintf(look, sizeof look, LOOK("{\"surface\":\"lit\",\"lines\":{\"operator\":\"%s\",\"gain\":4}}"),
+                 operators[i]);
         for (int k = 0; k < 3; k++) {
             const char *changes[] = {"compose.technique", forms[k], NULL};
-            shot_view view = views[0];
+            shot_view   view = views[0];
             view.without_maps = k > 0;
             ok = shot_of_shape(&drawn[k], &s, "forms.glb", look, changes, &view) && ok;
         }
@@ -165,8 +174,10 @@ static void forms_agree(void)
                 inside[k] = !isinf(drawn[0].depth[k]);
                 ink_outside += !inside[k] && drawn[0].picture[4 * k] < 128;
             }
-            check_at_most("E15", largest_difference(&drawn[0], &drawn[1], inside), 2, "levels between sprite and third pass, %s", operators[i]);
-            check_at_most("E16", largest_difference(&drawn[1], &drawn[2], NULL), 1, "levels between third pass and merged, %s", operators[i]);
+            check_at_most("E15", largest_difference(&drawn[0], &drawn[1], inside), 2,
+                          "levels between sprite and third pass, %s", operators[i]);
+            check_at_most("E16", largest_difference(&drawn[1], &drawn[2], NULL), 1,
+                          "levels between third pass and merged, %s", operators[i]);
             check_at_least("E20", ink_outside, 100, "line pixels of the sprite beyond the boundary");
             free(inside);
         }
@@ -179,10 +190,12 @@ static void forms_agree(void)
 /* The picture is the edge map inked onto the shade map, pixel by pixel, in each class's colour. */
 static void superimposed_colours(void)
 {
-    static const char look[] = LOOK("{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\","
-                                    "\"colour\":\"#ff0000\",\"inner_colour\":\"#0000ff\",\"id_colour\":\"#00ff00\",\"parts\":false}}");
-    static const shot_view odd[] = {{.width = 321, .height = 243, .eye = {4, 3, 5}, .up = {0, 1, 0}},
-                                    {.width = 97, .height = 333, .eye = {4, 3, 5}, .target = {1, 0.5, 0}, .up = {0, 1, 0}}};
+    static const char look[] =
+        LOOK("{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\","
+             "\"colour\":\"#ff0000\",\"inner_colour\":\"#0000ff\",\"id_colour\":\"#00ff00\",\"parts\":false}}");
+    static const shot_view odd[] = {
+        {.width = 321, .height = 243, .eye = {4, 3, 5}, .up = {0, 1, 0}},
+        {.width = 97, .height = 333, .eye = {4, 3, 5}, .target = {1, 0.5, 0}, .up = {0, 1, 0}}};
     for (int v = 0; v < 2; v++) {
         shape s = {0}, one = {0};
         shot  drawing;
@@ -204,7 +217,8 @@ static void superimposed_colours(void)
             }
         check_at_least("E09", profile, 200, "pixels in the profile's colour");
         check_at_least("E09", inner, 40, "pixels in the inner lines' colour");
-        check_at_most("E08", wrong, 0, "pixels whose colour is not what the edge map says, %d x %d", odd[v].width, odd[v].height);
+        check_at_most("E08", wrong, 0, "pixels whose colour is not what the edge map says, %d x %d", odd[v].width,
+                      odd[v].height);
         shot_release(&drawing);
         shape_release(&s);
         shape_release(&one);
@@ -221,17 +235,19 @@ static int dark_near(const shot *s, dvec place, double radius)
     return count;
 }
 
-/* Only designated parts have lines; where one meets a plain part there is a line, when the plain one is the complement. */
+/* Only designated parts have lines; where one meets a plain part there is a line, when the plain one is the
+ * complement. */
 static void per_object(void)
 {
-    static const char look[] = LOOK(
-        "{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},"
-        "{\"select\":\"lined*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#eeeeee\"},\"lines\":{\"operator\":\"discontinuity\"}}");
+    static const char look[] =
+        LOOK("{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},"
+             "{\"select\":\"lined*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#eeeeee\"},\"lines\":{"
+             "\"operator\":\"discontinuity\"}}");
     for (int complement = 1; complement >= 0; complement--) {
         const char *changes[] = {"layers.complement", complement ? "true" : "false", NULL};
-        shape s = {0};
-        shot  drawing;
-        int   away = 0, seam = 0, lined = 0;
+        shape       s = {0};
+        shot        drawing;
+        int         away = 0, seam = 0, lined = 0;
         shape_box(&s, "plain block", dvec_of(-1, -1, -1), dvec_of(1, 0, 1));
         shape_box(&s, "lined post", dvec_of(-0.3, -0.5, -0.3), dvec_of(0.3, 0.8, 0.3));
         if (shot_of_shape(&drawing, &s, "objects.glb", look, changes, &views[0])) {
@@ -259,9 +275,9 @@ static void per_object(void)
 /* A figure drawn by ids alone is an outline; the background beside it keeps all its lines. */
 static void id_only(void)
 {
-    static const char look[] = LOOK(
-        "{\"select\":\"arch\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\"}},"
-        "{\"select\":\"person\",\"surface\":\"flat\",\"lines\":{\"operator\":\"id\"}}");
+    static const char look[] =
+        LOOK("{\"select\":\"arch\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\"}},"
+             "{\"select\":\"person\",\"surface\":\"flat\",\"lines\":{\"operator\":\"id\"}}");
     shape s = {0};
     shot  drawing;
     int   inner = 0, outline = 0, open = 0, arch = 0;
@@ -311,18 +327,19 @@ static void widths(void)
     for (int size = 128; size <= 512; size *= 2)
         for (int o = 0; o < 3; o++)
             for (int w = 0; w < 6; w++) {
-                const char *changes[] = {"lines.width", requested[w], "lines.colour", "#000000", NULL};
-                const shot_view view = {.width = size, .height = size, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
-                char  lines[64];
-                shape s = {0};
-                shot  drawing;
+                const char     *changes[] = {"lines.width", requested[w], "lines.colour", "#000000", NULL};
+                const shot_view view = {
+                    .width = size, .height = size, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+                char   lines[64];
+                shape  s = {0};
+                shot   drawing;
                 double outside, inside, wanted = atof(requested[w]);
                 shape_box(&s, "plate", dvec_of(0, -2, -1), dvec_of(2, 2, 0));
                 snprintf(lines, sizeof lines, "{\"operator\":\"%s\"}", operators[o]);
                 if (shot_of_shape(&drawing, &s, "plate.glb", shot_line_look(lines), changes, &view)) {
                     measure_boundary(&drawing, size / 2.0, &outside, &inside);
-                    check_near("E21", outside + inside, wanted, wanted <= 2 ? 0.5 : 1, "%s, width %s at %d px: ink across the outline",
-                               operators[o], requested[w], size);
+                    check_near("E21", outside + inside, wanted, wanted <= 2 ? 0.5 : 1,
+                               "%s, width %s at %d px: ink across the outline", operators[o], requested[w], size);
                     if (wanted >= 2)
                         check_near("E20", outside, inside, 0.5, "  outside and inside");
                 }
@@ -335,15 +352,17 @@ static void widths(void)
 static void slanted_width(void)
 {
     for (int samples = 1; samples <= 16; samples *= 4) {
-        const char *changes[] = {"lines.colour", "#000000", NULL};
-        const shot_view view = {.width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .samples = samples};
-        shape s = {0};
-        shot  drawing;
+        const char     *changes[] = {"lines.colour", "#000000", NULL};
+        const shot_view view = {
+            .width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .samples = samples};
+        shape  s = {0};
+        shot   drawing;
         double ink = 0;
-        int   grey = 0;
+        int    grey = 0;
         shape_box(&s, "plate", dvec_of(0, -6, -1), dvec_of(6, 6, 0));
         shape_place(&s, dvec_of(0, 0, 1), 20, dvec_of(0, 0, 0));
-        if (shot_of_shape(&drawing, &s, "slanted.glb", shot_line_look("{\"operator\":\"discontinuity\",\"width\":2}"), changes, &view))
+        if (shot_of_shape(&drawing, &s, "slanted.glb", shot_line_look("{\"operator\":\"discontinuity\",\"width\":2}"),
+                          changes, &view))
             for (int y = 100; y < 156; y++)
                 for (int x = 60; x < 196; x++) {
                     double v = 1 - picture_linear(pixel(&drawing, x, y)[0]);
@@ -359,7 +378,7 @@ static void slanted_width(void)
     }
 }
 
-/* --- mirror ------------------------------------------------------------------------------------------------------ */
+/* --- mirror --------------------------------------------------------------------------------------------- */
 
 static void add_floor(shape *s, double half)
 {
@@ -367,15 +386,17 @@ static void add_floor(shape *s, double half)
     shape_place(s, dvec_of(1, 0, 0), -90, dvec_of(0, 0, 0));
 }
 
-/* The box below the floor is what the mirror shows: seen through the floor it must have the reflected box's colour and edges. */
+/* The box below the floor is what the mirror shows: seen through the floor it must have the reflected box's colour
+ * and edges. */
 static void mirror(void)
 {
-    static const char look[] = LOOK(
-        "{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff4040\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}},"
-        "{\"select\":\"mirror\",\"surface\":{\"technique\":\"mirror\",\"reflectivity\":1,\"tint\":\"#8080ff\"}}");
+    static const char look[] =
+        LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff4040\"},\"lines\":{\"operator\":"
+             "\"discontinuity\",\"colour\":\"#000000\"}},"
+             "{\"select\":\"mirror\",\"surface\":{\"technique\":\"mirror\",\"reflectivity\":1,\"tint\":\"#8080ff\"}}");
     const shot_view view = {.width = 320, .height = 320, .eye = {2, 3.2, 5}, .target = {0, 0.2, 0}, .up = {0, 1, 0}};
-    shape real = {0}, floor_only = {0}, image = {0};
-    shot  drawing;
+    shape           real = {0}, floor_only = {0}, image = {0};
+    shot            drawing;
     shape_box(&real, "box", dvec_of(-0.5, 0.3, -0.5), dvec_of(0.5, 1.1, 0.5));
     add_floor(&real, 1.2);
     add_floor(&floor_only, 1.2);
@@ -388,9 +409,9 @@ static void mirror(void)
         trace_map_make(&reflected, t_image, &drawing);
         for (int y = 2; y + 2 < 320; y++)
             for (int x = 2; x + 2 < 320; x++) {
-                int i = y * 320 + x;
+                int            i = y * 320 + x;
                 const uint8_t *p = pixel(&drawing, x, y);
-                bool clear = true;
+                bool           clear = true;
                 for (int k = 0; k < 25; k++)
                     clear = clear && seen.id[i + (k / 5 - 2) * 320 + k % 5 - 2] == seen.id[i];
                 if (!clear)
@@ -433,8 +454,15 @@ static void mirror(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"sprites", sprites_interleave}, {"shallow", shallow_crossing}, {"deferred", deferred_shading}, {"forms", forms_agree},  {"colours", superimposed_colours},
-        {"objects", per_object},         {"abstract", id_only},          {"widths", widths},      {"slanted", slanted_width},
+        {"sprites", sprites_interleave},
+        {"shallow", shallow_crossing},
+        {"deferred", deferred_shading},
+        {"forms", forms_agree},
+        {"colours", superimposed_colours},
+        {"objects", per_object},
+        {"abstract", id_only},
+        {"widths", widths},
+        {"slanted", slanted_width},
         {"mirror", mirror},
     };
     int status = check_main(argc, argv, "compose", cases, sizeof cases / sizeof *cases);

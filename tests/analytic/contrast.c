@@ -1,5 +1,5 @@
-/* Lines that stay visible on any ground: second contour, light or dark by the ground, left out where the picture shows the
- * edge by itself, and the second line on the outer side. Rows OI-09 to OI-12. */
+/* Lines that stay visible on any ground: second contour, light or dark by the ground, left out where the picture
+ * shows the edge by itself, and the second line on the outer side. Rows OI-09 to OI-12. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,8 @@
 #include "shape.h"
 #include "shot.h"
 
-static const shot_view front = {.width = 240, .height = 240, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
+static const shot_view front = {
+    .width = 240, .height = 240, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
 
 static const uint8_t *pixel(const shot *s, int x, int y)
 {
@@ -27,8 +28,8 @@ static double luma(const uint8_t *p)
     return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) / 255;
 }
 
-#define GREY_LOOK(LINES)                                                                                              \
-    "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#808080\"},\"rules\":[{\"surface\":{\"technique\":"       \
+#define GREY_LOOK(LINES)                                                                                               \
+    "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#808080\"},\"rules\":[{\"surface\":{\"technique\":"        \
     "\"flat\",\"colour\":\"#808080\"},\"lines\":" LINES "}]}"
 
 static bool take_ball(shot *out, const char *look, const char *const *changes)
@@ -43,12 +44,13 @@ static bool take_ball(shot *out, const char *look, const char *const *changes)
 /* The picture is the edge map in black over the same map in white, one pixel to the right and one down. */
 static void double_contours(void)
 {
-    static const char look[] = GREY_LOOK("{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"contrast\":\"double\",\"light_colour\":\"#ffffff\"}");
+    static const char look[] = GREY_LOOK(
+        "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"contrast\":\"double\",\"light_colour\":\"#ffffff\"}");
     static const int offsets[][2] = {{1, 1}, {2, 0}, {-1, 3}};
     for (int o = 0; o < 3; o++) {
-        char  across[8], down[8];
-        shot  s;
-        int   black = 0, white = 0, wrong = 0;
+        char across[8], down[8];
+        shot s;
+        int  black = 0, white = 0, wrong = 0;
         snprintf(across, sizeof across, "%d", offsets[o][0]);
         snprintf(down, sizeof down, "%d", offsets[o][1]);
         const char *changes[] = {"lines.offset_x", across, "lines.offset_y", down, NULL};
@@ -68,7 +70,8 @@ static void double_contours(void)
                 }
         check_at_least("OI-09", black, 300, "pixels of the first contour");
         check_at_least("OI-09", white, 150, "pixels of the second contour");
-        check_at_most("OI-09", wrong, 0, "pixels that are not the two contours %d px right and %d px down", offsets[o][0], offsets[o][1]);
+        check_at_most("OI-09", wrong, 0, "pixels that are not the two contours %d px right and %d px down",
+                      offsets[o][0], offsets[o][1]);
         shot_release(&s);
     }
 }
@@ -89,12 +92,15 @@ static const char *adaptive_look(double suppress, double blur, const char *groun
 {
     static char text[512];
     snprintf(text, sizeof text,
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"%s\"},\"rules\":[{\"surface\":{\"technique\":\"textured\",\"light\":0},"
-             "\"lines\":{\"operator\":\"discontinuity\",\"contrast\":\"adaptive\",\"suppress\":%g,\"blur\":%g}}]}", ground, suppress, blur);
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"%s\"},\"rules\":[{\"surface\":{\"technique\":"
+             "\"textured\",\"light\":0},"
+             "\"lines\":{\"operator\":\"discontinuity\",\"contrast\":\"adaptive\",\"suppress\":%g,\"blur\":%g}}]}",
+             ground, suppress, blur);
     return text;
 }
 
-/* How bright what lies under the lines is around a place: the mean light of shade map and ground, as a value of the screen. */
+/* How bright what lies under the lines is around a place: the mean light of shade map and ground, as a value of the
+ * screen. */
 static double ground_around(const shot *s, int x, int y, int radius, double page)
 {
     double sum = 0;
@@ -113,7 +119,7 @@ static double ground_around(const shot *s, int x, int y, int radius, double page
 static void colour_by_ground(void)
 {
     static const char *const grounds[] = {"#ffffff", "#000000", "#808080"};
-    static const double pages[] = {1, 0, 128 / 255.0};
+    static const double      pages[] = {1, 0, 128 / 255.0};
     for (int g = 0; g < 3; g++) {
         shape  s = {0};
         shot   drawing;
@@ -181,10 +187,10 @@ static void no_flicker(void)
 /* Black beside white needs no line, grey beside the same grey does. */
 static void redundant_lines(void)
 {
-    shape  s = {0};
-    shot   drawing;
+    shape              s = {0};
+    shot               drawing;
     static const float tones[4] = {0.0f, 1.0f, 0.2f, 0.2f};
-    int    at_contrast = 0, at_equal = 0;
+    int                at_contrast = 0, at_equal = 0;
     for (int i = 0; i < 4; i++) {
         char name[8];
         snprintf(name, sizeof name, "t%d", i);
@@ -195,22 +201,26 @@ static void redundant_lines(void)
     if (shot_of_shape(&drawing, &s, "redundant.glb", adaptive_look(0.3, 6, "#ffffff"), NULL, &front)) {
         dvec contrast = shot_project(&drawing, dvec_of(-0.5, 0, 0)), equal = shot_project(&drawing, dvec_of(0.5, 0, 0));
         for (int y = 90; y < 150; y++) {
-            double black = luma(pixel(&drawing, (int)contrast.x - 5, y)), white = luma(pixel(&drawing, (int)contrast.x + 5, y));
+            double black = luma(pixel(&drawing, (int)contrast.x - 5, y)),
+                   white = luma(pixel(&drawing, (int)contrast.x + 5, y));
             double grey = luma(pixel(&drawing, (int)equal.x - 8, y));
             bool   line = false, other = false;
             for (int x = -3; x < 3; x++) {
-                double v = luma(pixel(&drawing, (int)contrast.x + x, y)), w = luma(pixel(&drawing, (int)equal.x + x, y));
+                double v = luma(pixel(&drawing, (int)contrast.x + x, y)),
+                       w = luma(pixel(&drawing, (int)equal.x + x, y));
                 other = other || (fabs(v - black) > 0.08 && fabs(v - white) > 0.08);
                 line = line || fabs(w - grey) > 0.3;
             }
             at_contrast += other;
             at_equal += line;
         }
-        /* On black and white the line's colours are almost those of the ground: count where the border itself moved. */
+        /* On black and white the line's colours are almost those of the ground: count where the border itself
+         * moved. */
         int moved = 0;
         for (int y = 90; y < 150; y++)
             for (int x = -3; x < 3; x++)
-                moved += (luma(pixel(&drawing, (int)contrast.x + x, y)) > 0.5) != (x + (int)contrast.x + 0.5 > contrast.x);
+                moved +=
+                    (luma(pixel(&drawing, (int)contrast.x + x, y)) > 0.5) != (x + (int)contrast.x + 0.5 > contrast.x);
         check_at_most("OI-11", moved, 0, "pixels beside a black and white border that a line covers");
     }
     check_at_most("OI-11", at_contrast, 0, "rows with a line where the picture shows the edge already");
@@ -219,12 +229,14 @@ static void redundant_lines(void)
     shape_release(&s);
 }
 
-/* Going outwards from the middle of a ball, the dark line comes first and the light one behind it, in every direction. */
+/* Going outwards from the middle of a ball, the dark line comes first and the light one behind it, in every
+ * direction. */
 static void outward(void)
 {
-    static const char look[] = GREY_LOOK("{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"contrast\":\"directed\",\"light_colour\":\"#ffffff\"}");
-    shot s;
-    int  missing = 0, inside_out = 0;
+    static const char look[] = GREY_LOOK("{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"contrast\":"
+                                         "\"directed\",\"light_colour\":\"#ffffff\"}");
+    shot              s;
+    int               missing = 0, inside_out = 0;
     if (take_ball(&s, look, NULL))
         for (int k = 0; k < 32; k++) {
             double angle = k * 3.14159265358979323846 / 16, dark = 0, light = 0;
@@ -253,7 +265,8 @@ static void outward(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"double", double_contours}, {"ground", colour_by_ground}, {"flicker", no_flicker}, {"redundant", redundant_lines}, {"outward", outward},
+        {"double", double_contours},    {"ground", colour_by_ground}, {"flicker", no_flicker},
+        {"redundant", redundant_lines}, {"outward", outward},
     };
     int status = check_main(argc, argv, "contrast", cases, sizeof cases / sizeof *cases);
     shot_end();

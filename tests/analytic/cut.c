@@ -1,5 +1,5 @@
-/* Sections as they are drawn: depth and normals against what a ray through the solid meets, cut faces unlit and in their colour, as
- * much hatch as its width and distance say, and all of it the same in both dialects. */
+/* Sections as they are drawn: depth and normals against what a ray through the solid meets, cut faces unlit and in
+ * their colour, as much hatch as its width and distance say, and all of it the same in both dialects. */
 #include <limner/limner.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,17 +10,18 @@
 #include "model.h"
 #include "shot.h"
 
-static const char plain_look[] = "{\"version\": 1, \"rules\": [{\"surface\": \"lit\"}], \"finish\": {\"ground\": \"#ffffff\"}}";
+static const char plain_look[] =
+    "{\"version\": 1, \"rules\": [{\"surface\": \"lit\"}], \"finish\": {\"ground\": \"#ffffff\"}}";
 static const char lined_look[] = "{\"version\": 1, \"rules\": [{\"surface\": \"lit\", \"lines\": \"discontinuity\"}]}";
 
 /* What a viewer far in front (+z) sees of the ball of radius 1 without its half z > 0.25. */
 static void a_ball_has_a_disc(void)
 {
-    const shot_view view = {.width = 240, .height = 240, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
+    const shot_view   view = {.width = 240, .height = 240, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
     const char *const changes[] = {"scene.cut", "z=0.25", "scene.cut_hatch", "0", "scene.cut_fill", "#3060c0", NULL};
-    shape s = {0};
-    shot  cut;
-    int   disc = 0, off = 0, turned = 0, coloured = 0;
+    shape             s = {0};
+    shot              cut;
+    int               disc = 0, off = 0, turned = 0, coloured = 0;
     shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
     if (shot_of_shape(&cut, &s, "ball.glb", plain_look, changes, &view)) {
         for (int y = 0; y < cut.height; y++)
@@ -28,13 +29,14 @@ static void a_ball_has_a_disc(void)
                 dvec from, along;
                 shot_ray(&cut, x + 0.5, y + 0.5, &from, &along);
                 double r2 = from.x * from.x + from.y * from.y;
-                int i = y * cut.width + x;
+                int    i = y * cut.width + x;
                 if (r2 > 0.95 * 0.95 * (1 - 0.0625))
                     continue;
                 disc++;
                 off += !(fabs(cut.depth[i] - (6 - 0.25)) < 1e-4);
                 turned += !(cut.normal[i][2] > 0.9999f);
-                coloured += cut.picture[4 * i] == 0x30 && cut.picture[4 * i + 1] == 0x60 && cut.picture[4 * i + 2] == 0xC0;
+                coloured +=
+                    cut.picture[4 * i] == 0x30 && cut.picture[4 * i + 1] == 0x60 && cut.picture[4 * i + 2] == 0xC0;
             }
         check_at_least("cut", disc, 1000, "pixels inside the cut face");
         check_at_most("cut", off, 0, "of them not at the plane's depth");
@@ -48,10 +50,10 @@ static void a_ball_has_a_disc(void)
 /* The box takes the corner towards the viewer out of a cube: rays meet its three inner faces. */
 static void a_corner_is_open(void)
 {
-    const shot_view view = {.width = 240, .height = 240, .eye = {5, 4, 6}, .up = {0, 1, 0}};
+    const shot_view   view = {.width = 240, .height = 240, .eye = {5, 4, 6}, .up = {0, 1, 0}};
     const char *const changes[] = {"scene.cut", "box=50%,50%,50%:100%,100%,100%", NULL};
-    shape s = {0};
-    shot  cut;
+    shape             s = {0};
+    shot              cut;
     shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     if (shot_of_shape(&cut, &s, "cube.glb", plain_look, changes, &view)) {
         int inside = 0, wrong = 0;
@@ -59,9 +61,10 @@ static void a_corner_is_open(void)
             for (int x = 0; x < cut.width; x++) {
                 dvec from, along;
                 shot_ray(&cut, x + 0.5, y + 0.5, &from, &along);
-                /* Where the ray enters the three half-spaces below 0: last of all it must be in the corner's octant before. */
+                /* Where the ray enters the three half-spaces below 0: last of all it must be in the corner's octant
+                 * before. */
                 const double *o = &from.x, *d = &along.x;
-                double t = INFINITY;
+                double        t = INFINITY;
                 for (int k = 0; k < 3; k++)
                     t = fmin(t, d[k] < 0 ? -o[k] / d[k] : INFINITY);
                 bool hits = t < INFINITY, near_edge = false;
@@ -106,15 +109,27 @@ static void hatch_covers_its_share(void)
     } rows[] = {{"10", "2", 0.2, 1}, {"20", "5", 0.25, 1}, {"6", "1.5", 0.25, 4}, {"0", "2", 0, 1}};
     const shot_view front = {.width = 400, .height = 400, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        shape s = {0};
-        shot  cut;
+        shape     s = {0};
+        shot      cut;
         shot_view view = front;
         view.samples = rows[i].samples;
-        const char *const changes[] = {"scene.cut", "z", "scene.cut_hatch", rows[i].apart, "scene.cut_width", rows[i].width, "scene.cut_angle", "30",
-                                       "scene.cut_fill", "#ffffff", "scene.cut_colour", "#000000", NULL};
+        const char *const changes[] = {"scene.cut",
+                                       "z",
+                                       "scene.cut_hatch",
+                                       rows[i].apart,
+                                       "scene.cut_width",
+                                       rows[i].width,
+                                       "scene.cut_angle",
+                                       "30",
+                                       "scene.cut_fill",
+                                       "#ffffff",
+                                       "scene.cut_colour",
+                                       "#000000",
+                                       NULL};
         shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
         if (shot_of_shape(&cut, &s, "hatch.glb", plain_look, changes, &view))
-            check_near("cut", darkness(&cut), rows[i].share, 0.02, "dark share at distance %s, width %s", rows[i].apart, rows[i].width);
+            check_near("cut", darkness(&cut), rows[i].share, 0.02, "dark share at distance %s, width %s", rows[i].apart,
+                       rows[i].width);
         shot_release(&cut);
         shape_release(&s);
     }
@@ -123,10 +138,10 @@ static void hatch_covers_its_share(void)
 /* The outline of a section is a line even where the wall behind it goes on as smoothly as the face. */
 static void outlines_are_lines(void)
 {
-    const shot_view view = {.width = 300, .height = 300, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
+    const shot_view   view = {.width = 300, .height = 300, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
     const char *const changes[] = {"scene.cut", "z=0;0,0.05,1@0,0,0", "scene.cut_hatch", "0", NULL};
-    shape s = {0};
-    shot  cut;
+    shape             s = {0};
+    shot              cut;
     shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     if (shot_of_shape(&cut, &s, "outline.glb", lined_look, changes, &view)) {
         int lines = 0; /* two cut faces that differ by 3 degrees meet in the middle */
@@ -144,10 +159,12 @@ static void outlines_are_lines(void)
 
 static void dialects_agree(void)
 {
-    shot_view view = {.width = 200, .height = 200, .eye = {4, 3, 5}, .up = {0, 1, 0}};
-    const char *const changes[] = {"scene.cut", "x;box=0%,50%,50%:100%,100%,100%", NULL};
-    static const char *const looks[] = {"edges", "gooch", "blueprint", "{\"version\": 1, \"rules\": [{\"surface\": \"lit\", \"layers\": "
-                                        "{\"technique\": \"front\", \"shading\": \"deferred\"}, \"lines\": \"sobel\"}]}"};
+    shot_view                view = {.width = 200, .height = 200, .eye = {4, 3, 5}, .up = {0, 1, 0}};
+    const char *const        changes[] = {"scene.cut", "x;box=0%,50%,50%:100%,100%,100%", NULL};
+    static const char *const looks[] = {
+        "edges", "gooch", "blueprint",
+        "{\"version\": 1, \"rules\": [{\"surface\": \"lit\", \"layers\": "
+        "{\"technique\": \"front\", \"shading\": \"deferred\"}, \"lines\": \"sobel\"}]}"};
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
         shape s = {0};
         shot  desktop, es;
@@ -170,10 +187,10 @@ static void dialects_agree(void)
 
 static void open_parts_are_told(void)
 {
-    const shot_view view = {.width = 64, .height = 64, .eye = {4, 3, 5}, .up = {0, 1, 0}};
+    const shot_view   view = {.width = 64, .height = 64, .eye = {4, 3, 5}, .up = {0, 1, 0}};
     const char *const changes[] = {"scene.cut", "x", NULL};
-    shape s = {0};
-    shot  cut;
+    shape             s = {0};
+    shot              cut;
     shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     if (shot_of_shape(&cut, &s, "closed.glb", plain_look, changes, &view))
         check_that("cut", !shot_has_warning(&cut, "cut-open"), "a cube gives no warning");
@@ -188,8 +205,12 @@ static void open_parts_are_told(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"a_ball_has_a_disc", a_ball_has_a_disc}, {"a_corner_is_open", a_corner_is_open}, {"hatch_covers_its_share", hatch_covers_its_share},
-        {"outlines_are_lines", outlines_are_lines}, {"dialects_agree", dialects_agree}, {"open_parts_are_told", open_parts_are_told},
+        {"a_ball_has_a_disc", a_ball_has_a_disc},
+        {"a_corner_is_open", a_corner_is_open},
+        {"hatch_covers_its_share", hatch_covers_its_share},
+        {"outlines_are_lines", outlines_are_lines},
+        {"dialects_agree", dialects_agree},
+        {"open_parts_are_told", open_parts_are_told},
     };
     int status = check_main(argc, argv, "cut", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -10,12 +10,14 @@
 
 #define LINES "{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}"
 
-static const shot_view box_view = {.width = 640, .height = 600, .eye = {5, 3.4, 6.3}, .up = {0.1, 1, 0}, .without_maps = true};
+static const shot_view box_view = {
+    .width = 640, .height = 600, .eye = {5, 3.4, 6.3}, .up = {0.1, 1, 0}, .without_maps = true};
 
 /* 0 = paper, 1 = black. */
 static double darkness(const shot *s, int x, int y)
 {
-    return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0 : 1 - picture_linear(s->picture[4 * (y * s->width + x)]);
+    return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0
+                                                             : 1 - picture_linear(s->picture[4 * (y * s->width + x)]);
 }
 
 static double ink_sum(const shot *s)
@@ -38,10 +40,11 @@ static void torus_of(shape *s)
 }
 
 /* Drawn with these lines.dash, lines.gap and lines.width. */
-static bool draw(shot *out, void (*make)(shape *), const char *dash, const char *gap, const char *width, const shot_view *view)
+static bool draw(shot *out, void (*make)(shape *), const char *dash, const char *gap, const char *width,
+                 const shot_view *view)
 {
     const char *changes[] = {"lines.dash", dash, "lines.gap", gap, "lines.width", width, NULL};
-    shape s = {0};
+    shape       s = {0};
     make(&s);
     bool good = shot_of_shape(out, &s, "dash.glb", shot_line_look(LINES), changes, view);
     shape_release(&s);
@@ -50,16 +53,18 @@ static bool draw(shot *out, void (*make)(shape *), const char *dash, const char 
 
 static void share_of_ink(void)
 {
-    static const char *const styles[][3] = {{"8", "5", "1"}, {"8", "5", "2"}, {"14", "4", "3"}, {"6", "10", "2"}, {"20", "20", "6"}, {"2", "6", "2"}};
+    static const char *const styles[][3] = {{"8", "5", "1"},  {"8", "5", "2"},   {"14", "4", "3"},
+                                            {"6", "10", "2"}, {"20", "20", "6"}, {"2", "6", "2"}};
     for (int shape_index = 0; shape_index < 2; shape_index++)
         for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
-            shot whole, dashed;
+            shot   whole, dashed;
             double dash = atof(styles[i][0]), gap = atof(styles[i][1]);
-            bool good = draw(&whole, shape_index ? torus_of : box_of, "0", styles[i][1], styles[i][2], &box_view);
-            if (draw(&dashed, shape_index ? torus_of : box_of, styles[i][0], styles[i][1], styles[i][2], &box_view) && good)
+            bool   good = draw(&whole, shape_index ? torus_of : box_of, "0", styles[i][1], styles[i][2], &box_view);
+            if (draw(&dashed, shape_index ? torus_of : box_of, styles[i][0], styles[i][1], styles[i][2], &box_view) &&
+                good)
                 check_near("dash", 1 - ink_sum(&dashed) / ink_sum(&whole), gap / (dash + gap), 0.1 * gap / (dash + gap),
-                           "share of the ink of a %s that dash %s, gap %s, width %s take away", shape_index ? "torus" : "box", styles[i][0],
-                           styles[i][1], styles[i][2]);
+                           "share of the ink of a %s that dash %s, gap %s, width %s take away",
+                           shape_index ? "torus" : "box", styles[i][0], styles[i][1], styles[i][2]);
             shot_release(&whole);
             shot_release(&dashed);
         }
@@ -78,8 +83,8 @@ typedef struct verdict {
     double run, ends, stretch; /* worst difference of a run, of ink at ends, of the stretch from 1 */
 } verdict;
 
-/* Runs along one edge. Between the first and the last gap all dashes are alike and so are all gaps; at both ends there is ink, of
- * half a dash, or more where another line leaves at an acute angle. */
+/* Runs along one edge. Between the first and the last gap all dashes are alike and so are all gaps; at both ends
+ * there is ink, of half a dash, or more where another line leaves at an acute angle. */
 static void judge_edge(const shot *s, dvec a, dvec b, double dash, double gap, verdict *v)
 {
     double length = hypot(b.x - a.x, b.y - a.y), nx = -(b.y - a.y) / length, ny = (b.x - a.x) / length, turns[256];
@@ -108,7 +113,7 @@ static void runs_along_edges(void)
 {
     static const double corner[8][3] = {{-1.4, -1, -1.2}, {1.2, -1, -1.2}, {-1.4, 1.1, -1.2}, {1.2, 1.1, -1.2},
                                         {-1.4, -1, 1.3},  {1.2, -1, 1.3},  {-1.4, 1.1, 1.3},  {1.2, 1.1, 1.3}};
-    static const int edges[9][2] = {{4, 5}, {5, 1}, {1, 3}, {3, 2}, {2, 6}, {6, 4}, {6, 7}, {7, 5}, {7, 3}};
+    static const int    edges[9][2] = {{4, 5}, {5, 1}, {1, 3}, {3, 2}, {2, 6}, {6, 4}, {6, 7}, {7, 5}, {7, 3}};
     for (int roll = 0; roll < 5; roll++) {
         shot_view view = box_view;
         shot      s;
@@ -117,9 +122,11 @@ static void runs_along_edges(void)
         if (draw(&s, box_of, "12", "8", "2", &view)) {
             for (int e = 0; e < 9; e++) {
                 const double *p = corner[edges[e][0]], *q = corner[edges[e][1]];
-                judge_edge(&s, shot_project(&s, dvec_of(p[0], p[1], p[2])), shot_project(&s, dvec_of(q[0], q[1], q[2])), 12, 8, &v);
+                judge_edge(&s, shot_project(&s, dvec_of(p[0], p[1], p[2])), shot_project(&s, dvec_of(q[0], q[1], q[2])),
+                           12, 8, &v);
             }
-            check_at_most("dash", v.run, 2, "px that a dash or gap differs from the others of its edge, rolled %d", roll);
+            check_at_most("dash", v.run, 2, "px that a dash or gap differs from the others of its edge, rolled %d",
+                          roll);
             check_at_most("dash", v.stretch, 0.12, "most that a pattern is stretched");
             check_at_most("dash", v.ends, 6, "px that the ink at an edge's ends is longer or shorter than half a dash");
         }
@@ -129,7 +136,7 @@ static void runs_along_edges(void)
 
 static void what_stays(void)
 {
-    shot plain, zero, dashed, again, es, one, two;
+    shot  plain, zero, dashed, again, es, one, two;
     shape s = {0};
     torus_of(&s);
     shot_view other = box_view;
@@ -143,15 +150,16 @@ static void what_stays(void)
     if (draw(&es, torus_of, "9", "6", "2", &other) && good)
         check_at_most("GLES", shot_differing(&dashed, &es, 1), 0, "values that differ in the other dialect");
     /* Of two line techniques each has its own dashes: unbroken blue over and under dashed red. */
-    static const char *const pairs[2] = {
-        "[{\"operator\":\"discontinuity\",\"colour\":\"#ff0000\",\"dash\":9},{\"operator\":\"discontinuity\",\"colour\":\"#0000ff\"}]",
-        "[{\"operator\":\"discontinuity\",\"colour\":\"#0000ff\"},{\"operator\":\"discontinuity\",\"colour\":\"#ff0000\",\"dash\":9}]"};
+    static const char *const pairs[2] = {"[{\"operator\":\"discontinuity\",\"colour\":\"#ff0000\",\"dash\":9},{"
+                                         "\"operator\":\"discontinuity\",\"colour\":\"#0000ff\"}]",
+                                         "[{\"operator\":\"discontinuity\",\"colour\":\"#0000ff\"},{\"operator\":"
+                                         "\"discontinuity\",\"colour\":\"#ff0000\",\"dash\":9}]"};
     good = shot_of_shape(&one, &s, "dash.glb", shot_line_look(pairs[0]), NULL, &box_view);
     if (shot_of_shape(&two, &s, "dash.glb", shot_line_look(pairs[1]), NULL, &box_view) && good) {
         int red = 0, blue = 0, lost = 0, mixed = 0;
         for (int i = 0; i < one.width * one.height; i++) {
             const uint8_t *p = &one.picture[4 * i], *q = &two.picture[4 * i];
-            bool ink = plain.picture[4 * i] < 60;
+            bool           ink = plain.picture[4 * i] < 60;
             lost += ink && (p[1] > 60 || q[1] > 60);
             red += ink && q[0] > 200;
             blue += ink && q[2] > 200;
@@ -192,7 +200,10 @@ static void supersampled(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"share", share_of_ink}, {"runs", runs_along_edges}, {"stays", what_stays}, {"samples", supersampled},
+        {"share", share_of_ink},
+        {"runs", runs_along_edges},
+        {"stays", what_stays},
+        {"samples", supersampled},
     };
     int status = check_main(argc, argv, "dash", cases, sizeof cases / sizeof *cases);
     shot_end();

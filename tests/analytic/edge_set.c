@@ -1,5 +1,5 @@
-/* Is the edge set right? True visible feature lines, found on the mesh, against the ink of the look `edges`: at least 98 % of
- * the lines have ink within 1.5 px, at most 2 % of the ink is farther than 2.5 px from every line. */
+/* Is the edge set right? True visible feature lines, found on the mesh, against the ink of the look `edges`: at
+ * least 98 % of the lines have ink within 1.5 px, at most 2 % of the ink is farther than 2.5 px from every line. */
 #include <stdio.h>
 
 #include "check.h"
@@ -22,7 +22,8 @@ static void compare(const char *title, const shape *s, const shot *drawing, bool
     snprintf(path, sizeof path, "%s", check_path("%s.png", title));
     feature_score score = feature_compare(&lines, drawing, path);
     if (judged) {
-        check_at_least("edge set", score.recall, recall_needed, "%s: lines with ink (%zu samples)", title, score.samples);
+        check_at_least("edge set", score.recall, recall_needed, "%s: lines with ink (%zu samples)", title,
+                       score.samples);
         check_at_most("edge set", score.false_ink, false_allowed, "%s: ink without line (%zu px)", title, score.ink);
     } else {
         check_note("%s: recall %.4f, false ink %.4f", title, score.recall, score.false_ink);
@@ -71,7 +72,7 @@ static void cube(void)
 static void stepped_block(void)
 {
     const double edges[] = {-1.4, -1, -0.5, 0, 0.4, 0.9, 1.4}, heights[] = {0.3, 0.8, 1.0, 0.55, 0.25, 0.45};
-    shape s = {0};
+    shape        s = {0};
     shape_steps(&s, "block", edges, heights, 6, 1.2);
     judge("steps", "stl", &s, around, 3);
     judge("steps", "ply", &s, around, 3);
@@ -81,10 +82,15 @@ static void stepped_block(void)
 /* Steps of 1/1000 of the depth range, seen from above so that they are steps of depth, and at an angle. */
 static void fine_steps(void)
 {
-    const double edges[] = {-1.2, -0.8, -0.4, 0, 0.4, 0.8, 1.2}, heights[] = {1.0, 0.502, 0.5, 0.503, 0.5, 0.002};
+    const double    edges[] = {-1.2, -0.8, -0.4, 0, 0.4, 0.8, 1.2}, heights[] = {1.0, 0.502, 0.5, 0.503, 0.5, 0.002};
     const shot_view views[] = {
         {.width = 512, .height = 512, .eye = {0.1, 6, 0.7}, .target = {0, 0, 0.5}, .up = {0, 0, -1}},
-        {.width = 512, .height = 512, .eye = {0.1, 6, 0.7}, .target = {0, 0, 0.5}, .up = {0, 0, -1}, .orthographic = true},
+        {.width = 512,
+         .height = 512,
+         .eye = {0.1, 6, 0.7},
+         .target = {0, 0, 0.5},
+         .up = {0, 0, -1},
+         .orthographic = true},
     };
     shape s = {0};
     shape_steps(&s, "block", edges, heights, 6, 1);
@@ -127,7 +133,12 @@ static void terrain(void)
     const shot_view views[] = {
         {.width = 512, .height = 384, .eye = {0.5, 1.1, 5}, .target = {0, 0.2, 0}, .up = {0, 1, 0}},
         {.width = 512, .height = 384, .eye = {3.4, 0.75, 3}, .target = {0, 0.2, 0}, .up = {0, 1, 0}},
-        {.width = 512, .height = 512, .eye = {-4, 0.9, 1}, .target = {0, 0.2, 0}, .up = {0, 1, 0}, .orthographic = true},
+        {.width = 512,
+         .height = 512,
+         .eye = {-4, 0.9, 1},
+         .target = {0, 0.2, 0},
+         .up = {0, 1, 0},
+         .orthographic = true},
     };
     static const uint32_t seeds[] = {7, 11, 23, 42};
     for (size_t i = 0; i < 4; i++) {
@@ -146,10 +157,14 @@ static void landscapes(void)
     double found = 0, wrong = 0;
     size_t samples = 0, ink = 0;
     for (uint32_t i = 0; i < 12; i++) {
-        const shot_view view = {.width = 400, .height = 300, .eye = {4.5 * sin(i), 0.8 + 0.06 * i, 4.5 * cos(i)}, .target = {0, 0.2, 0},
-                                .up = {0, 1, 0}, .orthographic = i % 3 == 2};
-        shape s = {0};
-        shot  drawing;
+        const shot_view view = {.width = 400,
+                                .height = 300,
+                                .eye = {4.5 * sin(i), 0.8 + 0.06 * i, 4.5 * cos(i)},
+                                .target = {0, 0.2, 0},
+                                .up = {0, 1, 0},
+                                .orthographic = i % 3 == 2};
+        shape           s = {0};
+        shot            drawing;
         shape_terrain(&s, "terrain", 2, 0.3 + 0.1 * (i % 5), 64 + 32 * (int)(i % 4), 100 + 17 * i);
         if (shot_of_shape(&drawing, &s, "landscape.ply", "edges", NULL, &view)) {
             tracer       *t = tracer_create(&s);
@@ -167,8 +182,10 @@ static void landscapes(void)
         shot_release(&drawing);
         shape_release(&s);
     }
-    check_at_least("edge set", samples ? found / (double)samples : 0, recall_needed, "landscapes: lines with ink (%zu samples)", samples);
-    check_at_most("edge set", ink ? wrong / (double)ink : 1, false_allowed, "landscapes: ink without line (%zu px)", ink);
+    check_at_least("edge set", samples ? found / (double)samples : 0, recall_needed,
+                   "landscapes: lines with ink (%zu samples)", samples);
+    check_at_most("edge set", ink ? wrong / (double)ink : 1, false_allowed, "landscapes: ink without line (%zu px)",
+                  ink);
 }
 
 /* Depth and normal Sobel finds the outline and the creases of a cube, all nine edges. */
@@ -177,7 +194,8 @@ static void sobel_cube(void)
     shape s = {0};
     shot  drawing;
     shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
-    if (shot_of_shape(&drawing, &s, "sobel-cube.ply", shot_line_look("{\"operator\":\"sobel\",\"gain\":2,\"threshold\":0.1}"), NULL, &around[0]))
+    if (shot_of_shape(&drawing, &s, "sobel-cube.ply",
+                      shot_line_look("{\"operator\":\"sobel\",\"gain\":2,\"threshold\":0.1}"), NULL, &around[0]))
         compare("sobel-cube", &s, &drawing, true);
     shot_release(&drawing);
     shape_release(&s);
@@ -187,8 +205,8 @@ static void sobel_cube(void)
 static void operators_compared(void)
 {
     static const char *const looks[] = {"four-tap", "sobel", "saito", "saito-normalised", "denormal"};
-    shape boxes = {0}, hills = {0};
-    char  path[2][256], look[256], title[64];
+    shape                    boxes = {0}, hills = {0};
+    char                     path[2][256], look[256], title[64];
     shape_box(&boxes, "first", dvec_of(-1, -0.6, -0.7), dvec_of(0.7, 0.5, 0.6));
     shape_box(&boxes, "second", dvec_of(0, -0.3, -0.3), dvec_of(1.2, 0.9, 0.9));
     shape_terrain(&hills, "terrain", 2, 0.6, 96, 7);
@@ -198,10 +216,12 @@ static void operators_compared(void)
     }
     for (size_t k = 0; k < sizeof looks / sizeof *looks; k++)
         for (int i = 0; i < 2; i++) {
-            shot drawing;
+            shot            drawing;
             const shot_view view = {.width = 384, .height = 384, .eye = {4, 1.5, 5}, .up = {0, 1, 0}};
             snprintf(look, sizeof look,
-                     "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":\"flat\",\"lines\":{\"operator\":\"%s\",\"gain\":4}}]}", looks[k]);
+                     "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":\"flat\",\"lines\":{\"operator\":\"%s\","
+                     "\"gain\":4}}]}",
+                     looks[k]);
             snprintf(title, sizeof title, "%s-%s", looks[k], i ? "terrain" : "boxes");
             if (!shot_take(&drawing, path[i], look, NULL, &view))
                 continue;
@@ -215,8 +235,15 @@ static void operators_compared(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"cube", cube},     {"steps", stepped_block}, {"fine-steps", fine_steps}, {"torus", torus}, {"boxes", interpenetrating_boxes},
-        {"terrain", terrain}, {"landscapes", landscapes}, {"sobel", sobel_cube}, {"compared", operators_compared},
+        {"cube", cube},
+        {"steps", stepped_block},
+        {"fine-steps", fine_steps},
+        {"torus", torus},
+        {"boxes", interpenetrating_boxes},
+        {"terrain", terrain},
+        {"landscapes", landscapes},
+        {"sobel", sobel_cube},
+        {"compared", operators_compared},
     };
     int status = check_main(argc, argv, "edge_set", cases, sizeof cases / sizeof *cases);
     shot_end();

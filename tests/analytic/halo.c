@@ -11,13 +11,16 @@
 
 #define LINES "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"faint\":20,\"crease\":30}"
 
-static const shot_view straight = {.width = 480, .height = 420, .eye = {0, 0, 9}, .up = {0, 1, 0}, .without_maps = true};
+static const shot_view straight = {
+    .width = 480, .height = 420, .eye = {0, 0, 9}, .up = {0, 1, 0}, .without_maps = true};
 
 /* 0 = paper, 1 = black. */
 static double darkness(const shot *s, double x, double y)
 {
     int column = (int)floor(x), row = (int)floor(y);
-    return column < 0 || row < 0 || column >= s->width || row >= s->height ? 0 : 1 - picture_linear(s->picture[4 * (row * s->width + column)]);
+    return column < 0 || row < 0 || column >= s->width || row >= s->height
+               ? 0
+               : 1 - picture_linear(s->picture[4 * (row * s->width + column)]);
 }
 
 static double most_beside(const shot *s, dvec at, double ux, double uy)
@@ -41,7 +44,7 @@ static bool draw(shot *out, const shape *s, const char *halo, const char *width,
     return shot_of_shape(out, s, "halo.glb", shot_line_look(LINES), changes, view);
 }
 
-/* --- a plate before a bar ---------------------------------------------------------------------------------------- */
+/* --- a plate before a bar ------------------------------------------------------------------------------- */
 
 static const double plate_half = 0.3, plate_front = 1.2, bar_half = 0.55;
 
@@ -51,13 +54,17 @@ static void plate_and_bar(shape *s, double bar_front)
     shape_box(s, "bar", dvec_of(-1.9, -bar_half, bar_front - 0.3), dvec_of(1.9, bar_half, bar_front));
 }
 
-/* The paper between the plate's outline and where a line of the bar begins again, along that line. Negative: there is none. */
+/* The paper between the plate's outline and where a line of the bar begins again, along that line. Negative: there
+ * is none. */
 static double gap_of(const shot *s, double bar_front, int side, int line)
 {
     double x = side ? plate_half : -plate_half, y = line ? bar_half : -bar_half;
-    dvec   near_end = shot_project(s, dvec_of(0, y, bar_front)), far_end = shot_project(s, dvec_of(side ? 1.7 : -1.7, y, bar_front));
-    dvec   from = crossing(near_end, far_end, shot_project(s, dvec_of(x, -1, plate_front)), shot_project(s, dvec_of(x, 1, plate_front)));
-    double length = hypot(far_end.x - from.x, far_end.y - from.y), ux = (far_end.x - from.x) / length, uy = (far_end.y - from.y) / length;
+    dvec   near_end = shot_project(s, dvec_of(0, y, bar_front)),
+         far_end = shot_project(s, dvec_of(side ? 1.7 : -1.7, y, bar_front));
+    dvec   from = crossing(near_end, far_end, shot_project(s, dvec_of(x, -1, plate_front)),
+                           shot_project(s, dvec_of(x, 1, plate_front)));
+    double length = hypot(far_end.x - from.x, far_end.y - from.y), ux = (far_end.x - from.x) / length,
+           uy = (far_end.y - from.y) / length;
     double ends = 0, begins = -1;
     for (double along = 0; along < length - 4 && begins < 0; along += 0.125) {
         dvec at = dvec_of(from.x + along * ux, from.y + along * uy, 0);
@@ -80,8 +87,8 @@ typedef struct gap_case {
 static void check_gaps(const gap_case *c)
 {
     shot_view view = straight;
-    shape s = {0};
-    shot  drawing;
+    shape     s = {0};
+    shot      drawing;
     view.up = dvec_of(c->roll, 1, 0);
     view.orthographic = c->orthographic;
     view.samples = c->samples;
@@ -93,8 +100,10 @@ static void check_gaps(const gap_case *c)
             least = fmin(least, gap);
             most = fmax(most, gap);
         }
-        check_near("P35", least, atof(c->halo), 1, "px of gap beside a plate, halo %s px, lines of %s px, bar at %g, rolled %g, %s, %d samples",
-                   c->halo, c->width, c->bar_front, c->roll, c->orthographic ? "parallel" : "perspective", c->samples ? c->samples : 1);
+        check_near("P35", least, atof(c->halo), 1,
+                   "px of gap beside a plate, halo %s px, lines of %s px, bar at %g, rolled %g, %s, %d samples",
+                   c->halo, c->width, c->bar_front, c->roll, c->orthographic ? "parallel" : "perspective",
+                   c->samples ? c->samples : 1);
         check_near("P35", most, atof(c->halo), 1, "  the widest of four");
     }
     shot_release(&drawing);
@@ -115,15 +124,15 @@ static void gaps(void)
                     check_gaps(&(gap_case){halos[h], depth ? "2" : "3", depth ? -6 : 0.7, 0.4, parallel, fine ? 4 : 1});
 }
 
-/* --- what stays -------------------------------------------------------------------------------------------------- */
+/* --- what stays ----------------------------------------------------------------------------------------- */
 
 /* The plate itself, its outline on either side, and whatever is farther away than the halo. */
 static void near_object_stays(void)
 {
     for (int parallel = 0; parallel < 2; parallel++) {
         shot_view view = straight;
-        shape s = {0};
-        shot  plain, haloed;
+        shape     s = {0};
+        shot      plain, haloed;
         view.without_maps = false;
         view.up = dvec_of(0.27, 1, 0);
         view.eye = dvec_of(1.5, 1.1, 9);
@@ -134,7 +143,7 @@ static void near_object_stays(void)
             int on_plate = 0, beside = 0, away = 0, gone = 0;
             for (int y = 0; y < plain.height; y++)
                 for (int x = 0; x < plain.width; x++) {
-                    int i = y * plain.width + x;
+                    int    i = y * plain.width + x;
                     double nearest = 1e9;
                     if (abs(plain.picture[4 * i] - haloed.picture[4 * i]) <= 1)
                         continue;
@@ -142,7 +151,8 @@ static void near_object_stays(void)
                     on_plate += plain.id[i] == 1;
                     for (int v = -12; v <= 12; v++)
                         for (int u = -12; u <= 12; u++)
-                            if (x + u >= 0 && y + v >= 0 && x + u < plain.width && y + v < plain.height && plain.id[(y + v) * plain.width + x + u] == 1)
+                            if (x + u >= 0 && y + v >= 0 && x + u < plain.width && y + v < plain.height &&
+                                plain.id[(y + v) * plain.width + x + u] == 1)
                                 nearest = fmin(nearest, hypot(u, v));
                     beside += nearest < 1.5;
                     away += nearest > 10.5;
@@ -151,7 +161,8 @@ static void near_object_stays(void)
             check_at_most("P35", on_plate, 0, "of them on the near object");
             check_at_most("P35", beside, 0, "of them its outline's own on the farther side");
             check_at_most("P35", away, 0, "of them beyond the halo");
-            check_that("P35", memcmp(plain.edge, haloed.edge, (size_t)plain.width * (size_t)plain.height * 4) == 0, "maps show what was detected");
+            check_that("P35", memcmp(plain.edge, haloed.edge, (size_t)plain.width * (size_t)plain.height * 4) == 0,
+                       "maps show what was detected");
         }
         shot_release(&plain);
         shot_release(&haloed);
@@ -189,22 +200,23 @@ static void add_wedge(shape *s)
 static void convex_bodies_stay(void)
 {
     static void (*const bodies[])(shape *) = {add_sphere, add_coarse_sphere, add_box, add_long_box, add_wedge};
-    static const char *const names[] = {"a sphere", "a coarse sphere", "a box", "a row of houses along the view", "a fold"};
-    static const dvec eyes[] = {{0.3, 0.4, 8}, {4, 3, 6}, {-5, 1, 5}, {0.2, 6, 3}};
+    static const char *const names[] = {"a sphere", "a coarse sphere", "a box", "a row of houses along the view",
+                                        "a fold"};
+    static const dvec        eyes[] = {{0.3, 0.4, 8}, {4, 3, 6}, {-5, 1, 5}, {0.2, 6, 3}};
     for (int b = 0; b < 5; b++)
         for (int e = 0; e < 4; e++)
             for (int parallel = 0; parallel < 2; parallel++) {
                 shot_view view = straight;
-                shape s = {0};
-                shot  plain, haloed;
+                shape     s = {0};
+                shot      plain, haloed;
                 view.eye = eyes[e];
                 view.orthographic = parallel;
                 view.samples = e == 1 ? 4 : 1;
                 bodies[b](&s);
                 bool good = draw(&plain, &s, "0", "2", &view);
                 if (draw(&haloed, &s, "9", "2", &view) && good)
-                    check_at_most("P35", shot_differing(&plain, &haloed, 0), 0, "values of %s that change, eye %d, %s", names[b], e,
-                                  parallel ? "parallel" : "perspective");
+                    check_at_most("P35", shot_differing(&plain, &haloed, 0), 0, "values of %s that change, eye %d, %s",
+                                  names[b], e, parallel ? "parallel" : "perspective");
                 shot_release(&plain);
                 shot_release(&haloed);
                 shape_release(&s);
@@ -215,8 +227,8 @@ static void convex_bodies_stay(void)
 static void same_again(void)
 {
     shot_view other = straight;
-    shape s = {0};
-    shot  plain, zero, run, again, es;
+    shape     s = {0};
+    shot      plain, zero, run, again, es;
     other.es = true;
     plate_and_bar(&s, 0);
     bool good = shot_of_shape(&plain, &s, "halo.glb", shot_line_look(LINES), NULL, &straight);
@@ -235,7 +247,7 @@ static void same_again(void)
     shape_release(&s);
 }
 
-/* --- round outlines ---------------------------------------------------------------------------------------------- */
+/* --- round outlines ------------------------------------------------------------------------------------- */
 
 /* A ball before a larger one: all ink of the larger one's outline by its distance from the nearer one's, a circle. */
 static void balls(void)
@@ -244,19 +256,21 @@ static void balls(void)
     for (int h = 0; h < 3; h++) {
         const double halo = atof(halos[h]), radius = 0.8;
         const dvec   centre = {1.15, 0.5, 2};
-        shot_view view = straight;
-        shape s = {0};
-        shot  plain, haloed;
+        shot_view    view = straight;
+        shape        s = {0};
+        shot         plain, haloed;
         view.orthographic = true;
         shape_sphere(&s, "near", centre, radius, 64, 128, true);
         shape_sphere(&s, "far", dvec_of(0, 0, -1), 1.5, 64, 128, true);
         bool good = draw(&plain, &s, "0", "2", &view);
         if (draw(&haloed, &s, halos[h], "2", &view) && good) {
-            dvec   middle = shot_project(&plain, centre), rim = shot_project(&plain, dvec_of(centre.x + radius, centre.y, centre.z));
-            int    left = 0, changed = 0, within = 0;
+            dvec middle = shot_project(&plain, centre),
+                 rim = shot_project(&plain, dvec_of(centre.x + radius, centre.y, centre.z));
+            int left = 0, changed = 0, within = 0;
             for (int y = 0; y < plain.height; y++)
                 for (int x = 0; x < plain.width; x++) {
-                    double away = hypot(x + 0.5 - middle.x, y + 0.5 - middle.y) - hypot(rim.x - middle.x, rim.y - middle.y);
+                    double away =
+                        hypot(x + 0.5 - middle.x, y + 0.5 - middle.y) - hypot(rim.x - middle.x, rim.y - middle.y);
                     double before = darkness(&plain, x, y), after = darkness(&haloed, x, y);
                     bool   inside = away > 2 && away < halo;
                     within += inside && before > 0.5;
@@ -279,7 +293,8 @@ static void with_overshoot(void)
     shape s = {0};
     shot  plain, haloed;
     plate_and_bar(&s, 0);
-    const char *before[] = {"lines.overshoot", "14", NULL}, *after[] = {"lines.overshoot", "14", "lines.halo", "7", NULL};
+    const char *before[] = {"lines.overshoot", "14", NULL},
+               *after[] = {"lines.overshoot", "14", "lines.halo", "7", NULL};
     bool good = shot_of_shape(&plain, &s, "halo.glb", shot_line_look(LINES), before, &straight);
     if (shot_of_shape(&haloed, &s, "halo.glb", shot_line_look(LINES), after, &straight) && good) {
         int stays = 0;
@@ -287,8 +302,9 @@ static void with_overshoot(void)
             for (int end = 0; end < 2; end++) {
                 dvec low = shot_project(&haloed, dvec_of(side ? 0.3 : -0.3, end ? -1.6 : 1.6, plate_front)),
                      high = shot_project(&haloed, dvec_of(side ? 0.3 : -0.3, end ? 1.6 : -1.6, plate_front));
-                double length = hypot(high.x - low.x, high.y - low.y), ux = (high.x - low.x) / length, uy = (high.y - low.y) / length;
-                bool   same = true;
+                double length = hypot(high.x - low.x, high.y - low.y), ux = (high.x - low.x) / length,
+                       uy = (high.y - low.y) / length;
+                bool same = true;
                 for (double along = length; along < length + 8; along++) {
                     dvec at = dvec_of(low.x + along * ux, low.y + along * uy, 0);
                     same = same && fabs(most_beside(&plain, at, ux, uy) - most_beside(&haloed, at, ux, uy)) < 0.05;
@@ -314,14 +330,18 @@ static void among_others(void)
         shot  drawing;
         snprintf(look, sizeof look,
                  "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":["
-                 "{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"%s\",\"colour\":\"#000000\","
+                 "{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{"
+                 "\"operator\":\"%s\",\"colour\":\"#000000\","
                  "\"gain\":8,\"halo\":8}},"
-                 "{\"select\":\"plate\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"%s\",\"colour\":"
-                 "\"#000000\",\"gain\":8}}]}", operators[o], operators[o]);
+                 "{\"select\":\"plate\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{"
+                 "\"operator\":\"%s\",\"colour\":"
+                 "\"#000000\",\"gain\":8}}]}",
+                 operators[o], operators[o]);
         plate_and_bar(&s, 0);
         if (shot_of_shape(&drawing, &s, "halo.glb", look, NULL, &straight))
             for (int i = 0; i < 4; i++)
-                check_near("P35", gap_of(&drawing, 0, i % 2, i / 2), 8, 1, "px of gap beside what another rule draws, operator %s", operators[o]);
+                check_near("P35", gap_of(&drawing, 0, i % 2, i / 2), 8, 1,
+                           "px of gap beside what another rule draws, operator %s", operators[o]);
         shot_release(&drawing);
         shape_release(&s);
     }
@@ -330,7 +350,8 @@ static void among_others(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"gaps", gaps}, {"near", near_object_stays}, {"convex", convex_bodies_stay}, {"same", same_again}, {"balls", balls}, {"overshoot", with_overshoot}, {"others", among_others},
+        {"gaps", gaps},   {"near", near_object_stays},   {"convex", convex_bodies_stay}, {"same", same_again},
+        {"balls", balls}, {"overshoot", with_overshoot}, {"others", among_others},
     };
     int status = check_main(argc, argv, "halo", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,4 +1,5 @@
-/* hatch on walls whose picture is known: lines against their formulas, their distance and width at any zoom, tone, nesting, unevenness. Seed 001, section 6.7. */
+/* hatch on walls whose picture is known: lines against their formulas, their distance and width at any zoom, tone,
+ * nesting, unevenness. Seed 001, section 6.7. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +29,7 @@ static const char *even(double darkness, const char *settings)
     return hatch_look("0,0,1", "", "\"shadow\":%.9g,\"light\":%.9g,%s", 1 - darkness, 1 - darkness, settings);
 }
 
-/* --- 1: formulas --------------------------------------------------------------------------------------------------- */
+/* --- 1: formulas ---------------------------------------------------------------------------------------- */
 
 static int levels_apart(const shot *s, int x, int y, double cover)
 {
@@ -38,9 +39,13 @@ static int levels_apart(const shot *s, int x, int y, double cover)
 
 static void formulas(void)
 {
-    static const struct { bool by_width; double scale, width, angle, darkness; } rows[] = {
-        {true, 6, 0, 0, 0.3},     {true, 6, 0, 23, 0.05},   {true, 13.7, 0, 90, 0.5},  {true, 4, 0, -45, 0.8},  {true, 9.1, 0, 171, 0.97}, {true, 30, 0, 12, 0.25},
-        {false, 6, 1.2, 0, 0.1},  {false, 6, 1.2, 33, 0.2}, {false, 10, 2.5, -70, 0.5}, {false, 8, 0.7, 45, 0.03}, {false, 6, 1.2, 5, 0.9},  {false, 20, 5, 60, 0.37},
+    static const struct {
+        bool   by_width;
+        double scale, width, angle, darkness;
+    } rows[] = {
+        {true, 6, 0, 0, 0.3},       {true, 6, 0, 23, 0.05},    {true, 13.7, 0, 90, 0.5}, {true, 4, 0, -45, 0.8},
+        {true, 9.1, 0, 171, 0.97},  {true, 30, 0, 12, 0.25},   {false, 6, 1.2, 0, 0.1},  {false, 6, 1.2, 33, 0.2},
+        {false, 10, 2.5, -70, 0.5}, {false, 8, 0.7, 45, 0.03}, {false, 6, 1.2, 5, 0.9},  {false, 20, 5, 60, 0.37},
     };
     shot_view view = hatch_front(160, 1);
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
@@ -48,20 +53,26 @@ static void formulas(void)
         char       settings[256];
         int        worst = 0, apart = 0;
         shot       s;
-        snprintf(settings, sizeof settings, ENDLESS ",\"coordinates\":\"screen\",\"tone_by\":\"%s\",\"scale\":%g,\"angle\":%g%s%.3g", rows[k].by_width ? "width" : "number",
-                 rows[k].scale, rows[k].angle, rows[k].by_width ? ",\"gap\":" : ",\"width\":", rows[k].by_width ? 5 : rows[k].width);
+        snprintf(settings, sizeof settings,
+                 ENDLESS ",\"coordinates\":\"screen\",\"tone_by\":\"%s\",\"scale\":%g,\"angle\":%g%s%.3g",
+                 rows[k].by_width ? "width" : "number", rows[k].scale, rows[k].angle,
+                 rows[k].by_width ? ",\"gap\":" : ",\"width\":", rows[k].by_width ? 5 : rows[k].width);
         double turn = rows[k].angle * pi / 180;
         if (wall_shot(&s, 2, 0, even(rows[k].darkness, settings), &view)) {
             for (int y = 0; y < s.height; y++)
                 for (int x = 0; x < s.width; x++) {
-                    /* Turned about the picture's lower left corner; by floats, lines of an octave may be worked out for the next one where the two are the same. */
+                    /* Turned about the picture's lower left corner; by floats, lines of an octave may be worked out
+                     * for the next one where the two are the same. */
                     double px = x + 0.5, py = s.height - y - 0.5, across = cos(turn) * py - sin(turn) * px;
                     int    off = levels_apart(&s, x, y, hatch_cover(&rule, across, 1, rows[k].darkness));
                     worst = off > worst ? off : worst;
                     apart += off > 2;
                 }
-            check_at_most("IM-21", worst, 2, "by %s, scale %g, width %g, angle %g, darkness %g: levels between picture and formula (%d pixels beyond)",
-                          rows[k].by_width ? "width" : "number", rows[k].scale, rows[k].width, rows[k].angle, rows[k].darkness, apart);
+            check_at_most("IM-21", worst, 2,
+                          "by %s, scale %g, width %g, angle %g, darkness %g: levels between picture and formula (%d "
+                          "pixels beyond)",
+                          rows[k].by_width ? "width" : "number", rows[k].scale, rows[k].width, rows[k].angle,
+                          rows[k].darkness, apart);
         }
         shot_release(&s);
     }
@@ -88,18 +99,21 @@ static double slant_of(const shot *s)
     return fmod(across + 270, 180);
 }
 
-/* Strokes are turned on the surface, against the clock where it is seen from before. Planes through the model turn otherwise, which is only noted. */
+/* Strokes are turned on the surface, against the clock where it is seen from before. Planes through the model turn
+ * otherwise, which is only noted. */
 static void angles(void)
 {
     static const char *const coordinates[] = {"screen", "triplanar", "uv", "axes"};
-    shot_view view = hatch_front(192, 1);
+    shot_view                view = hatch_front(192, 1);
     for (int c = 0; c < 4; c++) {
         double worst = 0, first = 0;
         for (int k = 0; k < 6; k++) {
             char   settings[200];
             double angle = 27 * k;
             shot   s;
-            snprintf(settings, sizeof settings, ENDLESS ",\"tone_by\":\"width\",\"scale\":10,\"coordinates\":\"%s\",\"angle\":%g", coordinates[c], angle);
+            snprintf(settings, sizeof settings,
+                     ENDLESS ",\"tone_by\":\"width\",\"scale\":10,\"coordinates\":\"%s\",\"angle\":%g", coordinates[c],
+                     angle);
             if (wall_shot(&s, 1.5, 0, even(0.3, settings), &view)) {
                 double slant = slant_of(&s);
                 first = k ? first : slant;
@@ -109,24 +123,32 @@ static void angles(void)
             shot_release(&s);
         }
         if (c < 3)
-            check_at_most("angle", worst, 3, "%s: degrees that lines are off when they are turned (3: how well slants are read)", coordinates[c]);
+            check_at_most("angle", worst, 3,
+                          "%s: degrees that lines are off when they are turned (3: how well slants are read)",
+                          coordinates[c]);
         else
             check_note("%s: degrees that lines are off when they are turned: %.1f", coordinates[c], worst);
     }
 }
 
-/* A wall seen at a slant in perspective: octaves change over it. The place and its rate come from rays, not from the picture. */
+/* A wall seen at a slant in perspective: octaves change over it. The place and its rate come from rays, not from
+ * the picture. */
 static void formulas_in_perspective(void)
 {
-    static const struct { bool by_width; double darkness; } rows[] = {{true, 0.3}, {true, 0.7}, {false, 0.15}, {false, 0.5}};
-    shot_view view = {.width = 256, .height = 256, .eye = {3.1, 0.4, 4.2}, .target = {0.2, 0.1, 0}, .up = {0, 1, 0}, .fov_deg = 70};
+    static const struct {
+        bool   by_width;
+        double darkness;
+    } rows[] = {{true, 0.3}, {true, 0.7}, {false, 0.15}, {false, 0.5}};
+    shot_view view = {
+        .width = 256, .height = 256, .eye = {3.1, 0.4, 4.2}, .target = {0.2, 0.1, 0}, .up = {0, 1, 0}, .fov_deg = 70};
     for (int k = 0; k < 4; k++) {
         hatch_rule rule = {rows[k].by_width, 7, 1.5};
         char       settings[256];
         int        apart = 0, inside = 0;
         shot       s;
-        snprintf(settings, sizeof settings, ENDLESS ",\"coordinates\":\"triplanar\",\"tone_by\":\"%s\",\"scale\":7,\"angle\":90%s", rows[k].by_width ? "width" : "number",
-                 rows[k].by_width ? "" : ",\"width\":1.5");
+        snprintf(settings, sizeof settings,
+                 ENDLESS ",\"coordinates\":\"triplanar\",\"tone_by\":\"%s\",\"scale\":7,\"angle\":90%s",
+                 rows[k].by_width ? "width" : "number", rows[k].by_width ? "" : ",\"width\":1.5");
         if (wall_shot(&s, 4, 0, even(rows[k].darkness, settings), &view)) {
             for (int y = 0; y < s.height; y++)
                 for (int x = 0; x < s.width; x++) {
@@ -134,7 +156,7 @@ static void formulas_in_perspective(void)
                     bool   on = !isinf(s.depth[y * s.width + x]);
                     for (int i = 0; i < 5 && on; i++) {
                         static const double step[5][2] = {{0, 0}, {0.01, 0}, {-0.01, 0}, {0, 0.01}, {0, -0.01}};
-                        dvec origin, way;
+                        dvec                origin, way;
                         shot_ray(&s, x + 0.5 + step[i][0], y + 0.5 + step[i][1], &origin, &way);
                         dvec at = dvec_add(origin, dvec_scale(way, -origin.z / way.z));
                         on = fabs(dvec_unit(way).z) > 0.13 && fabs(at.x) < 3.9 && fabs(at.y) < 3.9;
@@ -146,8 +168,10 @@ static void formulas_in_perspective(void)
                     inside++;
                     apart += levels_apart(&s, x, y, hatch_cover(&rule, -places[0], rate, rows[k].darkness)) > 4;
                 }
-            check_at_least("IM-21", inside, 20000, "in perspective, by %s, darkness %g: pixels compared", rows[k].by_width ? "width" : "number", rows[k].darkness);
-            check_at_most("IM-24", (double)apart / inside, 0.005, "  share of them more than 4 levels from the formula");
+            check_at_least("IM-21", inside, 20000, "in perspective, by %s, darkness %g: pixels compared",
+                           rows[k].by_width ? "width" : "number", rows[k].darkness);
+            check_at_most("IM-24", (double)apart / inside, 0.005,
+                          "  share of them more than 4 levels from the formula");
         }
         shot_release(&s);
     }
@@ -179,21 +203,24 @@ static void ball_with_uvs(shape *s)
 static void edges(void)
 {
     shape_part *p;
-    shape     s = {0};
-    shot      ball;
-    shot_view view = hatch_front(320, 1);
+    shape       s = {0};
+    shot        ball;
+    shot_view   view = hatch_front(320, 1);
     ball_with_uvs(&s);
     p = s.parts;
     p->texture = NULL;
     for (int mode = 0; mode < 2; mode++) {
         char settings[200];
-        snprintf(settings, sizeof settings, ENDLESS ",\"coordinates\":\"uv\",\"angle\":90,\"scale\":16,\"shadow\":%g,\"light\":%g,%s", mode ? 0.8 : 0.5, mode ? 0.8 : 0.5,
+        snprintf(settings, sizeof settings,
+                 ENDLESS ",\"coordinates\":\"uv\",\"angle\":90,\"scale\":16,\"shadow\":%g,\"light\":%g,%s",
+                 mode ? 0.8 : 0.5, mode ? 0.8 : 0.5,
                  mode ? "\"tone_by\":\"number\",\"width\":3" : "\"tone_by\":\"width\"");
         if (shot_of_shape(&ball, &s, "ball.glb", hatch_look("0,0,1", "", "%s", settings), NULL, &view))
             for (int latitude = 0; latitude <= 60; latitude += 15) {
-                int    y = 160 - (int)(160 * sin(latitude * pi / 180)), half = (int)(160 * cos(latitude * pi / 180) * 0.8);
+                int y = 160 - (int)(160 * sin(latitude * pi / 180)), half = (int)(160 * cos(latitude * pi / 180) * 0.8);
                 double width = hatch_edge_width(&ball, 160 - half, y > 4 ? y - 4 : 0, 160 + half, y + 4);
-                check_at_least("IM-22", width, 0.7, "by %s, latitude %d: width of edges from 10 to 90 %%, px", mode ? "number" : "width", latitude);
+                check_at_least("IM-22", width, 0.7, "by %s, latitude %d: width of edges from 10 to 90 %%, px",
+                               mode ? "number" : "width", latitude);
                 check_at_most("IM-22", width, 2, "  and");
             }
         shot_release(&ball);
@@ -201,7 +228,7 @@ static void edges(void)
     shape_release(&s);
 }
 
-/* --- 2: zoom ------------------------------------------------------------------------------------------------------- */
+/* --- 2: zoom -------------------------------------------------------------------------------------------- */
 
 /* New lines count as full ones a little before they are: up to 8 % closer than scale / √2. */
 static void zoom(void)
@@ -214,7 +241,8 @@ static void zoom(void)
             shot_view view = hatch_front(192, c == 2 ? fmin(power, k > 0 ? 1000 : 1) : power);
             char      settings[160];
             shot      s;
-            snprintf(settings, sizeof settings, ENDLESS ",\"coordinates\":\"%s\",\"tone_by\":\"width\",\"scale\":12", coordinates[c]);
+            snprintf(settings, sizeof settings, ENDLESS ",\"coordinates\":\"%s\",\"tone_by\":\"width\",\"scale\":12",
+                     coordinates[c]);
             if (wall_shot(&s, size, 0, even(0.3, settings), &view)) {
                 hatch_count n = hatch_count_lines(&s);
                 low = fmin(low, n.period / 12);
@@ -225,7 +253,8 @@ static void zoom(void)
             }
             shot_release(&s);
         }
-        check_at_least("IM-23", low, 0.92 / sqrt(2), "%s, by width, zoom 1e-3 to 1e3: least distance of full lines over the scale", coordinates[c]);
+        check_at_least("IM-23", low, 0.92 / sqrt(2),
+                       "%s, by width, zoom 1e-3 to 1e3: least distance of full lines over the scale", coordinates[c]);
         check_at_most("IM-23", high, 1.03 * sqrt(2), "  the greatest (of all lines %.3f to %.3f)", all_low, all_high);
         check_at_most("IM-23", worst, 0.1, "  largest share that a picture's ink is off");
     }
@@ -239,12 +268,20 @@ static void distance_in_perspective(void)
             double least = INFINITY, most = 0, thin = INFINITY, thick = 0;
             for (int k = 0; k <= 12; k++) {
                 double    distance = pow(2, k / 2.0);
-                shot_view view = {.width = mode == 2 ? 320 : 192, .height = mode == 2 ? 320 : 192, .eye = {0.13, 0.07, distance}, .target = {0.13, 0.07, 0}, .up = {0, 1, 0},
-                                  .fov_deg = 50, .without_maps = true};
+                shot_view view = {.width = mode == 2 ? 320 : 192,
+                                  .height = mode == 2 ? 320 : 192,
+                                  .eye = {0.13, 0.07, distance},
+                                  .target = {0.13, 0.07, 0},
+                                  .up = {0, 1, 0},
+                                  .fov_deg = 50,
+                                  .without_maps = true};
                 char      settings[200];
                 shot      s;
-                snprintf(settings, sizeof settings, "\"coordinates\":\"%s\",\"angle\":3,%s", coordinates[c], /* lines are counted along rows: at slants, pixels repeat */
-                         mode == 0 ? ENDLESS ",\"tone_by\":\"width\",\"scale\":8" : mode == 1 ? ENDLESS ",\"width\":2,\"scale\":6" : NESTED ",\"series\":1,\"width\":2,\"scale\":6,\"length\":110");
+                snprintf(settings, sizeof settings, "\"coordinates\":\"%s\",\"angle\":3,%s",
+                         coordinates[c], /* lines are counted along rows: at slants, pixels repeat */
+                         mode == 0   ? ENDLESS ",\"tone_by\":\"width\",\"scale\":8"
+                         : mode == 1 ? ENDLESS ",\"width\":2,\"scale\":6"
+                                     : NESTED ",\"series\":1,\"width\":2,\"scale\":6,\"length\":110");
                 if (wall_shot(&s, 40, 0, even(0.2, settings), &view)) {
                     hatch_count n = hatch_count_lines(&s);
                     least = fmin(least, n.mean / 0.2);
@@ -255,7 +292,8 @@ static void distance_in_perspective(void)
                 shot_release(&s);
             }
             const char *what = mode == 0 ? "by width" : mode == 1 ? "by number" : "by number in strokes";
-            check_at_least("IM-11", least, 0.85, "%s, %s, distance 1 to 64: least ink over what was asked for", coordinates[c], what);
+            check_at_least("IM-11", least, 0.85, "%s, %s, distance 1 to 64: least ink over what was asked for",
+                           coordinates[c], what);
             check_at_most("IM-11", most, 1.15, "  the greatest");
             if (mode == 0) {
                 check_at_least("IM-23", thin, 0.92 / sqrt(2), "  least distance of full lines over the scale");
@@ -269,7 +307,8 @@ static void distance_in_perspective(void)
         }
 }
 
-/* Strokes counted along lines that are all of one octave: what lies between two gaps is as long as is said, in the mean. */
+/* Strokes counted along lines that are all of one octave: what lies between two gaps is as long as is said, in the
+ * mean. */
 static void lengths(void)
 {
     shot_view view = hatch_front(320, 1.25);
@@ -279,7 +318,10 @@ static void lengths(void)
         double length = 40 * pow(2, k / 8.0), covered = 1 - (3 + 0.01) / length;
         char   settings[240];
         shot   s;
-        snprintf(settings, sizeof settings, NESTED ",\"series\":1,\"coordinates\":\"triplanar\",\"width\":4,\"gap\":3,\"taper\":0.01,\"length\":%.9g", length);
+        snprintf(settings, sizeof settings,
+                 NESTED
+                 ",\"series\":1,\"coordinates\":\"triplanar\",\"width\":4,\"gap\":3,\"taper\":0.01,\"length\":%.9g",
+                 length);
         if (wall_shot(&s, 1.5, 0, even(0.2501 * covered, settings), &view))
             for (int y = 8; y < 312; y++) {
                 double row = hatch_mean(&s, 0, y, 320, y + 1);
@@ -302,10 +344,11 @@ static void lengths(void)
         shot_release(&s);
     }
     check_at_least("IM-11", gaps, 1000, "strokes counted");
-    check_near("IM-11", way / (gaps ? gaps : 1), 1, 0.15, "  their mean length over what was asked for (%.2f to %.2f)", shortest, longest);
+    check_near("IM-11", way / (gaps ? gaps : 1), 1, 0.15, "  their mean length over what was asked for (%.2f to %.2f)",
+               shortest, longest);
 }
 
-/* --- 3: tone ------------------------------------------------------------------------------------------------------- */
+/* --- 3: tone -------------------------------------------------------------------------------------------- */
 
 typedef struct ramp_case {
     const char *what, *settings;
@@ -315,7 +358,8 @@ typedef struct ramp_case {
 
 static const ramp_case ramps[] = {
     {"by width, endless", ENDLESS ",\"tone_by\":\"width\",\"scale\":7,\"angle\":11", 0.01, true},
-    {"by width, endless, crossed", "\"length\":0," NESTED ",\"tone_by\":\"width\",\"scale\":7,\"series\":2,\"angle\":11", 0.02, true},
+    {"by width, endless, crossed",
+     "\"length\":0," NESTED ",\"tone_by\":\"width\",\"scale\":7,\"series\":2,\"angle\":11", 0.02, true},
     {"by number, endless", ENDLESS ",\"angle\":11", 0.02, true},
     {"by number, strokes, series 1", "\"series\":1,\"angle\":11", 0.05, false},
     {"by number, strokes, series 2", "\"series\":2,\"angle\":11", 0.05, false},
@@ -352,7 +396,8 @@ static void ramp(void)
             }
             shot_release(&s);
         }
-        check_at_most("IM-24", worst, ramps[r].tolerance, "%s: largest error of the ink%s (where %.3f was asked for)", ramps[r].what, ramps[r].ends ? "" : " up to 0.8", where);
+        check_at_most("IM-24", worst, ramps[r].tolerance, "%s: largest error of the ink%s (where %.3f was asked for)",
+                      ramps[r].what, ramps[r].ends ? "" : " up to 0.8", where);
         check_at_most("IM-25", back, 0.002, "  most by which ink grows with light");
         check_at_most("IM-25", full, 0, "  ink in full light");
         check_at_least("IM-25", first, ramps[r].ends ? 0.999 : 0.7, "  ink without light");
@@ -373,23 +418,30 @@ static void tone_parameters(void)
         for (int c = 0; c < 3; c++)
             wall.parts[0].colour[c] = own;
         wall.parts[0].colour[3] = 1;
-        if (shot_of_shape(&s, &wall, "own.glb", hatch_look("0,0,1", "", "\"texture\":1,\"shadow\":0,\"light\":1,%s", ramps[0].settings), NULL, &view))
+        if (shot_of_shape(&s, &wall, "own.glb",
+                          hatch_look("0,0,1", "", "\"texture\":1,\"shadow\":0,\"light\":1,%s", ramps[0].settings), NULL,
+                          &view))
             worst = fmax(worst, fabs(hatch_mean(&s, 0, 0, 192, 192) - (1 - k / 8.0)));
         shot_release(&s);
         shape_release(&wall);
     }
     check_at_most("tone", worst, 0.015, "texture 1: largest error of the ink over nine greys");
-    static const struct { const char *light, *settings; double wanted; } rows[] = {
+    static const struct {
+        const char *light, *settings;
+        double      wanted;
+    } rows[] = {
         {"0,0,-1", "\"shadow\":-0.3,\"light\":1," ENDLESS, 1},
         {"0,0,-1", "\"shadow\":-1,\"light\":1,\"tone_by\":\"width\"," ENDLESS, 1},
         {"0,0,-1", "\"shadow\":-1,\"light\":1,\"tone_by\":\"width\",\"length\":0," NESTED ",\"series\":3", 1},
-        {"0.8,0,0.6", "\"shadow\":-0.2,\"light\":1.2,\"tone_by\":\"width\",\"angle\":11," ENDLESS, 1 - (-0.2 + 1.4 * 0.6)},
+        {"0.8,0,0.6", "\"shadow\":-0.2,\"light\":1.2,\"tone_by\":\"width\",\"angle\":11," ENDLESS,
+         1 - (-0.2 + 1.4 * 0.6)},
         {"0.8,0,0.6", "\"shadow\":0,\"light\":1,\"contrast\":2,\"tone_by\":\"width\",\"angle\":11," ENDLESS, 1 - 0.36},
         {"0.8,0,0.6", "\"shadow\":0,\"light\":2,\"tone_by\":\"width\"," ENDLESS, 0},
     };
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         if (wall_shot(&s, 1.5, 0, hatch_look(rows[k].light, "", "%s", rows[k].settings), &view))
-            check_near("tone", hatch_mean(&s, 0, 0, 192, 192), rows[k].wanted, 0.01, "light from %s, %.40s: ink", rows[k].light, rows[k].settings);
+            check_near("tone", hatch_mean(&s, 0, 0, 192, 192), rows[k].wanted, 0.01, "light from %s, %.40s: ink",
+                       rows[k].light, rows[k].settings);
         shot_release(&s);
     }
 }
@@ -401,7 +453,10 @@ static void polarity(void)
     shot      light, dark;
     for (int mode = 0; mode < 2; mode++) {
         const char *tail = mode ? "\"tone_by\":\"number\"," ENDLESS : "\"tone_by\":\"width\"," ENDLESS;
-        bool ok = wall_shot(&light, 2, 0, hatch_look("0,0,1", "", "\"ink\":\"#ffffff\",\"paper\":\"#000000\",\"shadow\":0.3,\"light\":0.3,%s", tail), &view);
+        bool        ok = wall_shot(
+                   &light, 2, 0,
+                   hatch_look("0,0,1", "", "\"ink\":\"#ffffff\",\"paper\":\"#000000\",\"shadow\":0.3,\"light\":0.3,%s", tail),
+                   &view);
         if (wall_shot(&dark, 2, 0, hatch_look("0,0,1", "", "\"shadow\":0.7,\"light\":0.7,%s", tail), &view) && ok) {
             double worst = 0;
             for (int y = 0; y < 160; y++)
@@ -418,7 +473,9 @@ static void polarity(void)
 /* Each lighter picture's ink is also in the darker one. */
 static void nesting(void)
 {
-    static const struct { const char *what, *settings; } rows[] = {
+    static const struct {
+        const char *what, *settings;
+    } rows[] = {
         {"by width", ENDLESS ",\"tone_by\":\"width\",\"angle\":11"},
         {"by number", ENDLESS ",\"angle\":11"},
         {"by width, crossed", "\"length\":0," NESTED ",\"tone_by\":\"width\",\"series\":3"},
@@ -447,26 +504,31 @@ static void nesting(void)
             shot_release(&before);
         }
         shot_release(&now);
-        check_at_most("nesting", (double)lost / (pixels ? pixels : 1), 0, "%s, 25 tones: share of pixels whose ink gets less when it gets darker (by %.3f at most)", rows[r].what, worst);
+        check_at_most("nesting", (double)lost / (pixels ? pixels : 1), 0,
+                      "%s, 25 tones: share of pixels whose ink gets less when it gets darker (by %.3f at most)",
+                      rows[r].what, worst);
     }
 }
 
-/* --- 4: borders ---------------------------------------------------------------------------------------------------- */
+/* --- 4: borders ----------------------------------------------------------------------------------------- */
 
 /* A floor in perspective: ink by its distance, and steps from one stripe to the next. */
 static void no_octave_border(void)
 {
-    static const char *const settings[] = {ENDLESS ",\"tone_by\":\"width\",\"coordinates\":\"triplanar\"", ENDLESS ",\"coordinates\":\"triplanar\"",
-                                           ENDLESS ",\"tone_by\":\"width\",\"coordinates\":\"axes\"", ENDLESS ",\"coordinates\":\"axes\"",
-                                           NESTED ",\"series\":1,\"coordinates\":\"axes\",\"length\":40,\"gap\":3,\"taper\":8"};
-    shot_view view = {.width = 320, .height = 320, .eye = {0, 0.3, 0.9}, .target = {0, 0, -0.6}, .up = {0, 1, 0}, .fov_deg = 60};
+    static const char *const settings[] = {
+        ENDLESS ",\"tone_by\":\"width\",\"coordinates\":\"triplanar\"", ENDLESS ",\"coordinates\":\"triplanar\"",
+        ENDLESS ",\"tone_by\":\"width\",\"coordinates\":\"axes\"", ENDLESS ",\"coordinates\":\"axes\"",
+        NESTED ",\"series\":1,\"coordinates\":\"axes\",\"length\":40,\"gap\":3,\"taper\":8"};
+    shot_view view = {
+        .width = 320, .height = 320, .eye = {0, 0.3, 0.9}, .target = {0, 0, -0.6}, .up = {0, 1, 0}, .fov_deg = 60};
     for (int k = 0; k < 5; k++) {
         shape floor = {0};
         shot  s;
         hatch_wall(&floor, 8, 0);
         shape_place(&floor, dvec_of(1, 0, 0), -90, dvec_of(0, 0, 0));
         char look[300];
-        snprintf(look, sizeof look, "%s,\"scale\":4,\"angle\":%d%s", settings[k], k < 2 ? 37 : 0, strstr(settings[k], "width\"") ? "" : ",\"width\":1.3");
+        snprintf(look, sizeof look, "%s,\"scale\":4,\"angle\":%d%s", settings[k], k < 2 ? 37 : 0,
+                 strstr(settings[k], "width\"") ? "" : ",\"width\":1.3");
         if (shot_of_shape(&s, &floor, "floor.glb", even(0.35, look), NULL, &view)) {
             double worst = 0, step = 0, last = -1;
             int    bands = 0;
@@ -489,7 +551,7 @@ static void no_octave_border(void)
     }
 }
 
-/* --- 5: unevenness ------------------------------------------------------------------------------------------------- */
+/* --- 5: unevenness -------------------------------------------------------------------------------------- */
 
 /* One line followed over all columns: how far its middle strays, and the mean distance between lines. */
 static double straying(const shot *s, double *spacing)
@@ -526,7 +588,8 @@ static double straying(const shot *s, double *spacing)
     return count ? sqrt(fmax(0, squares / count - sum * sum / count / count)) : 0;
 }
 
-/* Mean ink of a tone over several places and times, so that what noise does to one of them evens out; on fine lines, whose waves are short. */
+/* Mean ink of a tone over several places and times, so that what noise does to one of them evens out; on fine
+ * lines, whose waves are short. */
 static double mean_over_places(double darkness, const char *settings, double first_time)
 {
     double sum = 0;
@@ -536,7 +599,8 @@ static double mean_over_places(double darkness, const char *settings, double fir
         shot      s;
         view.time_s = first_time + 0.37 * k;
         view.eye.x = view.target.x = 3.1 * (k - 2.5);
-        snprintf(all, sizeof all, "\"length\":0,\"series\":1,\"loose\":0,\"tone_by\":\"width\",\"scale\":2.5,%s", settings);
+        snprintf(all, sizeof all, "\"length\":0,\"series\":1,\"loose\":0,\"tone_by\":\"width\",\"scale\":2.5,%s",
+                 settings);
         if (wall_shot(&s, 10, 0, even(darkness, all), &view))
             sum += hatch_mean(&s, 0, 0, 320, 320) / 6;
         shot_release(&s);
@@ -551,20 +615,28 @@ static void unevenness(void)
     for (int k = 0; k < 2; k++) {
         char settings[300];
         shot s;
-        snprintf(settings, sizeof settings, "\"length\":0,\"series\":1,\"loose\":0,\"wobble\":0,\"uneven\":%g,\"tone_by\":\"width\",\"scale\":8,\"coordinates\":\"triplanar\",\"angle\":3", k ? 0.8 : 0.0);
+        snprintf(settings, sizeof settings,
+                 "\"length\":0,\"series\":1,\"loose\":0,\"wobble\":0,\"uneven\":%g,\"tone_by\":\"width\",\"scale\":8,"
+                 "\"coordinates\":\"triplanar\",\"angle\":3",
+                 k ? 0.8 : 0.0);
         if (wall_shot(&s, 1.5, 0, even(0.4, settings), &view)) {
             hatch_count n = hatch_count_lines(&s);
             deviation[k] = n.deviation;
         }
         shot_release(&s);
-        snprintf(settings, sizeof settings, "\"length\":0,\"series\":1,\"loose\":0,\"uneven\":0,\"wobble\":%g,\"tone_by\":\"width\",\"scale\":12,\"coordinates\":\"triplanar\"", k ? 0.5 : 0.0);
+        snprintf(settings, sizeof settings,
+                 "\"length\":0,\"series\":1,\"loose\":0,\"uneven\":0,\"wobble\":%g,\"tone_by\":\"width\",\"scale\":12,"
+                 "\"coordinates\":\"triplanar\"",
+                 k ? 0.5 : 0.0);
         if (wall_shot(&s, 1.5, 0, even(0.3, settings), &view))
             stray[k] = straying(&s, &spacing[k]);
         shot_release(&s);
     }
-    check_at_least("IM-26", deviation[1] - deviation[0], 0.15, "uneven 0.8: how much more the width of lines varies than without (%.3f px)", deviation[0]);
+    check_at_least("IM-26", deviation[1] - deviation[0], 0.15,
+                   "uneven 0.8: how much more the width of lines varies than without (%.3f px)", deviation[0]);
     check_near("IM-26", mean_over_places(0.4, "\"wobble\":0,\"uneven\":0.5", 0), 0.4, 0.02 * 0.4, "  ink of 0.4");
-    check_near("IM-27", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0", 0), 0.4, 0.02 * 0.4, "wobble 0.5: ink of 0.4");
+    check_near("IM-27", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0", 0), 0.4, 0.02 * 0.4,
+               "wobble 0.5: ink of 0.4");
     check_at_most("IM-27", stray[0], 0.02, "wobble 0: how far the middle of a line strays, px");
     check_at_least("IM-27", stray[1], 0.5, "wobble 0.5 of 12 px: the same");
     check_near("IM-27", spacing[1] / spacing[0], 1, 0.03, "  mean distance of lines over that without");
@@ -575,13 +647,16 @@ static void change(void)
 {
     shot_view view = hatch_front(256, 1);
     view.without_maps = false;
-    double difference[3], correlation[3];
+    double              difference[3], correlation[3];
     static const double rates[] = {0, 0.5, 60};
     for (int k = 0; k < 3; k++) {
         char settings[300];
         shot a, b;
         view.time_s = 1;
-        snprintf(settings, sizeof settings, "\"length\":0,\"series\":1,\"loose\":0,\"wobble\":0.8,\"uneven\":0.5,\"scale\":8,\"tone_by\":\"width\",\"change\":%g", rates[k]);
+        snprintf(settings, sizeof settings,
+                 "\"length\":0,\"series\":1,\"loose\":0,\"wobble\":0.8,\"uneven\":0.5,\"scale\":8,\"tone_by\":"
+                 "\"width\",\"change\":%g",
+                 rates[k]);
         bool ok = wall_shot(&a, 1.5, 0, even(0.4, settings), &view);
         view.time_s = 1.04;
         if (wall_shot(&b, 1.5, 0, even(0.4, settings), &view) && ok) {
@@ -596,16 +671,29 @@ static void change(void)
     check_at_most("IM-31", difference[1], 0.1 * difference[2], "change 0.5: the same; a tenth of that at 60");
     check_at_least("IM-31", correlation[1], 0.95, "  correlation of the two");
     check_at_most("IM-31", correlation[2], 0.4, "change 60: correlation of the two");
-    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":0.5", 1), 0.4, 0.02 * 0.4, "  ink of 0.4 at change 0.5");
-    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":60", 1), 0.4, 0.02 * 0.4, "  at 60");
+    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":0.5", 1), 0.4, 0.02 * 0.4,
+               "  ink of 0.4 at change 0.5");
+    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":60", 1), 0.4, 0.02 * 0.4,
+               "  at 60");
 }
 
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"formulas", formulas}, {"perspective", formulas_in_perspective}, {"angles", angles}, {"edges", edges},   {"zoom", zoom},           {"distance", distance_in_perspective},
-        {"lengths", lengths}, {"ramp", ramp},         {"tone", tone_parameters},                {"polarity", polarity}, {"nesting", nesting},     {"borders", no_octave_border},
-        {"uneven", unevenness}, {"change", change},
+        {"formulas", formulas},
+        {"perspective", formulas_in_perspective},
+        {"angles", angles},
+        {"edges", edges},
+        {"zoom", zoom},
+        {"distance", distance_in_perspective},
+        {"lengths", lengths},
+        {"ramp", ramp},
+        {"tone", tone_parameters},
+        {"polarity", polarity},
+        {"nesting", nesting},
+        {"borders", no_octave_border},
+        {"uneven", unevenness},
+        {"change", change},
     };
     int status = check_main(argc, argv, "hatch", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,5 +1,5 @@
-/* hatch from frame to frame, from path to path and on unusual models: strokes stay on the surface, nothing pops, all ways of drawing give one picture. Seed 001,
- * rows EX-09, IM-06, IM-26, IM-27. */
+/* hatch from frame to frame, from path to path and on unusual models: strokes stay on the surface, nothing pops,
+ * all ways of drawing give one picture. Seed 001, rows EX-09, IM-06, IM-26, IM-27. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,22 +24,27 @@ static bool model_shot(shot *out, const char *look, const shot_view *view)
 static shot_view view_at(double degrees, double distance)
 {
     double angle = degrees * pi / 180;
-    return (shot_view){.width = 240, .height = 192, .eye = {distance * sin(angle), 0.35 * distance, distance * cos(angle)}, .up = {0, 1, 0}};
+    return (shot_view){.width = 240,
+                       .height = 192,
+                       .eye = {distance * sin(angle), 0.35 * distance, distance * cos(angle)},
+                       .up = {0, 1, 0}};
 }
 
-/* --- frames -------------------------------------------------------------------------------------------------------- */
+/* --- frames --------------------------------------------------------------------------------------------- */
 
 typedef struct motion {
     const char *what;
     double      turn, approach, light; /* degrees, share, degrees a frame */
 } motion;
 
-static const motion motions[] = {{"turning by 0.5 degrees", 0.5, 0, 0}, {"approaching by 1 %", 0, 0.01, 0}, {"light turning by 1 degree", 0, 0, 1}};
+static const motion motions[] = {
+    {"turning by 0.5 degrees", 0.5, 0, 0}, {"approaching by 1 %", 0, 0.01, 0}, {"light turning by 1 degree", 0, 0, 1}};
 
 /* Lights are given as the viewer sees them; this one stays where it is. */
 static dvec seen_from(const shot_view *view, dvec direction)
 {
-    dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back)), up = dvec_cross(back, right);
+    dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back)),
+         up = dvec_cross(back, right);
     return dvec_of(dvec_dot(right, direction), dvec_dot(up, direction), dvec_dot(back, direction));
 }
 
@@ -69,15 +74,23 @@ static hatch_change largest_change(const motion *m, const char *settings, int fr
     return most;
 }
 
-/* Smoothed, a pixel changes by more than a quarter where an edge moves by about as much of a pixel. When the viewer turns by half a degree or comes nearer by a hundredth, rates on
- * the page change by a hundredth or two, and lines of 3 px get wider or thinner by 3 px · ln 2 · 0.02 = 0.04 px: only tips, and places where planes hand over, may change as
- * much: 0.3 % of what is seen, and twice that where patches have borders. With the light, darkness changes by 0.0175 at most, which is all the ink there is to change pixels by a quarter with: 7 % if it were all in
- * new lines, and a tenth of that when lines only grow. */
+/* Smoothed, a pixel changes by more than a quarter where an edge moves by about as much of a pixel. When the viewer
+ * turns by half a degree or comes nearer by a hundredth, rates on the page change by a hundredth or two, and lines
+ * of 3 px get wider or thinner by 3 px · ln 2 · 0.02 = 0.04 px: only tips, and places where planes hand over, may
+ * change as much: 0.3 % of what is seen, and twice that where patches have borders. With the light, darkness
+ * changes by 0.0175 at most, which is all the ink there is to change pixels by a quarter with: 7 % if it were all
+ * in new lines, and a tenth of that when lines only grow. */
 static void frames(void)
 {
-    static const struct { const char *what, *settings; int frames; double limit; } rows[] = {
+    static const struct {
+        const char *what, *settings;
+        int         frames;
+        double      limit;
+    } rows[] = {
         {"by number, endless", "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1," WIDE, 2, 0.003},
-        {"by width, endless", "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"tone_by\":\"width\",\"scale\":12", 2, 0.003},
+        {"by width, endless",
+         "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"tone_by\":\"width\",\"scale\":12", 2,
+         0.003},
         {"by number, strokes", WIDE, 2, 0.003},
         {"by number, strokes, curvature", "\"coordinates\":\"curvature\"," WIDE, 2, 0.006},
         {"by number, strokes, lapped", "\"coordinates\":\"lapped\"," WIDE, 2, 0.006},
@@ -86,15 +99,18 @@ static void frames(void)
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
         for (int m = 0; m < (rows[r].limit > 0.003 ? 2 : 3); m++) {
             hatch_change c = largest_change(&motions[m], rows[r].settings, rows[r].frames);
-            check_at_most("EX-09", c.changed, m == 2 ? 0.007 : rows[r].limit, "%s, %s: share of pixels that change by more than a quarter", rows[r].what, motions[m].what);
-            check_at_most("EX-09", c.block, 0.06, "  largest change of the ink of 16 x 16 px (correlation %.3f, %d pixels)", c.correlation, c.pixels);
+            check_at_most("EX-09", c.changed, m == 2 ? 0.007 : rows[r].limit,
+                          "%s, %s: share of pixels that change by more than a quarter", rows[r].what, motions[m].what);
+            check_at_most("EX-09", c.block, 0.06,
+                          "  largest change of the ink of 16 x 16 px (correlation %.3f, %d pixels)", c.correlation,
+                          c.pixels);
         }
 }
 
 /* Larger steps, against lines that are fixed to the picture (the shower door). */
 static void shower_door(void)
 {
-    static const motion far[] = {{"turning by 3 degrees", 3, 0, 0}, {"approaching by 6 %", 0, 0.06, 0}};
+    static const motion      far[] = {{"turning by 3 degrees", 3, 0, 0}, {"approaching by 6 %", 0, 0.06, 0}};
     static const char *const coordinates[] = {"axes", "triplanar", "curvature"};
     for (int m = 0; m < 2; m++) {
         hatch_change door = largest_change(&far[m], "\"coordinates\":\"screen\"," WIDE, 2);
@@ -102,20 +118,27 @@ static void shower_door(void)
             char settings[160];
             snprintf(settings, sizeof settings, "\"coordinates\":\"%s\"," WIDE, coordinates[k]);
             hatch_change c = largest_change(&far[m], settings, 2);
-            check_at_most("EX-09", c.changed, 0.25 * door.changed, "%s, %s: share of pixels that change, against a quarter of that on the screen", coordinates[k], far[m].what);
-            check_at_least("EX-09", c.correlation, 0.9, "  correlation of the frames (on the screen %.3f)", door.correlation);
+            check_at_most("EX-09", c.changed, 0.25 * door.changed,
+                          "%s, %s: share of pixels that change, against a quarter of that on the screen",
+                          coordinates[k], far[m].what);
+            check_at_least("EX-09", c.correlation, 0.9, "  correlation of the frames (on the screen %.3f)",
+                           door.correlation);
         }
     }
 }
 
-/* A wall that grows on the page by an octave, one frame at a time: lines and strokes get their names and their places from the octave that brought them, and keep them. Nothing
- * changes all at once where one octave takes over from another. */
+/* A wall that grows on the page by an octave, one frame at a time: lines and strokes get their names and their
+ * places from the octave that brought them, and keep them. Nothing changes all at once where one octave takes over
+ * from another. */
 static void octaves(void)
 {
     enum { STEPS = 28 };
-    static const struct { const char *what, *settings; } rows[] = {
+    static const struct {
+        const char *what, *settings;
+    } rows[] = {
         {"by number, strokes", "\"series\":1,\"loose\":0.5,\"scale\":12,\"width\":3,\"length\":50,\"wobble\":0.2"},
-        {"by width, strokes", "\"series\":1,\"loose\":0.5,\"tone_by\":\"width\",\"scale\":12,\"length\":50,\"wobble\":0.2"},
+        {"by width, strokes",
+         "\"series\":1,\"loose\":0.5,\"tone_by\":\"width\",\"scale\":12,\"length\":50,\"wobble\":0.2"},
     };
     for (int r = 0; r < 2; r++) {
         double most = 0, mean = 0, block = 0, sum = 0;
@@ -127,7 +150,10 @@ static void octaves(void)
             hatch_wall(&s, 3, 0);
             before = now;
             memset(&now, 0, sizeof now);
-            if (shot_of_shape(&now, &s, "wall.glb", hatch_look("0,0,1", "", "\"shadow\":0.7,\"light\":0.7,%s", rows[r].settings), NULL, &view) && before.picture) {
+            if (shot_of_shape(&now, &s, "wall.glb",
+                              hatch_look("0,0,1", "", "\"shadow\":0.7,\"light\":0.7,%s", rows[r].settings), NULL,
+                              &view) &&
+                before.picture) {
                 hatch_change c = hatch_compare(&now, &before);
                 most = fmax(most, c.changed);
                 mean = fmax(mean, c.mean);
@@ -138,18 +164,25 @@ static void octaves(void)
             shape_release(&s);
         }
         shot_release(&now);
-        check_at_most("EX-09", most, 0.02, "%s, an octave in %d steps of 2.5 %%: largest share of pixels that change by more than a quarter", rows[r].what, STEPS);
+        check_at_most("EX-09", most, 0.02,
+                      "%s, an octave in %d steps of 2.5 %%: largest share of pixels that change by more than a quarter",
+                      rows[r].what, STEPS);
         check_at_most("EX-09", mean, 3 * sum, "  largest mean change, against three times that of all steps");
         check_at_most("EX-09", block, 0.15, "  largest change of the ink of 16 x 16 px, 0.06 a per cent");
     }
 }
 
-/* What wavers and what is uneven goes with the object: seen in parallel, from a place that is a whole number of pixels aside, the model's picture is the same, moved. */
+/* What wavers and what is uneven goes with the object: seen in parallel, from a place that is a whole number of
+ * pixels aside, the model's picture is the same, moved. */
 static void fixed(void)
 {
-    static const char *const settings[] = {"\"wobble\":0.6,\"uneven\":0,\"length\":0,\"series\":1,\"tone_by\":\"width\"", "\"wobble\":0,\"uneven\":0.8,\"length\":0,\"series\":1,\"tone_by\":\"width\"",
-                                           "\"wobble\":0.6,\"uneven\":0.8", "\"wobble\":0.6,\"uneven\":0.8,\"coordinates\":\"triplanar\"",
-                                           "\"wobble\":0.6,\"uneven\":0.8,\"coordinates\":\"lapped\"", "\"wobble\":0.6,\"uneven\":0.8,\"coordinates\":\"screen\""};
+    static const char *const settings[] = {
+        "\"wobble\":0.6,\"uneven\":0,\"length\":0,\"series\":1,\"tone_by\":\"width\"",
+        "\"wobble\":0,\"uneven\":0.8,\"length\":0,\"series\":1,\"tone_by\":\"width\"",
+        "\"wobble\":0.6,\"uneven\":0.8",
+        "\"wobble\":0.6,\"uneven\":0.8,\"coordinates\":\"triplanar\"",
+        "\"wobble\":0.6,\"uneven\":0.8,\"coordinates\":\"lapped\"",
+        "\"wobble\":0.6,\"uneven\":0.8,\"coordinates\":\"screen\""};
     enum { SIDE = 192, ASIDE = 24 };
     for (size_t k = 0; k < sizeof settings / sizeof *settings; k++) {
         shot_view view = hatch_front(SIDE, 2), moved;
@@ -159,7 +192,7 @@ static void fixed(void)
         moved = view;
         moved.eye.x = moved.target.x = ASIDE * 4.0 / SIDE;
         const char *look = hatch_look("0.5,0.6,0.6", "", "%s", settings[k]);
-        bool ok = model_shot(&a, look, &view);
+        bool        ok = model_shot(&a, look, &view);
         if (model_shot(&b, look, &moved) && ok)
             for (int y = 0; y < SIDE; y++)
                 for (int x = 0; x + ASIDE < SIDE; x++) {
@@ -171,7 +204,8 @@ static void fixed(void)
                 }
         double share = inside ? (double)apart / inside : 1;
         if (strstr(settings[k], "screen"))
-            check_at_least("IM-27", share, 0.05, "%s: share of pixels that are others when the viewer moves aside", settings[k]);
+            check_at_least("IM-27", share, 0.05, "%s: share of pixels that are others when the viewer moves aside",
+                           settings[k]);
         else
             check_at_most("IM-27", share, 0.005, "%s: the same", settings[k]);
         shot_release(&a);
@@ -179,7 +213,7 @@ static void fixed(void)
     }
 }
 
-/* --- paths --------------------------------------------------------------------------------------------------------- */
+/* --- paths ---------------------------------------------------------------------------------------------- */
 
 static double share_apart(const shot *a, const shot *b, int tolerance)
 {
@@ -195,19 +229,23 @@ static double share_apart(const shot *a, const shot *b, int tolerance)
 
 static void paths(void)
 {
-    static const char *const settings[] = {"\"tone_by\":\"number\"", "\"tone_by\":\"width\",\"length\":0", "\"coordinates\":\"triplanar\"", "\"coordinates\":\"screen\"",
-                                           "\"coordinates\":\"lapped\"", "\"inks\":\"cmyk\",\"texture\":1"};
-    shot_view view = view_at(30, 7), es = view;
+    static const char *const settings[] = {"\"tone_by\":\"number\"",        "\"tone_by\":\"width\",\"length\":0",
+                                           "\"coordinates\":\"triplanar\"", "\"coordinates\":\"screen\"",
+                                           "\"coordinates\":\"lapped\"",    "\"inks\":\"cmyk\",\"texture\":1"};
+    shot_view                view = view_at(30, 7), es = view;
     es.es = true;
     for (size_t k = 0; k < sizeof settings / sizeof *settings; k++) {
-        const char *forward = hatch_look("0.5,0.6,0.6", "\"layers\":{\"technique\":\"front\",\"shading\":\"forward\"},", "%s", settings[k]);
-        const char *deferred = hatch_look("0.5,0.6,0.6", "\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"},", "%s", settings[k]);
+        const char *forward = hatch_look("0.5,0.6,0.6", "\"layers\":{\"technique\":\"front\",\"shading\":\"forward\"},",
+                                         "%s", settings[k]);
+        const char *deferred = hatch_look(
+            "0.5,0.6,0.6", "\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"},", "%s", settings[k]);
         shot first, later, other, again;
         bool ok = model_shot(&first, forward, &view);
         ok = model_shot(&other, forward, &es) && ok;
         ok = model_shot(&later, deferred, &view) && ok;
         if (model_shot(&again, forward, &view) && ok) {
-            check_at_most("deferred", share_apart(&first, &later, 8), 0.003, "%s, forward against deferred: share of pixels more than 8 levels apart", settings[k]);
+            check_at_most("deferred", share_apart(&first, &later, 8), 0.003,
+                          "%s, forward against deferred: share of pixels more than 8 levels apart", settings[k]);
             check_at_most("ES", share_apart(&first, &other, 8), 0.003, "  GL against ES: the same");
             check_at_most("same", shot_differing(&first, &again, 0), 0, "  twice: values that differ");
         }
@@ -221,11 +259,13 @@ static void paths(void)
 /* Lines are as far apart and as wide whatever the number of samples. */
 static void samples(void)
 {
-    static const int counts[] = {1, 4, 16};
-    static const char *const settings[] = {"\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"scale\":12,\"tone_by\":\"width\"",
-                                           "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"scale\":8,\"width\":2.5",
-                                           "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"scale\":12,\"tone_by\":\"width\",\"coordinates\":\"screen\",\"angle\":20",
-                                           "\"length\":60,\"series\":2"};
+    static const int         counts[] = {1, 4, 16};
+    static const char *const settings[] = {
+        "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"scale\":12,\"tone_by\":\"width\"",
+        "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"scale\":8,\"width\":2.5",
+        "\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"series\":1,\"scale\":12,\"tone_by\":\"width\","
+        "\"coordinates\":\"screen\",\"angle\":20",
+        "\"length\":60,\"series\":2"};
     for (int k = 0; k < 4; k++) {
         hatch_count n[3];
         for (int i = 0; i < 3; i++) {
@@ -234,14 +274,16 @@ static void samples(void)
             shot_view view = hatch_front(192, 1);
             view.samples = counts[i];
             hatch_wall(&s, 1.5, 0);
-            if (shot_of_shape(&drawing, &s, "wall.glb", hatch_look("0,0,1", "", "\"shadow\":0.7,\"light\":0.7,%s", settings[k]), NULL, &view))
+            if (shot_of_shape(&drawing, &s, "wall.glb",
+                              hatch_look("0,0,1", "", "\"shadow\":0.7,\"light\":0.7,%s", settings[k]), NULL, &view))
                 n[i] = hatch_count_lines(&drawing);
             shot_release(&drawing);
             shape_release(&s);
         }
         for (int i = 1; i < 3; i++) {
             if (k < 3)
-                check_near("IM-06", n[i].period / n[0].period, 1, 0.03, "%.60s, %d samples: distance of lines over that with one", settings[k], counts[i]);
+                check_near("IM-06", n[i].period / n[0].period, 1, 0.03,
+                           "%.60s, %d samples: distance of lines over that with one", settings[k], counts[i]);
             if (k < 3)
                 check_near("IM-06", n[i].width, n[0].width, 0.15, "  their width");
             check_near("IM-06", n[i].mean / n[0].mean, 1, 0.02, "  ink over that with one");
@@ -249,7 +291,7 @@ static void samples(void)
     }
 }
 
-/* --- parts --------------------------------------------------------------------------------------------------------- */
+/* --- parts ---------------------------------------------------------------------------------------------- */
 
 /* Mean of the ink less what the light asks for, over all pixels of the model but its rims. */
 static double tone_error(const shot *s, dvec light, double *wanted)
@@ -271,17 +313,31 @@ static double tone_error(const shot *s, dvec light, double *wanted)
 static void check_tone(const char *what, const shape *s, const char *settings, const shot_view *view, double limit)
 {
     shot drawing;
-    if (shot_of_shape(&drawing, s, "parts.glb", hatch_look("0.3,0.5,0.8", "", "\"shadow\":0.3,\"light\":0.9,%s", settings), NULL, view)) {
+    if (shot_of_shape(&drawing, s, "parts.glb",
+                      hatch_look("0.3,0.5,0.8", "", "\"shadow\":0.3,\"light\":0.9,%s", settings), NULL, view)) {
         double wanted, error = tone_error(&drawing, dvec_of(0.3, 0.5, 0.8), &wanted);
-        check_at_most("parts", fabs(error) / wanted, limit, "%s: share that the ink is off (%.3f was asked for)", what, wanted);
+        check_at_most("parts", fabs(error) / wanted, limit, "%s: share that the ink is off (%.3f was asked for)", what,
+                      wanted);
         check_at_most("parts", hatch_odd_pixels(&drawing), 0, "  pixels that are not grey or not solid");
     }
     shot_release(&drawing);
 }
 
-typedef enum oddity { ODD_NONE, ODD_MIRRORED, ODD_STRETCHED, ODD_TURNED, ODD_TINY, ODD_HUGE, ODD_FAR, ODD_FLAT, ODD_COUNT } oddity;
+typedef enum oddity {
+    ODD_NONE,
+    ODD_MIRRORED,
+    ODD_STRETCHED,
+    ODD_TURNED,
+    ODD_TINY,
+    ODD_HUGE,
+    ODD_FAR,
+    ODD_FLAT,
+    ODD_COUNT
+} oddity;
 
-static const char *const oddity_names[ODD_COUNT] = {"as it is", "mirrored", "stretched", "turned", "a millionth", "a million times", "far from the middle", "with a part of no size"};
+static const char *const oddity_names[ODD_COUNT] = {
+    "as it is",    "mirrored",        "stretched",           "turned",
+    "a millionth", "a million times", "far from the middle", "with a part of no size"};
 
 static void make_odd(shape *s, oddity kind)
 {
@@ -295,7 +351,9 @@ static void make_odd(shape *s, oddity kind)
         p->has_matrix = true;
         for (int k = 0; k < 16; k++)
             if (k % 4 < 3)
-                p->matrix[k] *= scale * (k % 4 == 0 && kind == ODD_MIRRORED ? -1 : k % 4 == 1 && kind == ODD_STRETCHED ? 0.6 : 1);
+                p->matrix[k] *= scale * (k % 4 == 0 && kind == ODD_MIRRORED    ? -1
+                                         : k % 4 == 1 && kind == ODD_STRETCHED ? 0.6
+                                                                               : 1);
         if (kind == ODD_FAR)
             p->matrix[12] += 300;
         if (kind == ODD_FLAT && i == 2)
@@ -313,8 +371,11 @@ static void make_odd(shape *s, oddity kind)
 
 static void parts(void)
 {
-    static const char *const settings[] = {"\"length\":0,\"tone_by\":\"width\",\"scale\":5", "\"length\":110", "\"coordinates\":\"curvature\",\"length\":0,\"tone_by\":\"width\",\"scale\":5",
-                                           "\"coordinates\":\"lapped\",\"length\":0,\"tone_by\":\"width\",\"scale\":5", "\"coordinates\":\"triplanar\",\"length\":0,\"tone_by\":\"width\",\"scale\":5"};
+    static const char *const settings[] = {
+        "\"length\":0,\"tone_by\":\"width\",\"scale\":5", "\"length\":110",
+        "\"coordinates\":\"curvature\",\"length\":0,\"tone_by\":\"width\",\"scale\":5",
+        "\"coordinates\":\"lapped\",\"length\":0,\"tone_by\":\"width\",\"scale\":5",
+        "\"coordinates\":\"triplanar\",\"length\":0,\"tone_by\":\"width\",\"scale\":5"};
     for (int kind = 0; kind < ODD_COUNT; kind++)
         for (int k = 0; k < 5; k++) {
             double    size = kind == ODD_TINY ? 1e-6 : kind == ODD_HUGE ? 1e6 : 1;
@@ -339,7 +400,8 @@ static void parts(void)
 static void check_inside(const char *what, const shape *s, const char *settings, const shot_view *view)
 {
     shot drawing;
-    if (shot_of_shape(&drawing, s, "inside.glb", hatch_look("0,0,1", "", "\"shadow\":0.6,\"light\":0.6,%s", settings), NULL, view)) {
+    if (shot_of_shape(&drawing, s, "inside.glb", hatch_look("0,0,1", "", "\"shadow\":0.6,\"light\":0.6,%s", settings),
+                      NULL, view)) {
         int seen = 0;
         for (int i = 0; i < drawing.width * drawing.height; i++)
             seen += !isinf(drawing.depth[i]);
@@ -357,9 +419,9 @@ static void meshes(void)
     for (int c = 0; c < 5; c++)
         for (int kind = 0; kind < 5; kind++) {
             static const char *const names[] = {"ball", "hills", "sheet", "broken", "eye inside"};
-            shot_view view = {.width = 192, .height = 192, .eye = {1.2, 2.4, 2.8}, .up = {0, 1, 0}};
-            shape     s = {0};
-            char      settings[160], what[80];
+            shot_view                view = {.width = 192, .height = 192, .eye = {1.2, 2.4, 2.8}, .up = {0, 1, 0}};
+            shape                    s = {0};
+            char                     settings[160], what[80];
             if (kind == 0)
                 shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
             else if (kind == 1)
@@ -376,7 +438,10 @@ static void meshes(void)
                 view.eye = dvec_of(2, 0, 0);
                 view.target = dvec_of(1.6, 0.1, -1);
             }
-            snprintf(settings, sizeof settings, "\"coordinates\":\"%s\",\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"tone_by\":\"width\",\"scale\":5", coordinates[c]);
+            snprintf(settings, sizeof settings,
+                     "\"coordinates\":\"%s\",\"length\":0,\"wobble\":0,\"uneven\":0,\"loose\":0,\"tone_by\":\"width\","
+                     "\"scale\":5",
+                     coordinates[c]);
             snprintf(what, sizeof what, "%s, %s", names[kind], coordinates[c]);
             if (kind < 4)
                 check_tone(what, &s, settings, &view, 0.06);
@@ -389,14 +454,17 @@ static void meshes(void)
 /* One mesh at two nodes, one of them mirrored and turned, and a node without size. */
 static void instances(void)
 {
-    static const char *const text =
-        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2,3]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[2.5,0,0],\"scale\":[-1,1,1]},"
-        "{\"mesh\":0,\"translation\":[0,2.5,0],\"rotation\":[0,0,0.3826834,0.9238795],\"scale\":[1,0.5,1]},{\"mesh\":0,\"scale\":[0,0,0]}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\","
-        "\"min\":[-1,-1,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":72}],\"buffers\":[{\"byteLength\":72,\"uri\":\"two.bin\"}]}";
-    static const float corners[6][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    char  path[512];
-    FILE *file = fopen(check_path("two.bin"), "wb");
+    static const char *const text = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2,3]}],"
+                                    "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[2.5,0,0],\"scale\":[-1,1,1]},"
+                                    "{\"mesh\":0,\"translation\":[0,2.5,0],\"rotation\":[0,0,0.3826834,0.9238795],"
+                                    "\"scale\":[1,0.5,1]},{\"mesh\":0,\"scale\":[0,0,0]}],"
+                                    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+                                    "\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\","
+                                    "\"min\":[-1,-1,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":"
+                                    "72}],\"buffers\":[{\"byteLength\":72,\"uri\":\"two.bin\"}]}";
+    static const float       corners[6][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    char                     path[512];
+    FILE                    *file = fopen(check_path("two.bin"), "wb");
     fwrite(corners, sizeof corners, 1, file);
     fclose(file);
     snprintf(path, sizeof path, "%s", check_path("two.gltf"));
@@ -407,7 +475,12 @@ static void instances(void)
     static const char *const coordinates[] = {"axes", "triplanar", "uv", "curvature", "lapped"};
     for (int c = 0; c < 5; c++) {
         shot s;
-        if (shot_take(&s, path, hatch_look("0,0,1", "", "\"shadow\":0.6,\"light\":0.6,\"coordinates\":\"%s\",\"length\":0,\"series\":1,\"tone_by\":\"width\",\"scale\":4,\"wobble\":0,\"uneven\":0", coordinates[c]), NULL, &view))
+        if (shot_take(&s, path,
+                      hatch_look("0,0,1", "",
+                                 "\"shadow\":0.6,\"light\":0.6,\"coordinates\":\"%s\",\"length\":0,\"series\":1,\"tone_"
+                                 "by\":\"width\",\"scale\":4,\"wobble\":0,\"uneven\":0",
+                                 coordinates[c]),
+                      NULL, &view))
             check_near("parts", hatch_mean_inside(&s), 0.4, 0.024, "instances, %s: ink", coordinates[c]);
         shot_release(&s);
     }
@@ -416,7 +489,8 @@ static void instances(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"frames", frames}, {"door", shower_door}, {"octaves", octaves}, {"fixed", fixed}, {"paths", paths}, {"samples", samples}, {"parts", parts}, {"meshes", meshes}, {"instances", instances},
+        {"frames", frames},   {"door", shower_door}, {"octaves", octaves}, {"fixed", fixed},         {"paths", paths},
+        {"samples", samples}, {"parts", parts},      {"meshes", meshes},   {"instances", instances},
     };
     int status = check_main(argc, argv, "hatch_coherence", cases, sizeof cases / sizeof *cases);
     shot_end();

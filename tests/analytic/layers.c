@@ -1,4 +1,5 @@
-/* Depth layers against all surfaces that rays find: order, completeness, where they end, what their edge maps are made of. */
+/* Depth layers against all surfaces that rays find: order, completeness, where they end, what their edge maps are
+ * made of. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +34,7 @@ static const char *layered_look(const char *layers, const char *lines)
     return text;
 }
 
-/* --- against rays ------------------------------------------------------------------------------------------------ */
+/* --- against rays --------------------------------------------------------------------------------------- */
 
 /* Layers follow each other: none begins behind an empty one, none lies before the last. */
 static void check_order(const char *title, const shot *s)
@@ -56,23 +57,28 @@ static void check_order(const char *title, const shot *s)
         }
     check_at_most("B01", holes, 0, "%s: pixels of a layer behind an empty one", title);
     /* Layers are ordered by window depth; eye depth is written beside it with roundings of its own. */
-    if (!check_at_most("B01", back, 1e-6, "%s: how far a layer lies before the last, as a share (%d pixels)", title, turned))
-        check_note("worst at %d, %d: layer %d has part %d at %.9g, layer %d part %d at %.9g", at % s->width, at / s->width, layer - 1,
-                   s->layers[layer - 1].id[at], (double)s->layers[layer - 1].depth[at], layer, s->layers[layer].id[at],
-                   (double)s->layers[layer].depth[at]);
+    if (!check_at_most("B01", back, 1e-6, "%s: how far a layer lies before the last, as a share (%d pixels)", title,
+                       turned))
+        check_note("worst at %d, %d: layer %d has part %d at %.9g, layer %d part %d at %.9g", at % s->width,
+                   at / s->width, layer - 1, s->layers[layer - 1].id[at], (double)s->layers[layer - 1].depth[at], layer,
+                   s->layers[layer].id[at], (double)s->layers[layer].depth[at]);
     check_at_most("B01", inconsistent, 0, "%s: pixels whose maps do not agree about whether anything is there", title);
 }
 
 static void check_score(const char *title, const stack_score *c)
 {
-    double all = (double)c->right / (double)c->pixels, sharp = (double)c->right_sharp / (double)(c->sharp ? c->sharp : 1);
+    double all = (double)c->right / (double)c->pixels,
+           sharp = (double)c->right_sharp / (double)(c->sharp ? c->sharp : 1);
     check_at_least("B01", (double)c->sharp / (double)c->pixels, 0.9, "%s: share of pixels whose answer is sure", title);
-    if (!check_at_least("B01", sharp, 0.999, "%s: share of them at which every layer is the surface that the ray finds (of all pixels: %.5f)",
-                        title, all))
+    if (!check_at_least(
+            "B01", sharp, 0.999,
+            "%s: share of them at which every layer is the surface that the ray finds (of all pixels: %.5f)", title,
+            all))
         check_note("first wrong pixel %d, %d in layer %d", c->x, c->y, c->layer);
     if (c->right_sharp < c->sharp)
-        check_note("%zu wrong: %zu count, %zu id, %zu depth, %zu normal, %zu holes; first %d, %d in layer %d", c->sharp - c->right_sharp,
-                   c->wrong_count, c->wrong_id, c->wrong_depth, c->wrong_normal, c->holes, c->x, c->y, c->layer);
+        check_note("%zu wrong: %zu count, %zu id, %zu depth, %zu normal, %zu holes; first %d, %d in layer %d",
+                   c->sharp - c->right_sharp, c->wrong_count, c->wrong_id, c->wrong_depth, c->wrong_normal, c->holes,
+                   c->x, c->y, c->layer);
     check_at_most("B01", fabs((double)c->drawn - (double)c->hits) / (double)(c->hits ? c->hits : 1), 0.001,
                   "%s: surfaces skipped or drawn twice, of %zu", title, c->hits);
     check_note("largest errors: depth %.3g, normal %.3g", c->depth_error, c->normal_error);
@@ -84,17 +90,19 @@ static size_t differing_layers(const shot *a, const shot *b)
     int    layers = a->layer_count < b->layer_count ? a->layer_count : b->layer_count;
     for (int k = 0; k < layers; k++)
         for (size_t i = 0; i < count; i++) {
-            if (memcmp(&a->layers[k].depth[i], &b->layers[k].depth[i], sizeof(float)) == 0 && a->layers[k].id[i] == b->layers[k].id[i])
+            if (memcmp(&a->layers[k].depth[i], &b->layers[k].depth[i], sizeof(float)) == 0 &&
+                a->layers[k].id[i] == b->layers[k].id[i])
                 continue;
             if (++differ <= 3)
-                check_note("layer %d at %d, %d: part %d at %.9g by %s, part %d at %.9g by %s", k, (int)i % a->width, (int)i / a->width,
-                           a->layers[k].id[i], (double)a->layers[k].depth[i], a->layer_producer, b->layers[k].id[i],
-                           (double)b->layers[k].depth[i], b->layer_producer);
+                check_note("layer %d at %d, %d: part %d at %.9g by %s, part %d at %.9g by %s", k, (int)i % a->width,
+                           (int)i / a->width, a->layers[k].id[i], (double)a->layers[k].depth[i], a->layer_producer,
+                           b->layers[k].id[i], (double)b->layers[k].depth[i], b->layer_producer);
         }
     return differ;
 }
 
-/* Lists may keep normals and colours in less than floats: the largest differences of normals, of edges and shades in levels. */
+/* Lists may keep normals and colours in less than floats: the largest differences of normals, of edges and shades
+ * in levels. */
 static void differ_beside(const shot *a, const shot *b, double out[3], size_t *edges)
 {
     int layers = a->layer_count < b->layer_count ? a->layer_count : b->layer_count;
@@ -103,9 +111,12 @@ static void differ_beside(const shot *a, const shot *b, double out[3], size_t *e
     for (int k = 0; k < layers; k++)
         for (int i = 0; i < a->width * a->height; i++) {
             int edge = 0;
-            out[0] = fmax(out[0], dvec_length(dvec_sub(dvec_from(a->layers[k].normal[i]), dvec_from(b->layers[k].normal[i]))));
+            out[0] = fmax(out[0],
+                          dvec_length(dvec_sub(dvec_from(a->layers[k].normal[i]), dvec_from(b->layers[k].normal[i]))));
             for (int c = 4 * i; c < 4 * i + 4; c++) {
-                edge = abs(a->layers[k].edge[c] - b->layers[k].edge[c]) > edge ? abs(a->layers[k].edge[c] - b->layers[k].edge[c]) : edge;
+                edge = abs(a->layers[k].edge[c] - b->layers[k].edge[c]) > edge
+                           ? abs(a->layers[k].edge[c] - b->layers[k].edge[c])
+                           : edge;
                 out[2] = fmax(out[2], abs(a->layers[k].shade[c] - b->layers[k].shade[c]));
             }
             out[1] = fmax(out[1], edge);
@@ -115,13 +126,15 @@ static void differ_beside(const shot *a, const shot *b, double out[3], size_t *e
 
 static void compare_producers(const char *title, const shot *peeled, const shot *listed)
 {
-    check_that("B01", strcmp(peeled->layer_producer, "peeling") == 0, "%s: made by peeling when asked for (%s)", title, peeled->layer_producer);
+    check_that("B01", strcmp(peeled->layer_producer, "peeling") == 0, "%s: made by peeling when asked for (%s)", title,
+               peeled->layer_producer);
     if (strcmp(listed->layer_producer, "lists") != 0) {
         check_note("%s: no lists here, drawn by %s", title, listed->layer_producer);
         return;
     }
     check_near("B01", listed->layer_count, peeled->layer_count, 0, "%s: layers by lists and by peeling", title);
-    check_at_most("B01", (double)differing_layers(peeled, listed), 0, "%s: values of depth and id that differ between the producers", title);
+    check_at_most("B01", (double)differing_layers(peeled, listed), 0,
+                  "%s: values of depth and id that differ between the producers", title);
     double largest[3];
     size_t edges;
     differ_beside(peeled, listed, largest, &edges);
@@ -134,15 +147,16 @@ static void compare_producers(const char *title, const shot *peeled, const shot 
         pictures += difference > 2;
         worst = difference > worst ? difference : worst;
     }
-    check_at_most("B01", pictures / (4.0 * peeled->width * peeled->height), 0.001, "%s: share of bytes of the picture that differ by more than 2 (at most by %d)",
-                  title, worst);
+    check_at_most("B01", pictures / (4.0 * peeled->width * peeled->height), 0.001,
+                  "%s: share of bytes of the picture that differ by more than 2 (at most by %d)", title, worst);
 }
 
 /* Without an end, there are as many layers as the deepest pixel has surfaces. */
 static void check_end(const char *title, const shot *s, const stack_map *m)
 {
     check_that("B03", s->layers_drawn >= (int)m->most_sharp && s->layers_drawn <= (int)m->most,
-               "%s: %d layers drawn; the deepest pixel has %zu surfaces (%zu where it is sure)", title, s->layers_drawn, m->most, m->most_sharp);
+               "%s: %d layers drawn; the deepest pixel has %zu surfaces (%zu where it is sure)", title, s->layers_drawn,
+               m->most, m->most_sharp);
     check_near("B03", s->layer_count, s->layers_drawn, 0, "%s: layers with maps", title);
     check_that("B03", !shot_has_warning(s, "layer-memory"), "%s: nothing was too large", title);
 }
@@ -150,17 +164,17 @@ static void check_end(const char *title, const shot *s, const stack_map *m)
 static void draw_and_compare(scene_kind kind, uint32_t seed, const shot_view *view)
 {
     static const char *const producers[] = {"peeling", "lists"};
-    shape s = {0};
-    shot  drawn[2] = {{0}, {0}};
-    char  title[64], layers[64];
-    bool  ok = true;
+    shape                    s = {0};
+    shot                     drawn[2] = {{0}, {0}};
+    char                     title[64], layers[64];
+    bool                     ok = true;
     scene_make(&s, kind, seed);
     tracer   *t = tracer_create(&s);
     stack_map map = {0};
     for (int p = 0; p < (view->es ? 1 : 2) && ok; p++) {
         snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\"", view->es ? "auto" : producers[p]);
-        snprintf(title, sizeof title, "%s %u%s%s, %s", scene_names[kind], seed, view->orthographic ? " parallel" : "", view->es ? " ES" : "",
-                 view->es ? "auto" : producers[p]);
+        snprintf(title, sizeof title, "%s %u%s%s, %s", scene_names[kind], seed, view->orthographic ? " parallel" : "",
+                 view->es ? " ES" : "", view->es ? "auto" : producers[p]);
         ok = shot_of_shape(&drawn[p], &s, "layers.glb", layered_look(layers, edge_lines), NULL, view);
         if (!ok)
             break;
@@ -196,11 +210,17 @@ static void dialects(void)
     }
 }
 
-/* --- what coincides ---------------------------------------------------------------------------------------------- */
+/* --- what coincides ------------------------------------------------------------------------------------- */
 
-static const shot_view straight = {.width = 96, .height = 96, .eye = {0.013, 0.007, 8}, .target = {0.013, 0.007, 0}, .up = {0, 1, 0}, .orthographic = true};
+static const shot_view straight = {.width = 96,
+                                   .height = 96,
+                                   .eye = {0.013, 0.007, 8},
+                                   .target = {0.013, 0.007, 0},
+                                   .up = {0, 1, 0},
+                                   .orthographic = true};
 
-static void coincident_case(const char *title, const shape *s, const char *producer, int layers, const int *ids, const int *facing)
+static void coincident_case(const char *title, const shape *s, const char *producer, int layers, const int *ids,
+                            const int *facing)
 {
     shot drawing;
     char text[64];
@@ -250,7 +270,7 @@ static void what_coincides(void)
     }
 }
 
-/* --- where it ends ----------------------------------------------------------------------------------------------- */
+/* --- where it ends -------------------------------------------------------------------------------------- */
 
 static int first_differing(const shot *few, const shot *all)
 {
@@ -266,19 +286,23 @@ static void counts(void)
 {
     for (int producer = 0; producer < 2; producer++) {
         const char *name = producer ? "lists" : "peeling";
-        shape s = {0};
-        shot  all, few;
-        char  layers[64];
+        shape       s = {0};
+        shot        all, few;
+        char        layers[64];
         scene_make(&s, SCENE_CROSSING, 4);
         snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\"", name);
         if (shot_of_shape(&all, &s, "counts.glb", layered_look(layers, NULL), NULL, &views[0])) {
-            for (int wanted = 1; wanted <= all.layers_drawn + 1; wanted += wanted < 3 ? 1 : all.layers_drawn - 3 > 2 ? (all.layers_drawn - 2) / 2 : 1) {
+            for (int wanted = 1; wanted <= all.layers_drawn + 1; wanted += wanted < 3 ? 1
+                                                                           : all.layers_drawn - 3 > 2
+                                                                               ? (all.layers_drawn - 2) / 2
+                                                                               : 1) {
                 snprintf(layers, sizeof layers, "\"count\":%d,\"producer\":\"%s\"", wanted, name);
                 if (!shot_of_shape(&few, &s, "counts.glb", layered_look(layers, NULL), NULL, &views[0]))
                     continue;
-                check_near("B03", few.layers_drawn, wanted < all.layers_drawn ? wanted : all.layers_drawn, 0, "layers with count %d of %d, %s",
-                           wanted, all.layers_drawn, name);
-                check_near("B03", first_differing(&few, &all), -1, 0, "  first layer that is not the one without a limit");
+                check_near("B03", few.layers_drawn, wanted < all.layers_drawn ? wanted : all.layers_drawn, 0,
+                           "layers with count %d of %d, %s", wanted, all.layers_drawn, name);
+                check_near("B03", first_differing(&few, &all), -1, 0,
+                           "  first layer that is not the one without a limit");
                 shot_release(&few);
             }
         }
@@ -302,7 +326,8 @@ static double mean_difference(const shot *a, const shot *b, double *share)
     return sum / count;
 }
 
-/* The layers that a fraction leaves: up to and with the first that covers less of the picture. 0: too close to call. */
+/* The layers that a fraction leaves: up to and with the first that covers less of the picture. 0: too close to
+ * call. */
 static int layers_of_fraction(const stack_map *m, double fraction)
 {
     double pixels = (double)m->width * m->height;
@@ -326,20 +351,28 @@ static void fractions(void)
         scene_make(&s, (scene_kind)kind, 11);
         tracer   *t = tracer_create(&s);
         stack_map map = {0};
-        if (shot_of_shape(&all, &s, "fraction.glb", layered_look(kind % 2 ? "\"count\":0,\"producer\":\"lists\"" : "\"count\":0,\"producer\":\"peeling\"", NULL), NULL, &views[kind])) {
+        if (shot_of_shape(
+                &all, &s, "fraction.glb",
+                layered_look(kind % 2 ? "\"count\":0,\"producer\":\"lists\"" : "\"count\":0,\"producer\":\"peeling\"",
+                             NULL),
+                NULL, &views[kind])) {
             stack_map_make(&map, t, &all);
             for (size_t f = 0; f < sizeof tried / sizeof *tried; f++) {
                 char   layers[80];
                 int    wanted = layers_of_fraction(&map, tried[f]);
                 double share;
-                snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"fraction\":%g", kind % 2 ? "lists" : "peeling", tried[f]);
-                if (!wanted || !shot_of_shape(&some, &s, "fraction.glb", layered_look(layers, NULL), NULL, &views[kind]))
+                snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"fraction\":%g",
+                         kind % 2 ? "lists" : "peeling", tried[f]);
+                if (!wanted ||
+                    !shot_of_shape(&some, &s, "fraction.glb", layered_look(layers, NULL), NULL, &views[kind]))
                     continue;
                 judged++;
-                check_near("B05", some.layers_drawn, wanted, 0, "%s, fraction %g: layers drawn of %zu", scene_names[kind], tried[f], map.most);
+                check_near("B05", some.layers_drawn, wanted, 0, "%s, fraction %g: layers drawn of %zu",
+                           scene_names[kind], tried[f], map.most);
                 double mean = mean_difference(&all, &some, &share);
                 check_at_most("B05", share, tried[f], "  share of pixels that differ from the picture of all layers");
-                check_at_most("B05", mean, tried[f] * pow(0.5, some.layers_drawn) + 0.004, "  mean difference of linear colour");
+                check_at_most("B05", mean, tried[f] * pow(0.5, some.layers_drawn) + 0.004,
+                              "  mean difference of linear colour");
                 shot_release(&some);
             }
         }
@@ -351,7 +384,7 @@ static void fractions(void)
     }
 }
 
-/* --- depth mask -------------------------------------------------------------------------------------------------- */
+/* --- depth mask ----------------------------------------------------------------------------------------- */
 
 /* Of the mask's pixels, the share at which layer k − 1 does not hide it. */
 static double uncovered_by(const trace_map *mask, const stack_map *rest, size_t k)
@@ -381,8 +414,8 @@ static int layers_to_uncover(const trace_map *mask, const stack_map *rest, doubl
 static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const shot_view *view, int *judged)
 {
     static const double shares[] = {0.2, 0.4, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
-    shape s = {0};
-    shot  drawing;
+    shape               s = {0};
+    shot                drawing;
     scene_make(&s, kind, seed);
     tracer   *rest = tracer_of_parts(&s, prefix, false), *named = tracer_of_parts(&s, prefix, true);
     stack_map map = {0};
@@ -393,8 +426,8 @@ static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const sh
         int  wanted = map.first ? layers_to_uncover(&mask, &map, shares[i]) : -1;
         if (wanted == 0 || wanted == last)
             continue;
-        snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"focus\":\"%s*\",\"focus_share\":%g", i % 2 ? "lists" : "peeling",
-                 prefix, shares[i]);
+        snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"focus\":\"%s*\",\"focus_share\":%g",
+                 i % 2 ? "lists" : "peeling", prefix, shares[i]);
         snprintf(title, sizeof title, "%s %u, %s to %g", scene_names[kind], seed, prefix, shares[i]);
         if (!shot_of_shape(&drawing, &s, "mask.glb", layered_look(layers, NULL), NULL, view))
             break;
@@ -405,10 +438,12 @@ static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const sh
         }
         if (wanted > 0) {
             (*judged)++;
-            check_near("B09", drawing.layers_drawn, wanted, 0, "%s: layers drawn; they uncover %.3f, one less %.3f", title,
-                       uncovered_by(&mask, &map, (size_t)wanted), wanted > 1 ? uncovered_by(&mask, &map, (size_t)wanted - 1) : 0);
+            check_near("B09", drawing.layers_drawn, wanted, 0, "%s: layers drawn; they uncover %.3f, one less %.3f",
+                       title, uncovered_by(&mask, &map, (size_t)wanted),
+                       wanted > 1 ? uncovered_by(&mask, &map, (size_t)wanted - 1) : 0);
             stack_score score = stack_compare(&map, rest, &drawing, (size_t)wanted);
-            check_at_least("B09", (double)score.right_sharp / (double)score.sharp, 0.999, "%s: share of pixels with the right layers, without the focus", title);
+            check_at_least("B09", (double)score.right_sharp / (double)score.sharp, 0.999,
+                           "%s: share of pixels with the right layers, without the focus", title);
             last = wanted;
         }
         shot_release(&drawing);
@@ -432,7 +467,7 @@ static void masks(void)
     check_at_least("B09", judged, 8, "masks whose answer is sure");
 }
 
-/* --- edges of each layer ----------------------------------------------------------------------------------------- */
+/* --- edges of each layer -------------------------------------------------------------------------------- */
 
 typedef twin_value (*twin_function)(const twin_map *m, int x, int y);
 
@@ -464,7 +499,10 @@ static void edges_against_twins(void)
             double worst = 0;
             int    off = 0, ink = 0, at[3] = {0, 0, 0};
             scene_make(&s, c % 2 ? SCENE_OPEN : SCENE_CROSSING, 31 + (uint32_t)c);
-            if (shot_of_shape(&drawing, &s, "twins.glb", layered_look(producer ? "\"count\":5,\"producer\":\"lists\"" : "\"count\":5,\"producer\":\"peeling\"", cases[c].lines),
+            if (shot_of_shape(&drawing, &s, "twins.glb",
+                              layered_look(producer ? "\"count\":5,\"producer\":\"lists\""
+                                                    : "\"count\":5,\"producer\":\"peeling\"",
+                                           cases[c].lines),
                               NULL, &views[c % 3]))
                 for (int k = 0; k < drawing.layer_count; k++) {
                     shot     layer = drawing;
@@ -474,7 +512,7 @@ static void edges_against_twins(void)
                     twin_map_make(&map, &layer);
                     for (int i = 0; i < map.width * map.height; i++) {
                         twin_value v = cases[c].twin(&map, i % map.width, i / map.width);
-                        double wanted[2] = {twin_byte(v.profile), twin_byte(v.inner)};
+                        double     wanted[2] = {twin_byte(v.profile), twin_byte(v.inner)};
                         ink += wanted[0] < 128 || wanted[1] < 128;
                         for (int e = 0; e < 2 && !v.doubtful; e++) {
                             double error = fabs(drawing.layers[k].edge[4 * i + e] - wanted[e]);
@@ -488,7 +526,8 @@ static void edges_against_twins(void)
                 }
             check_at_least("B02", drawing.layer_count, 5, "%s: layers", cases[c].lines);
             check_at_least("B02", ink, 500, "  pixels of ink in them");
-            if (!check_at_most("B02", worst, cases[c].levels, "  levels between the layers' edge maps and the operator's twin on their own maps, %s",
+            if (!check_at_most("B02", worst, cases[c].levels,
+                               "  levels between the layers' edge maps and the operator's twin on their own maps, %s",
                                producer ? "lists" : "peeling"))
                 check_note("worst at %d, %d in layer %d; %d values are off", at[0], at[1], at[2], off);
             shot_release(&drawing);
@@ -500,7 +539,7 @@ static void edges_against_twins(void)
 static void add_plate(shape *s, int k)
 {
     static const double half[] = {1.2, 0.9, 0.65, 0.4}, depth[] = {1.2, 0.4, -0.5, -1.3};
-    char name[24];
+    char                name[24];
     snprintf(name, sizeof name, "plate%d", k);
     if (k % 2) {
         shape_terrain(s, name, half[k], 0.3, 32, 40 + (uint32_t)k);
@@ -523,22 +562,26 @@ static size_t differing_edges(const uint8_t *a, const uint8_t *b, int count)
     return differ;
 }
 
-static const char *const layer_lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\",\"gain\":20}", "{\"operator\":\"sobel\",\"gain\":5}",
-                                          "{\"operator\":\"saito-normalised\"}", "{\"operator\":\"id\"}"};
+static const char *const layer_lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\",\"gain\":20}",
+                                          "{\"operator\":\"sobel\",\"gain\":5}", "{\"operator\":\"saito-normalised\"}",
+                                          "{\"operator\":\"id\"}"};
 
 /* A layer against the drawing of a model that is only this layer. */
-static void against_own_model(const char *title, const shot *all, int k, const shape *alone, const char *lines, const shot_view *view)
+static void against_own_model(const char *title, const shot *all, int k, const shape *alone, const char *lines,
+                              const shot_view *view)
 {
     shot single;
     int  ink = 0, count = all->width * all->height;
     if (!shot_of_shape(&single, alone, "alone.glb", shot_line_look(lines), NULL, view))
         return;
-    check_near("B02", single.far_depth - single.near_depth, all->far_depth - all->near_depth, 1e-9, "%s: the same depth range", title);
+    check_near("B02", single.far_depth - single.near_depth, all->far_depth - all->near_depth, 1e-9,
+               "%s: the same depth range", title);
     for (int i = 0; i < count; i++)
         ink += shot_ink(&single, i % all->width, i / all->width) < 128;
     check_at_least("B02", ink, 100, "%s: ink in the drawing of layer %d alone, %s", title, k, lines);
     if (k < all->layer_count)
-        check_at_most("B02", (double)differing_edges(single.edge, all->layers[k].edge, count), 0, "  pixels of the layer's edge map that differ from it");
+        check_at_most("B02", (double)differing_edges(single.edge, all->layers[k].edge, count), 0,
+                      "  pixels of the layer's edge map that differ from it");
     shot_release(&single);
 }
 
@@ -546,8 +589,8 @@ static void edges_of_own_models(void)
 {
     for (size_t l = 0; l < sizeof layer_lines / sizeof *layer_lines; l++) {
         const shot_view view = {.width = 144, .height = 144, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = l % 2};
-        shape s = {0};
-        shot  all;
+        shape           s = {0};
+        shot            all;
         for (int k = 0; k < 4; k++)
             add_plate(&s, k);
         scene_anchor(&s, "anchor", dvec_of(-7, -7, -2), dvec_of(7, 7, 2));
@@ -596,7 +639,7 @@ static void edges_of_nested_boxes(void)
     }
 }
 
-/* --- repeated edges ---------------------------------------------------------------------------------------------- */
+/* --- repeated edges ------------------------------------------------------------------------------------- */
 
 static bool layer_ink_near(const shot *s, int layer, double x, double y, int radius)
 {
@@ -632,7 +675,8 @@ static void check_repeated(const char *title, const shot *s, const dvec (*edges)
         }
     check_at_least("B13", (double)found[0] / samples, 1, "%s: share of the edge with a line in layer 0", title);
     check_at_least("B13", (double)found[1] / samples, 1, "%s: and in layer 1", title);
-    check_at_most("B13", apart, 0, "%s: of %d pixels of ink, those farther than a pixel from ink of the other layer", title, ink);
+    check_at_most("B13", apart, 0, "%s: of %d pixels of ink, those farther than a pixel from ink of the other layer",
+                  title, ink);
 }
 
 static void repeated_edges(void)
@@ -641,11 +685,12 @@ static void repeated_edges(void)
                                        {{-1, -1, 1}, {-1, 1, 1}}, {{-1, 1, 1}, {-1, 1, -1}}, {{-1, 1, -1}, {1, 1, -1}}};
     /* On its own, four-tap has little ink for a step between far surfaces and nothing. */
     static const char *const lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\"}"};
-    static const char *const plate_lines[] = {"{\"operator\":\"discontinuity\"}", "{\"operator\":\"four-tap\",\"gain\":20}"};
+    static const char *const plate_lines[] = {"{\"operator\":\"discontinuity\"}",
+                                              "{\"operator\":\"four-tap\",\"gain\":20}"};
     for (int l = 0; l < 2; l++)
         for (int v = 0; v < 2; v++) {
-            shape s = {0};
-            shot  drawing;
+            shape     s = {0};
+            shot      drawing;
             shot_view view = {.width = 200, .height = 160, .eye = {4, 3, 5}, .up = {0, 1, 0}, .orthographic = v};
             shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
             if (shot_of_shape(&drawing, &s, "box.glb", layered_look("\"count\":0", lines[l]), NULL, &view)) {
@@ -678,9 +723,15 @@ static void repeated_edges(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"rays", against_rays},       {"dialects", dialects},      {"coincident", what_coincides},
-        {"counts", counts},           {"fractions", fractions},    {"masks", masks},
-        {"twins", edges_against_twins}, {"own", edges_of_own_models}, {"nested", edges_of_nested_boxes},
+        {"rays", against_rays},
+        {"dialects", dialects},
+        {"coincident", what_coincides},
+        {"counts", counts},
+        {"fractions", fractions},
+        {"masks", masks},
+        {"twins", edges_against_twins},
+        {"own", edges_of_own_models},
+        {"nested", edges_of_nested_boxes},
         {"repeated", repeated_edges},
     };
     int status = check_main(argc, argv, "layers", cases, sizeof cases / sizeof *cases);

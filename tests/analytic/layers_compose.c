@@ -1,4 +1,5 @@
-/* How layers meet the page, against colours blended on the CPU: sorted 'over' of all surfaces that rays find, lines over each. */
+/* How layers meet the page, against colours blended on the CPU: sorted 'over' of all surfaces that rays find, lines
+ * over each. */
 #include <limner/draw.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,9 +11,9 @@
 #include "stack.h"
 
 #define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ece4d2\"},\"rules\":[" RULES "]}"
-#define OWN_COLOUR "\"surface\":{\"technique\":\"flat\",\"model_colour\":1}"
-#define ALL_LAYERS "\"layers\":{\"technique\":\"peel\",\"count\":0}"
-#define LINES "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}"
+#define OWN_COLOUR  "\"surface\":{\"technique\":\"flat\",\"model_colour\":1}"
+#define ALL_LAYERS  "\"layers\":{\"technique\":\"peel\",\"count\":0}"
+#define LINES       "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}"
 
 static const uint8_t ground[3] = {0xec, 0xe4, 0xd2};
 
@@ -27,7 +28,7 @@ static const uint8_t *pixel(const shot *s, int x, int y)
     return &s->picture[4 * (y * s->width + x)];
 }
 
-/* --- blending ---------------------------------------------------------------------------------------------------- */
+/* --- blending ------------------------------------------------------------------------------------------- */
 
 static paint part_paint(const shape *s, uint16_t id, double opacity)
 {
@@ -66,13 +67,15 @@ static void judge(tally *t, const shot *s, int i, bool sure, paint wanted)
 static void check_tally(const char *row, const tally *t, const shot *s, int least, const char *what)
 {
     check_at_least(row, t->sure, least, "%s: pixels whose answer is sure, of %d", what, t->pixels);
-    if (!check_at_least(row, (double)t->right_sure / (t->sure ? t->sure : 1), 0.999, "%s: share of them within 2 levels of the blended colour (of all: %.5f)", what,
-                        (double)t->right / (t->pixels ? t->pixels : 1)) && s->picture)
-        check_note("worst at %d, %d: %d levels, drawn %d %d %d", t->x, t->y, t->worst, pixel(s, t->x, t->y)[0], pixel(s, t->x, t->y)[1],
-                   pixel(s, t->x, t->y)[2]);
+    if (!check_at_least(row, (double)t->right_sure / (t->sure ? t->sure : 1), 0.999,
+                        "%s: share of them within 2 levels of the blended colour (of all: %.5f)", what,
+                        (double)t->right / (t->pixels ? t->pixels : 1)) &&
+        s->picture)
+        check_note("worst at %d, %d: %d levels, drawn %d %d %d", t->x, t->y, t->worst, pixel(s, t->x, t->y)[0],
+                   pixel(s, t->x, t->y)[1], pixel(s, t->x, t->y)[2]);
 }
 
-/* --- sorted transparency ----------------------------------------------------------------------------------------- */
+/* --- sorted transparency -------------------------------------------------------------------------------- */
 
 static void against_sorted(scene_kind kind, uint32_t seed, double opacity, const char *producer, const shot_view *view)
 {
@@ -83,9 +86,13 @@ static void against_sorted(scene_kind kind, uint32_t seed, double opacity, const
     scene_make(&s, kind, seed);
     for (size_t i = 0; i < s.count; i += 2)
         s.parts[i].colour[3] = 0.5f; /* the material's own */
-    snprintf(look, sizeof look, LOOK("{\"select\":\"*\"," OWN_COLOUR ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},"
-                                     "\"compose\":{\"technique\":\"xray\",\"opacity\":%g}}"), producer, opacity);
-    snprintf(what, sizeof what, "%s %u, opacity %g, %s%s", scene_names[kind], seed, opacity, producer, view->es ? ", ES" : "");
+    snprintf(look, sizeof look,
+             LOOK("{\"select\":\"*\"," OWN_COLOUR
+                  ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},"
+                  "\"compose\":{\"technique\":\"xray\",\"opacity\":%g}}"),
+             producer, opacity);
+    snprintf(what, sizeof what, "%s %u, opacity %g, %s%s", scene_names[kind], seed, opacity, producer,
+             view->es ? ", ES" : "");
     if (shot_of_shape(&drawing, &s, "sorted.glb", look, NULL, view)) {
         tracer   *rays = tracer_create(&s);
         stack_map map;
@@ -122,7 +129,8 @@ static void sorted(void)
 static void any_order(void)
 {
     static const size_t orders[][7] = {{6, 5, 4, 3, 2, 1, 0}, {2, 0, 5, 1, 6, 4, 3}};
-    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}}");
+    static const char   look[] =
+        LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}}");
     shape s = {0};
     shot  first, other;
     scene_make(&s, SCENE_CROSSING, 9);
@@ -155,13 +163,14 @@ static void any_order(void)
 /* Two rules, each transparent in its own way: their surfaces interleave along each ray. */
 static void two_figures(void)
 {
-    static const char look[] = LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}},"
-                                    "{\"select\":\"cross0,cross3,cross6\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}," ALL_LAYERS
-                                    ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.2}}");
+    static const char look[] = LOOK(
+        "{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}},"
+        "{\"select\":\"cross0,cross3,cross6\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}," ALL_LAYERS
+        ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.2}}");
     static const uint8_t red[3] = {255, 0, 0};
-    shape s = {0};
-    shot  drawing;
-    tally t = {0};
+    shape                s = {0};
+    shot                 drawing;
+    tally                t = {0};
     scene_make(&s, SCENE_CROSSING, 12);
     if (shot_of_shape(&drawing, &s, "figures.glb", look, NULL, &views[2])) {
         tracer   *rays = tracer_create(&s);
@@ -183,7 +192,7 @@ static void two_figures(void)
     shape_release(&s);
 }
 
-/* --- lines over layers ------------------------------------------------------------------------------------------- */
+/* --- lines over layers ---------------------------------------------------------------------------------- */
 
 /* Is there ink of any layer within the square around the pixel? */
 static bool ink_around(const shot *s, int i, int radius)
@@ -195,8 +204,8 @@ static bool ink_around(const shot *s, int i, int radius)
     return false;
 }
 
-/* Per layer the fill, then its ink, nearest last: from the layers' own maps, whose ink is all or nothing here, so that their 8 bits
- * are exact. `strength` of layer k's lines is hidden·fade^(k − 1). */
+/* Per layer the fill, then its ink, nearest last: from the layers' own maps, whose ink is all or nothing here, so
+ * that their 8 bits are exact. `strength` of layer k's lines is hidden·fade^(k − 1). */
 static void lines_over_layers(void)
 {
     static const struct {
@@ -209,17 +218,21 @@ static void lines_over_layers(void)
         shot  drawing;
         tally t = {0}, inked = {0};
         scene_make(&s, v % 2 ? SCENE_CROSSING : SCENE_CLOSED, 13 + (uint32_t)v);
-        snprintf(look, sizeof look, LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"lines\":{\"operator\":\"discontinuity\",\"gain\":1000,\"colour\":\"#102080c0\"},"
-                                         "\"compose\":{\"technique\":\"xray\",\"opacity\":0.3,\"once\":false%s}}"), styles[v].style);
+        snprintf(look, sizeof look,
+                 LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS
+                      ",\"lines\":{\"operator\":\"discontinuity\",\"gain\":1000,\"colour\":\"#102080c0\"},"
+                      "\"compose\":{\"technique\":\"xray\",\"opacity\":0.3,\"once\":false%s}}"),
+                 styles[v].style);
         if (shot_of_shape(&drawing, &s, "inked.glb", look, NULL, &views[v]))
             for (int i = 0; i < drawing.width * drawing.height; i++) {
                 static const uint8_t blue[3] = {0x10, 0x20, 0x80};
-                paint  wanted = paint_of(ground, 1);
-                double ink = 0;
+                paint                wanted = paint_of(ground, 1);
+                double               ink = 0;
                 for (int k = drawing.layer_count; k-- > 0;) {
                     const uint8_t *e = &drawing.layers[k].edge[4 * i];
-                    double strength = k ? styles[v].hidden * pow(styles[v].fade, k - 1) : 1, a = 0xc0 / 255.0;
-                    double clear = (1 - a * (1 - e[0] / 255.0)) * (1 - a * (1 - e[1] / 255.0)) * (1 - a * (1 - e[3] / 255.0));
+                    double         strength = k ? styles[v].hidden * pow(styles[v].fade, k - 1) : 1, a = 0xc0 / 255.0;
+                    double         clear =
+                        (1 - a * (1 - e[0] / 255.0)) * (1 - a * (1 - e[1] / 255.0)) * (1 - a * (1 - e[3] / 255.0));
                     if (drawing.layers[k].id[i])
                         put_over(&wanted, part_paint(&s, drawing.layers[k].id[i], 0.3));
                     put_over(&wanted, paint_of(blue, (1 - clear) * strength));
@@ -234,11 +247,11 @@ static void lines_over_layers(void)
     }
 }
 
-/* --- blueprint --------------------------------------------------------------------------------------------------- */
+/* --- blueprint ------------------------------------------------------------------------------------------ */
 
 static void tint_adds_up(void)
 {
-    static const uint8_t tint[3] = {0x20, 0x50, 0xc0};
+    static const uint8_t     tint[3] = {0x20, 0x50, 0xc0};
     static const char *const producers[] = {"peeling", "lists"};
     for (int p = 0; p < 2; p++) {
         char   look[512];
@@ -248,8 +261,11 @@ static void tint_adds_up(void)
         double sum[STACK_MAX] = {0}, count[STACK_MAX] = {0};
         int    steps = 0, wrong = 0;
         scene_make(&s, p ? SCENE_CROSSING : SCENE_CLOSED, 16);
-        snprintf(look, sizeof look, LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},"
-                                         "\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2}}"), producers[p]);
+        snprintf(look, sizeof look,
+                 LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"layers\":{\"technique\":\"peel\",\"count\":0,"
+                      "\"producer\":\"%s\"},"
+                      "\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2}}"),
+                 producers[p]);
         if (shot_of_shape(&drawing, &s, "tint.glb", look, NULL, &views[p])) {
             tracer   *rays = tracer_create(&s);
             stack_map map;
@@ -287,7 +303,8 @@ static bool dark_near(const shot *s, dvec place, int radius, int below)
 {
     for (int y = (int)floor(place.y) - radius; y <= (int)floor(place.y) + radius; y++)
         for (int x = (int)floor(place.x) - radius; x <= (int)floor(place.x) + radius; x++)
-            if (x >= 0 && y >= 0 && x < s->width && y < s->height && pixel(s, x, y)[0] < below && pixel(s, x, y)[1] < below)
+            if (x >= 0 && y >= 0 && x < s->width && y < s->height && pixel(s, x, y)[0] < below &&
+                pixel(s, x, y)[1] < below)
                 return true;
     return false;
 }
@@ -338,7 +355,8 @@ static double edges_seen(const shot *s, const shape_part *box, const shape_part 
 
 static void hidden_edges(void)
 {
-    static const char deep[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0.1}}");
+    static const char deep[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES
+                                    ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0.1}}");
     static const char flat[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," LINES "}");
     for (int v = 0; v < 3; v++) {
         shape s = {0};
@@ -350,9 +368,11 @@ static void hidden_edges(void)
         view.eye = dvec_scale(view.eye, v == 1 ? 1.5 : 1); /* parallel rays show more from farther away */
         bool drawn = shot_of_shape(&blueprint, &s, "boxes.glb", deep, NULL, &view);
         if (shot_of_shape(&front, &s, "boxes.glb", flat, NULL, &view) && drawn) {
-            check_at_least("B04", edges_seen(&blueprint, &s.parts[0], NULL), 0.99, "share of the outer box's edges with a line in the blueprint");
+            check_at_least("B04", edges_seen(&blueprint, &s.parts[0], NULL), 0.99,
+                           "share of the outer box's edges with a line in the blueprint");
             check_at_least("B04", edges_seen(&blueprint, &s.parts[1], NULL), 0.99, "share of the hidden box's");
-            check_at_most("B04", edges_seen(&front, &s.parts[1], &s.parts[0]), 0, "and in a drawing of the front alone");
+            check_at_most("B04", edges_seen(&front, &s.parts[1], &s.parts[0]), 0,
+                          "and in a drawing of the front alone");
         }
         shot_release(&blueprint);
         shot_release(&front);
@@ -360,9 +380,10 @@ static void hidden_edges(void)
     }
 }
 
-/* Parts with the prefix are opaque and have this colour; all others are layers with one fill each. Judges the pixels where no line
- * is near: layers before the opaque part tint it, those behind it do not show. */
-static void against_opaque(const char *row, const char *what, const shape *s, const shot *drawing, const char *prefix, paint opaque, int layers, paint (*fill)(const shape *, uint16_t))
+/* Parts with the prefix are opaque and have this colour; all others are layers with one fill each. Judges the
+ * pixels where no line is near: layers before the opaque part tint it, those behind it do not show. */
+static void against_opaque(const char *row, const char *what, const shape *s, const shot *drawing, const char *prefix,
+                           paint opaque, int layers, paint (*fill)(const shape *, uint16_t))
 {
     tracer   *rest = tracer_of_parts(s, prefix, false), *named = tracer_of_parts(s, prefix, true);
     stack_map map;
@@ -373,8 +394,9 @@ static void against_opaque(const char *row, const char *what, const shape *s, co
     trace_map_make(&front, named, drawing);
     for (int i = 0; i < drawing->width * drawing->height; i++) {
         const stack_hit *hits = stack_at(&map, i);
-        paint  wanted = paint_of(ground, 1);
-        bool   sure = map.sharp[i] && !has_open_order(&map, i) && !ink_around(drawing, i, 1) && !trace_map_border(&front, i % drawing->width, i / drawing->width, 1);
+        paint            wanted = paint_of(ground, 1);
+        bool             sure = map.sharp[i] && !has_open_order(&map, i) && !ink_around(drawing, i, 1) &&
+                    !trace_map_border(&front, i % drawing->width, i / drawing->width, 1);
         size_t count = stack_count(&map, i), before = 0;
         count = layers && count > (size_t)layers ? (size_t)layers : count;
         while (before < count && hits[before].depth < front.depth[i]) {
@@ -413,7 +435,9 @@ static paint own_fill(const shape *s, uint16_t id)
     return part_paint(s, id, 0.3);
 }
 
-#define BLUE_RULE(REST) "{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS REST ",\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2}}"
+#define BLUE_RULE(REST)                                                                                                \
+    "{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS REST                                                          \
+    ",\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2}}"
 
 /* An opaque part amid the layers hides what is behind it and is tinted by what is before it. */
 static void opaque_amid_layers(void)
@@ -426,8 +450,12 @@ static void opaque_amid_layers(void)
             scene_make(&s, SCENE_CLOSED, 17 + (uint32_t)v);
             shape_sphere(&s, "core", dvec_of(0.1, 0, 0.05), 0.5, 24, 48, true);
             const char *changes[] = {"0:layers.producer", m ? "lists" : "peeling", NULL};
-            if (shot_of_shape(&drawing, &s, "core.glb", LOOK(BLUE_RULE() ",{\"select\":\"core\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"), changes, &views[v]))
-                against_opaque("B04", m ? "an opaque part amid layers, lists" : "an opaque part amid layers, peeling", &s, &drawing, "core", paint_of(red, 1), 0, blue_fill);
+            if (shot_of_shape(&drawing, &s, "core.glb",
+                              LOOK(BLUE_RULE() ",{\"select\":\"core\",\"surface\":{\"technique\":\"flat\",\"colour\":"
+                                               "\"#ff2010\"}}"),
+                              changes, &views[v]))
+                against_opaque("B04", m ? "an opaque part amid layers, lists" : "an opaque part amid layers, peeling",
+                               &s, &drawing, "core", paint_of(red, 1), 0, blue_fill);
             shot_release(&drawing);
             shape_release(&s);
         }
@@ -438,8 +466,8 @@ static void glyphs(void)
 {
     static const uint8_t red[3] = {255, 0x20, 0x10};
     for (int v = 0; v < 2; v++) {
-        shape s = {0};
-        shot  drawing;
+        shape     s = {0};
+        shot      drawing;
         shot_view view = views[v];
         view.width = view.height = 300;
         shape_box(&s, "hall", dvec_of(-1.2, -0.8, -1), dvec_of(1.2, 0.8, 1));
@@ -451,8 +479,13 @@ static void glyphs(void)
         shape_sphere(&s, "glyph head", dvec_of(0.5, 0.44, 0.42), 0.25, 2, 12, false);
         shape_box(&s, "glyph rod", dvec_of(-0.05, -0.9, -0.05), dvec_of(0.05, 0.4, 0.05));
         shape_place(&s, dvec_of(0, 0, 1), -40, dvec_of(0.4, 0, 0));
-        if (shot_of_shape(&drawing, &s, "glyphs.glb", LOOK(BLUE_RULE("," LINES) ",{\"select\":\"glyph*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"), NULL, &view))
-            against_opaque("B12", "a box and arrows inside a blueprint", &s, &drawing, "glyph", paint_of(red, 1), 0, blue_fill);
+        if (shot_of_shape(
+                &drawing, &s, "glyphs.glb",
+                LOOK(BLUE_RULE(
+                    "," LINES) ",{\"select\":\"glyph*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"),
+                NULL, &view))
+            against_opaque("B12", "a box and arrows inside a blueprint", &s, &drawing, "glyph", paint_of(red, 1), 0,
+                           blue_fill);
         shot_release(&drawing);
         shape_release(&s);
     }
@@ -462,8 +495,9 @@ static void glyphs(void)
 static void focus(void)
 {
     static const uint8_t green[3] = {0x20, 0xc0, 0x40};
-#define FOCUS_RULE(LINES) "{\"select\":\"*\"," OWN_COLOUR LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"focus\":\"closed1\"," \
-                          "\"focus_colour\":\"#20c040\",\"focus_share\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}"
+#define FOCUS_RULE(LINES)                                                                                              \
+    "{\"select\":\"*\"," OWN_COLOUR LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"focus\":\"closed1\","     \
+    "\"focus_colour\":\"#20c040\",\"focus_share\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}"
     /* With lines, what is seen through must not hide the part in its own figure's edge detection. */
     static const char *const looks[] = {LOOK(FOCUS_RULE("")), LOOK(FOCUS_RULE("," LINES)), LOOK(FOCUS_RULE(""))};
     for (int v = 0; v < 3; v++) {
@@ -471,16 +505,17 @@ static void focus(void)
         shot  drawing;
         scene_make(&s, SCENE_CLOSED, 21 + (uint32_t)v);
         if (shot_of_shape(&drawing, &s, "focus.glb", looks[v], NULL, &views[v]))
-            against_opaque("B10", "a designated part amid layers", &s, &drawing, "closed1", paint_of(green, 1), drawing.layers_drawn, own_fill);
+            against_opaque("B10", "a designated part amid layers", &s, &drawing, "closed1", paint_of(green, 1),
+                           drawing.layers_drawn, own_fill);
         shot_release(&drawing);
         shape_release(&s);
     }
 }
 
-/* --- wire -------------------------------------------------------------------------------------------------------- */
+/* --- wire ----------------------------------------------------------------------------------------------- */
 
-/* Ink above the threshold is a line, and everything else the ground, untouched. `covered_only`: judges ink on the layer itself;
- * operators that look farther than a line is wide find more beside it than any composition keeps. */
+/* Ink above the threshold is a line, and everything else the ground, untouched. `covered_only`: judges ink on the
+ * layer itself; operators that look farther than a line is wide find more beside it than any composition keeps. */
 static void check_wire(scene_kind kind, const char *lines, const char *value, bool covered_only, const shot_view *view)
 {
     char   look[512];
@@ -489,12 +524,14 @@ static void check_wire(scene_kind kind, const char *lines, const char *value, bo
     double threshold = atof(value);
     int    ink = 0, bare = 0, wrong_ink = 0, wrong_ground = 0, x = 0, y = 0;
     scene_make(&s, kind, 31);
-    snprintf(look, sizeof look, LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"lines\":{\"operator\":%s,\"colour\":\"#102080\"},"
-                                     "\"compose\":{\"technique\":\"wire\",\"once\":false,\"threshold\":%s}}"), lines, value);
+    snprintf(look, sizeof look,
+             LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"lines\":{\"operator\":%s,\"colour\":\"#102080\"},"
+                  "\"compose\":{\"technique\":\"wire\",\"once\":false,\"threshold\":%s}}"),
+             lines, value);
     if (shot_of_shape(&drawing, &s, "wire.glb", look, NULL, view))
         for (int i = 0; i < drawing.width * drawing.height; i++) {
             const uint8_t *p = &drawing.picture[4 * i];
-            double on_layer = 0, most = largest_ink(&drawing, i);
+            double         on_layer = 0, most = largest_ink(&drawing, i);
             for (int k = 0; k < drawing.layer_count; k++)
                 if (drawing.layers[k].id[i] || !covered_only)
                     on_layer = fmax(on_layer, ink_of(&drawing.layers[k].edge[4 * i]));
@@ -527,11 +564,14 @@ static void wire(void)
     check_wire(SCENE_COINCIDENT, "\"id\"", "0.5", false, &views[1]);
 }
 
-/* --- hidden lines ------------------------------------------------------------------------------------------------ */
+/* --- hidden lines --------------------------------------------------------------------------------------- */
 
-static const shot_view straight = {.width = 192, .height = 192, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+static const shot_view straight = {
+    .width = 192, .height = 192, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
 
-#define WIRE_LOOK(STYLE) LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"wire\"" STYLE "}}")
+#define WIRE_LOOK(STYLE)                                                                                               \
+    LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"wire\"" STYLE   \
+         "}}")
 
 static void box_in_box(shape *s)
 {
@@ -543,7 +583,9 @@ static void box_in_box(shape *s)
 static bool column_has_ink(const shot *s, double y, int x, int radius, const uint8_t colour[3])
 {
     for (int j = (int)floor(y) - radius; j <= (int)floor(y) + radius; j++)
-        if (abs(pixel(s, x, j)[0] - colour[0]) + abs(pixel(s, x, j)[1] - colour[1]) + abs(pixel(s, x, j)[2] - colour[2]) < 30)
+        if (abs(pixel(s, x, j)[0] - colour[0]) + abs(pixel(s, x, j)[1] - colour[1]) +
+                abs(pixel(s, x, j)[2] - colour[2]) <
+            30)
             return true;
     return false;
 }
@@ -551,14 +593,18 @@ static bool column_has_ink(const shot *s, double y, int x, int radius, const uin
 static void hidden_colour_and_dashes(void)
 {
     static const uint8_t black[3] = {0, 0, 0}, red[3] = {255, 0, 0};
-    shape s = {0};
-    shot  drawing;
-    int   runs = 0, wrong_on = 0, wrong_off = 0, open = 0, samples = 0;
+    shape                s = {0};
+    shot                 drawing;
+    int                  runs = 0, wrong_on = 0, wrong_off = 0, open = 0, samples = 0;
     box_in_box(&s);
-    if (shot_of_shape(&drawing, &s, "dashes.glb", WIRE_LOOK(",\"hidden_colour\":\"#ff0000\",\"hidden_dash\":9,\"hidden_gap\":6"), NULL, &straight)) {
+    if (shot_of_shape(&drawing, &s, "dashes.glb",
+                      WIRE_LOOK(",\"hidden_colour\":\"#ff0000\",\"hidden_dash\":9,\"hidden_gap\":6"), NULL,
+                      &straight)) {
         for (int side = 0; side < 2; side++) {
-            dvec a = shot_project(&drawing, dvec_of(-1, side ? 0.8 : -0.9, 0.5)), b = shot_project(&drawing, dvec_of(1.1, side ? 0.8 : -0.9, 0.5));
-            dvec c = shot_project(&drawing, dvec_of(-1.6, side ? 1.6 : -1.6, 1)), d = shot_project(&drawing, dvec_of(1.6, side ? 1.6 : -1.6, 1));
+            dvec a = shot_project(&drawing, dvec_of(-1, side ? 0.8 : -0.9, 0.5)),
+                 b = shot_project(&drawing, dvec_of(1.1, side ? 0.8 : -0.9, 0.5));
+            dvec c = shot_project(&drawing, dvec_of(-1.6, side ? 1.6 : -1.6, 1)),
+                 d = shot_project(&drawing, dvec_of(1.6, side ? 1.6 : -1.6, 1));
             int  length = 0, whole = 0;
             bool last = false;
             for (int x = (int)a.x + 3; x < (int)b.x - 3; x++) {
@@ -602,13 +648,14 @@ static void hidden_width(void)
     static const char *const widths[] = {"1", "2", "4", "7"};
     for (int w = 0; w < 4; w++) {
         const char *changes[] = {"compose.hidden_width", widths[w], NULL};
-        shape s = {0};
-        shot  drawing;
+        shape       s = {0};
+        shot        drawing;
         box_in_box(&s);
         if (shot_of_shape(&drawing, &s, "width.glb", WIRE_LOOK(""), changes, &straight)) {
-            check_near("hidden", ink_across(&drawing, shot_project(&drawing, dvec_of(0, 0.8, 0.5))), atof(widths[w]), atof(widths[w]) <= 2 ? 0.5 : 1,
-                       "width of a hidden line of width %s", widths[w]);
-            check_near("hidden", ink_across(&drawing, shot_project(&drawing, dvec_of(0, 1.6, 1))), 2, 0.5, "  and of a visible one");
+            check_near("hidden", ink_across(&drawing, shot_project(&drawing, dvec_of(0, 0.8, 0.5))), atof(widths[w]),
+                       atof(widths[w]) <= 2 ? 0.5 : 1, "width of a hidden line of width %s", widths[w]);
+            check_near("hidden", ink_across(&drawing, shot_project(&drawing, dvec_of(0, 1.6, 1))), 2, 0.5,
+                       "  and of a visible one");
         }
         shot_release(&drawing);
         shape_release(&s);
@@ -621,12 +668,15 @@ static void repeated_once(void)
     static const uint8_t black[3] = {0, 0, 0};
     for (int once = 0; once < 2; once++) {
         const char *changes[] = {"compose.once", once ? "true" : "false", NULL};
-        shape s = {0};
-        shot  drawing;
-        int   both = 0, wrong = 0;
+        shape       s = {0};
+        shot        drawing;
+        int         both = 0, wrong = 0;
         shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
-        if (shot_of_shape(&drawing, &s, "once.glb", LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS ",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#00000080\"},"
-                                                         "\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0}}"), changes, &views[0]))
+        if (shot_of_shape(&drawing, &s, "once.glb",
+                          LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS
+                               ",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#00000080\"},"
+                               "\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0}}"),
+                          changes, &views[0]))
             for (int i = 0; i < drawing.width * drawing.height && drawing.layer_count == 2; i++) {
                 const uint8_t *e = &drawing.layers[0].edge[4 * i], *f = &drawing.layers[1].edge[4 * i];
                 if (e[0] || f[0] || e[1] < 255 || f[1] < 255 || e[3] < 255 || f[3] < 255)
@@ -648,16 +698,17 @@ static void repeated_once(void)
 static void halo(void)
 {
     for (int width = 0; width <= 8; width += 4) {
-        char  value[16];
+        char        value[16];
         const char *changes[] = {"compose.halo", value, NULL};
-        shape s = {0};
-        shot  drawing;
-        int   near = 0, near_ink = 0, far = 0, far_ink = 0;
+        shape       s = {0};
+        shot        drawing;
+        int         near = 0, near_ink = 0, far = 0, far_ink = 0;
         snprintf(value, sizeof value, "%d", width);
         shape_quad(&s, "plate", 1, 0.5);
         shape_box(&s, "bar", dvec_of(-1.8, -0.2, -0.5), dvec_of(1.8, 0.25, -0.3));
         if (shot_of_shape(&drawing, &s, "halo.glb", WIRE_LOOK(""), changes, &straight)) {
-            dvec left = shot_project(&drawing, dvec_of(-1, 0.25, 0)), right = shot_project(&drawing, dvec_of(1, 0.25, 0));
+            dvec left = shot_project(&drawing, dvec_of(-1, 0.25, 0)),
+                 right = shot_project(&drawing, dvec_of(1, 0.25, 0));
             for (int x = (int)left.x; x <= (int)right.x; x++) {
                 double inside = fmin(x + 0.5 - left.x, right.x - x - 0.5);
                 bool   on = column_has_ink(&drawing, left.y, x, 1, (uint8_t[3]){0, 0, 0});
@@ -680,15 +731,17 @@ static void halo(void)
 static void clutter(void)
 {
     static const char *const amounts[] = {"0", "0.5", "1"};
-    double last = INFINITY;
+    double                   last = INFINITY;
     for (int a = 0; a < 3; a++) {
         const char *changes[] = {"compose.clutter", amounts[a], NULL};
-        shape  s = {0};
-        shot   drawing;
-        double sum = 0;
-        int    inked = 0, gone = 0;
+        shape       s = {0};
+        shot        drawing;
+        double      sum = 0;
+        int         inked = 0, gone = 0;
         scene_make(&s, SCENE_CROSSING, 33);
-        if (shot_of_shape(&drawing, &s, "clutter.glb", LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0,\"once\":false}}"),
+        if (shot_of_shape(&drawing, &s, "clutter.glb",
+                          LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES
+                               ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0,\"once\":false}}"),
                           changes, &views[0]))
             for (int i = 0; i < drawing.width * drawing.height; i++) {
                 double ink = drawing.layer_count > 1 ? ink_of(&drawing.layers[1].edge[4 * i]) : 0;
@@ -707,7 +760,7 @@ static void clutter(void)
     }
 }
 
-/* --- textures ---------------------------------------------------------------------------------------------------- */
+/* --- textures ------------------------------------------------------------------------------------------- */
 
 enum { TEXELS = 64, FIELD = 16 };
 
@@ -724,11 +777,12 @@ static void checkered(shape_part *p)
 /* A textured plate behind both sides of a box, and another behind it: the pattern shows through. */
 static void textures_through_layers(void)
 {
-    static const char look[] = LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"textured\",\"light\":0}," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}}");
-    shape s = {0};
-    shot  drawing;
-    tally t = {0};
-    int   dark = 0, bright = 0;
+    static const char look[] = LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"textured\",\"light\":0}," ALL_LAYERS
+                                    ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}}");
+    shape             s = {0};
+    shot              drawing;
+    tally             t = {0};
+    int               dark = 0, bright = 0;
     shape_box(&s, "box", dvec_of(-0.9, -0.9, 0.5), dvec_of(0.8, 0.8, 1));
     shape_quad(&s, "pattern", 1.2, 0);
     shape_quad(&s, "behind", 1.5, -1);
@@ -741,8 +795,8 @@ static void textures_through_layers(void)
         stack_map map;
         stack_map_make(&map, rays, &drawing);
         for (int i = 0; i < drawing.width * drawing.height; i++) {
-            paint  wanted = paint_of(ground, 1);
-            bool   sure = map.sharp[i], pattern = false;
+            paint wanted = paint_of(ground, 1);
+            bool  sure = map.sharp[i], pattern = false;
             for (size_t k = stack_count(&map, i); k-- > 0;) {
                 uint16_t id = stack_at(&map, i)[k].id;
                 paint    p = part_paint(&s, id, 0.4);
@@ -771,16 +825,17 @@ static void textures_through_layers(void)
     shape_release(&s);
 }
 
-/* --- plan views -------------------------------------------------------------------------------------------------- */
+/* --- plan views ----------------------------------------------------------------------------------------- */
 
 /* Chambers under a roof, seen from the named side. */
 static void plan_view(int named, const char *what)
 {
-    static const char deep[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0.05}}");
+    static const char deep[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES
+                                    ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0.05}}");
     static const char flat[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," LINES "}");
-    const shot_view view = {.width = 256, .height = 256, .bare = true, .named = named, .orthographic = true};
-    shape s = {0};
-    shot  blueprint, front;
+    const shot_view   view = {.width = 256, .height = 256, .bare = true, .named = named, .orthographic = true};
+    shape             s = {0};
+    shot              blueprint, front;
     shape_box(&s, "house", dvec_of(-2, 0, -1.5), dvec_of(2, 1.2, 1.5));
     shape_box(&s, "wall one", dvec_of(-0.6, 0.05, -1.3), dvec_of(-0.45, 1, 0.6));
     shape_box(&s, "wall two", dvec_of(-0.45, 0.05, 0.1), dvec_of(1.3, 0.9, 0.25));
@@ -793,7 +848,8 @@ static void plan_view(int named, const char *what)
             double seen = edges_seen(&blueprint, &s.parts[part], NULL);
             check_at_least("B11", seen, 0.99, "%s: share of the edges of %s with a line", what, s.parts[part].name);
             if (part > 0)
-                check_at_most("B11", edges_seen(&front, &s.parts[part], &s.parts[0]), 0, "  and in a drawing of the front alone");
+                check_at_most("B11", edges_seen(&front, &s.parts[part], &s.parts[0]), 0,
+                              "  and in a drawing of the front alone");
         }
         for (int y = 2; y < 254; y++)
             for (int x = 2; x < 254; x++) {
@@ -820,11 +876,24 @@ static void plan_views(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"sorted", sorted},           {"order", any_order},        {"figures", two_figures},  {"inked", lines_over_layers},
-        {"tint", tint_adds_up},       {"edges", hidden_edges},     {"opaque", opaque_amid_layers}, {"glyphs", glyphs},
-        {"focus", focus},             {"wire", wire},              {"dashes", hidden_colour_and_dashes}, {"width", hidden_width},
-        {"once", repeated_once},      {"halo", halo},              {"clutter", clutter},      {"texture", textures_through_layers},
-        {"plan", plan_views},    };
+        {"sorted", sorted},
+        {"order", any_order},
+        {"figures", two_figures},
+        {"inked", lines_over_layers},
+        {"tint", tint_adds_up},
+        {"edges", hidden_edges},
+        {"opaque", opaque_amid_layers},
+        {"glyphs", glyphs},
+        {"focus", focus},
+        {"wire", wire},
+        {"dashes", hidden_colour_and_dashes},
+        {"width", hidden_width},
+        {"once", repeated_once},
+        {"halo", halo},
+        {"clutter", clutter},
+        {"texture", textures_through_layers},
+        {"plan", plan_views},
+    };
     int status = check_main(argc, argv, "layers_compose", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;

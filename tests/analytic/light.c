@@ -14,10 +14,14 @@ static const dvec lights[3] = {{-1, 1.2, 0.5}, {0.4, 1, 1}, {1, 2, -0.6}};
 static shot_view view_of(double degrees, bool orthographic)
 {
     double angle = degrees * pi / 180;
-    return (shot_view){.width = 400, .height = 320, .eye = {8 * sin(angle), 5, 8 * cos(angle)}, .up = {0, 1, 0}, .orthographic = orthographic};
+    return (shot_view){.width = 400,
+                       .height = 320,
+                       .eye = {8 * sin(angle), 5, 8 * cos(angle)},
+                       .up = {0, 1, 0},
+                       .orthographic = orthographic};
 }
 
-/* --- the width of penumbras ------------------------------------------------------------------------------------- */
+/* --- the width of penumbras ----------------------------------------------------------------------------- */
 
 enum { PLATES = 3, EDGE = 240, ROWS = 8 };
 static const double heights[PLATES] = {0.3, 0.6, 1.2};
@@ -27,7 +31,8 @@ static void plates(shape *s)
 {
     shape_box(s, "floor", dvec_of(-3, -0.1, -3.6), dvec_of(3, 0, 3.6));
     for (int k = 0; k < PLATES; k++)
-        shape_box(s, "plate", dvec_of(-2.5, heights[k] - 0.002, -3.4 + 2.6 * k), dvec_of(-1.5, heights[k], -1.8 + 2.6 * k));
+        shape_box(s, "plate", dvec_of(-2.5, heights[k] - 0.002, -3.4 + 2.6 * k),
+                  dvec_of(-1.5, heights[k], -1.8 + 2.6 * k));
 }
 
 /* Between the places, in pixels, where a share grows beyond 0.1 and 0.9. */
@@ -44,7 +49,8 @@ static double width_of(const double *shares, int count)
 }
 
 /* Along the middle of a lane, across the border of the plate's shadow. */
-static double plate_width(const light_scene *l, const shot *s, const light_map *m, const tracer *t, int plate, double *truth)
+static double plate_width(const light_scene *l, const shot *s, const light_map *m, const tracer *t, int plate,
+                          double *truth)
 {
     double drawn[EDGE], counted[EDGE];
     double z = -2.6 + 2.6 * plate, border = -1.5 + heights[plate], half = 0.3 * heights[plate] + 0.1;
@@ -59,7 +65,9 @@ static double plate_width(const light_scene *l, const shot *s, const light_map *
         for (int row = -ROWS; row < ROWS; row++) /* the border runs down the picture */
             drawn[i] += (double)m->drawn[(y + row) * m->width + low + i] / (2 * ROWS);
         counted[i] = tracer_hit(t, origin, direction, -INFINITY, INFINITY, NULL, &hit)
-                         ? light_of_disc(t, dvec_add(origin, dvec_scale(direction, hit.t)), dvec_of(0, 1, 0), l->towards, l->softness, 4000) : 1;
+                         ? light_of_disc(t, dvec_add(origin, dvec_scale(direction, hit.t)), dvec_of(0, 1, 0),
+                                         l->towards, l->softness, 4000)
+                         : 1;
     }
     *truth = width_of(counted, count);
     return width_of(drawn, count);
@@ -68,7 +76,9 @@ static double plate_width(const light_scene *l, const shot *s, const light_map *
 static void penumbras_grow(void)
 {
     static const double angles[] = {4, 10, 20};
-    light_scene l = {.file = "plates.glb", .towards = {-1, 1, 0}, .view = {.width = 960, .height = 640, .eye = {0, 14, 0}, .up = {0, 0, -1}, .orthographic = true}};
+    light_scene         l = {.file = "plates.glb",
+                             .towards = {-1, 1, 0},
+                             .view = {.width = 960, .height = 640, .eye = {0, 14, 0}, .up = {0, 0, -1}, .orthographic = true}};
     plates(&l.s);
     tracer *t = tracer_create(&l.s);
     for (size_t a = 0; a < sizeof angles / sizeof *angles; a++) {
@@ -82,10 +92,13 @@ static void penumbras_grow(void)
             light_map_drawn(&m, &with, &without);
             for (int k = 0; k < PLATES; k++) {
                 widths[k] = plate_width(&l, &with, &m, t, k, &truth[k]);
-                check_near("P30", widths[k], truth[k], fmax(1.5, 0.1 * truth[k]), "light of %g degrees, height %g: pixels from 0.1 to 0.9 (counted %.2f)", angles[a], heights[k], truth[k]);
+                check_near("P30", widths[k], truth[k], fmax(1.5, 0.1 * truth[k]),
+                           "light of %g degrees, height %g: pixels from 0.1 to 0.9 (counted %.2f)", angles[a],
+                           heights[k], truth[k]);
             }
             if (angles[a] >= 10)
-                check_near("P30", widths[2] / widths[1], heights[2] / heights[1], 0.2, "%g degrees: twice as high, twice as wide", angles[a]);
+                check_near("P30", widths[2] / widths[1], heights[2] / heights[1], 0.2,
+                           "%g degrees: twice as high, twice as wide", angles[a]);
             light_map_release(&m);
             shot_release(&without);
         }
@@ -95,7 +108,7 @@ static void penumbras_grow(void)
     shape_release(&l.s);
 }
 
-/* --- whole pictures --------------------------------------------------------------------------------------------- */
+/* --- whole pictures ------------------------------------------------------------------------------------- */
 
 static void court(shape *s)
 {
@@ -108,7 +121,8 @@ static void court(shape *s)
     shape_box(s, "beam", dvec_of(1.9, 1.1, -1.5), dvec_of(2.6, 1.25, 1.8));
 }
 
-/* The score of one drawing, at a fifth of its places: of some 10000 places the mean difference is then known to 0.0005 and the share of those far off to 0.001. */
+/* The score of one drawing, at a fifth of its places: of some 10000 places the mean difference is then known to
+ * 0.0005 and the share of those far off to 0.001. */
 static bool score_of(const light_scene *l, bool sky, int rays, int step, const char *picture, light_score *out)
 {
     shot      with, without;
@@ -132,17 +146,24 @@ static bool score_of(const light_scene *l, bool sky, int rays, int step, const c
 
 static void shadows_are_a_discs(void)
 {
-    static const double angles[] = {3, 8, 20}, means[] = {0.0075, 0.009, 0.018}; /* half a sample of the small picture aside is more than that */
+    static const double angles[] = {3, 8, 20},
+                        means[] = {0.0075, 0.009,
+                                   0.018}; /* half a sample of the small picture aside is more than that */
     for (int k = 0; k < 6; k++) {
-        light_scene l = {.file = "court.glb", .towards = lights[k % 3], .view = view_of(k < 3 ? 25 : -35, k >= 3), .softness = angles[k % 3]};
+        light_scene l = {.file = "court.glb",
+                         .towards = lights[k % 3],
+                         .view = view_of(k < 3 ? 25 : -35, k >= 3),
+                         .softness = angles[k % 3]};
         light_score score;
         court(&l.s);
         char name[32];
         snprintf(name, sizeof name, "shadows-%d.png", k);
         if (score_of(&l, false, 96, 5, name, &score)) {
-            check_at_least("P30", score.places, 8000, "places compared, %s, %g degrees", l.view.orthographic ? "parallel rays" : "perspective", l.softness);
+            check_at_least("P30", score.places, 8000, "places compared, %s, %g degrees",
+                           l.view.orthographic ? "parallel rays" : "perspective", l.softness);
             check_at_most("P30", score.mean, means[k % 3], "mean difference of the light that arrives");
-            check_at_most("P30", score.far, 0.01, "share of places that are off by more than 0.25 (worst %.2f)", score.worst);
+            check_at_most("P30", score.far, 0.01, "share of places that are off by more than 0.25 (worst %.2f)",
+                          score.worst);
         }
         shape_release(&l.s);
     }
@@ -151,14 +172,20 @@ static void shadows_are_a_discs(void)
 /* Without softness nothing changes: the words for it, and for no occlusion, draw the same bytes as silence. */
 static void hard_is_hard(void)
 {
-    light_scene quiet = {.file = "court.glb", .towards = lights[0], .view = view_of(25, false), .layers = NULL}, said = quiet;
-    shot        a, b, again;
-    char        look[512];
+    light_scene quiet = {.file = "court.glb", .towards = lights[0], .view = view_of(25, false), .layers = NULL},
+                said = quiet;
+    shot a, b, again;
+    char look[512];
     court(&quiet.s);
     said.s = quiet.s;
-    snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"scene\":{\"shadows\":true,\"light_direction\":\"-1,1,1\"%s},\"rules\":[{\"surface\":\"lambert\"}]}", "");
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"shadows\":true,\"light_direction\":\"-1,1,1\"%s},\"rules\":[{"
+             "\"surface\":\"lambert\"}]}",
+             "");
     if (shot_of_shape(&a, &quiet.s, "court.glb", look, NULL, &quiet.view)) {
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"scene\":{\"shadows\":true,\"light_direction\":\"-1,1,1\"%s},\"rules\":[{\"surface\":\"lambert\"}]}",
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"scene\":{\"shadows\":true,\"light_direction\":\"-1,1,1\"%s},"
+                 "\"rules\":[{\"surface\":\"lambert\"}]}",
                  ",\"shadow_softness\":0,\"occlusion\":0,\"occlusion_radius\":0.3");
         if (shot_of_shape(&b, &quiet.s, "court.glb", look, NULL, &quiet.view)) {
             check_at_most("P30", shot_differing(&a, &b, 0), 0, "values that a softness and an occlusion of 0 change");
@@ -178,11 +205,14 @@ static void hard_is_hard(void)
     shape_release(&quiet.s);
 }
 
-/* A shadow begins where its thing stands: a strip of floor just behind the wall is dark, and it stays so towards the corner. */
+/* A shadow begins where its thing stands: a strip of floor just behind the wall is dark, and it stays so towards
+ * the corner. */
 static void contact_has_no_gap(void)
 {
     static const double angles[] = {2, 8, 20};
-    light_scene l = {.file = "contact.glb", .towards = {-1, 1, 0.2}, .view = {.width = 640, .height = 480, .eye = {5, 5, 2}, .up = {0, 1, 0}}};
+    light_scene         l = {.file = "contact.glb",
+                             .towards = {-1, 1, 0.2},
+                             .view = {.width = 640, .height = 480, .eye = {5, 5, 2}, .up = {0, 1, 0}}};
     shape_box(&l.s, "floor", dvec_of(-2, -0.1, -2), dvec_of(2, 0, 2));
     shape_box(&l.s, "wall", dvec_of(-0.1, 0, -1), dvec_of(0, 1, 1));
     shape_box(&l.s, "kerb", dvec_of(1.3, 0, -1), dvec_of(1.4, 0.06, 1));
@@ -196,8 +226,10 @@ static void contact_has_no_gap(void)
             double worst = 0, lit = 1, low = 0;
             light_map_drawn(&m, &with, &without);
             for (int i = 0; i <= 60; i++) { /* along the wall's foot, two pixels from it; and before the wall */
-                dvec at = shot_project(&with, dvec_of(0.04, 0, -0.9 + 1.6 * i / 60)), before = shot_project(&with, dvec_of(-0.7, 0, -1.9 + 1.0 * i / 60));
-                float shadowed = m.drawn[(int)at.y * m.width + (int)at.x], open = m.drawn[(int)before.y * m.width + (int)before.x];
+                dvec at = shot_project(&with, dvec_of(0.04, 0, -0.9 + 1.6 * i / 60)),
+                     before = shot_project(&with, dvec_of(-0.7, 0, -1.9 + 1.0 * i / 60));
+                float shadowed = m.drawn[(int)at.y * m.width + (int)at.x],
+                      open = m.drawn[(int)before.y * m.width + (int)before.x];
                 worst = fmax(worst, shadowed >= 0 ? (double)shadowed : 0);
                 dvec foot = shot_project(&with, dvec_of(1.425, 0, -0.8 + 1.6 * i / 60));
                 low += (double)m.drawn[(int)foot.y * m.width + (int)foot.x] / 61;
@@ -218,8 +250,12 @@ static void contact_has_no_gap(void)
 static void thin_gaps_are_dark(void)
 {
     static const double angles[] = {0.5, 2, 8};
-    const double low = 0.012, wide = 0.4;
-    light_scene l = {.file = "sheet.glb", .towards = {-1, 0.6, 0}, .view = {.width = 640, .height = 480, .eye = {2.5, 1.6, 0}, .target = {wide, 0, 0}, .up = {0, 1, 0}, .fov_deg = 3}};
+    const double        low = 0.012, wide = 0.4;
+    light_scene         l = {
+                .file = "sheet.glb",
+                .towards = {-1, 0.6, 0},
+                .view = {
+                    .width = 640, .height = 480, .eye = {2.5, 1.6, 0}, .target = {wide, 0, 0}, .up = {0, 1, 0}, .fov_deg = 3}};
     shape_box(&l.s, "floor", dvec_of(-1.5, -0.05, -1.5), dvec_of(1.5, 0, 1.5));
     shape_box(&l.s, "sheet", dvec_of(0, low, -0.5), dvec_of(wide, low + 0.001, 0.5));
     for (int k = 0; k < 3; k++) {
@@ -235,7 +271,9 @@ static void thin_gaps_are_dark(void)
                 dvec at = shot_project(&with, dvec_of(wide + 0.5 * low / 0.6, 0, -0.03 + 0.06 * i / 40));
                 dark += (double)m.drawn[(int)at.y * m.width + (int)at.x] / 41;
             }
-            check_at_most("P30", dark, 0.1, "%g degrees: light beside a sheet that floats over a floor by a 350th of the scene", angles[k]);
+            check_at_most("P30", dark, 0.1,
+                          "%g degrees: light beside a sheet that floats over a floor by a 350th of the scene",
+                          angles[k]);
             light_map_release(&m);
             shot_release(&without);
         }
@@ -258,9 +296,10 @@ static bool open_around(const light_map *m, int x, int y)
 static void no_acne(void)
 {
     for (int k = 0; k < 6; k++) {
-        light_scene l = {.file = "ball.glb", .towards = lights[k % 3], .softness = k % 2 ? 1.5 : 10, .view = view_of(10, false)};
-        shot        with, without;
-        light_map   m;
+        light_scene l = {
+            .file = "ball.glb", .towards = lights[k % 3], .softness = k % 2 ? 1.5 : 10, .view = view_of(10, false)};
+        shot      with, without;
+        light_map m;
         shape_sphere(&l.s, "ball", dvec_of(0, 0, 0), 2, k < 3 ? 12 : 64, k < 3 ? 24 : 128, true);
         if (light_shot(&with, &l, true)) {
             if (light_shot(&without, &l, false)) {
@@ -272,7 +311,8 @@ static void no_acne(void)
                         all++;
                         dark += m.drawn[i] < 0.95f;
                     }
-                check_at_least("P30", all, 3000, "places of a ball of %s facets that face the light", k < 3 ? "12 x 24" : "64 x 128");
+                check_at_least("P30", all, 3000, "places of a ball of %s facets that face the light",
+                               k < 3 ? "12 x 24" : "64 x 128");
                 check_at_most("P30", dark, 0.0005 * all, "of them dark, light of %g degrees", l.softness);
                 light_map_release(&m);
                 shot_release(&without);
@@ -302,7 +342,8 @@ static void other_lights_stay(void)
                     if (fill.picture[4 * i] >= 250 || !(both.depth[i] < INFINITY))
                         continue;
                     all++;
-                    off += fabs(picture_linear(both.picture[4 * i]) - picture_linear(key.picture[4 * i]) - second) > 0.02;
+                    off +=
+                        fabs(picture_linear(both.picture[4 * i]) - picture_linear(key.picture[4 * i]) - second) > 0.02;
                 }
                 check_at_least("P30", all, 5000, "places lit by two lights");
                 check_at_most("P30", off, 0, "of them where the second light is not the same with and without shadows");
@@ -320,13 +361,19 @@ static void other_lights_stay(void)
 /* Shading with the geometry, after it, on ES, and with samples: one picture. */
 static void one_picture(void)
 {
-    light_scene l = {.file = "court.glb", .towards = lights[1], .softness = 8, .occlusion = 0.8, .radius = 0.1, .view = view_of(25, false)};
+    light_scene l = {.file = "court.glb",
+                     .towards = lights[1],
+                     .softness = 8,
+                     .occlusion = 0.8,
+                     .radius = 0.1,
+                     .view = view_of(25, false)};
     shot        one, other;
     court(&l.s);
     if (light_shot(&one, &l, true)) {
         l.layers = ",\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"}";
         if (light_shot(&other, &l, true)) {
-            check_at_most("P30", shot_differing(&one, &other, 2), 0, "values that differ by more than 2 when shaded later");
+            check_at_most("P30", shot_differing(&one, &other, 2), 0,
+                          "values that differ by more than 2 when shaded later");
             shot_release(&other);
         }
         l.layers = NULL;
@@ -356,19 +403,32 @@ static void one_picture(void)
 /* A solid throws the shadow, and has the corners, of the mesh that it looks like. */
 static void solids_too(void)
 {
-    light_scene mesh = {.file = "boxes.glb", .towards = lights[0], .softness = 8, .occlusion = 0.8, .radius = 0.1, .view = view_of(25, false)}, solid = mesh;
-    shot        one, other;
+    light_scene mesh = {.file = "boxes.glb",
+                        .towards = lights[0],
+                        .softness = 8,
+                        .occlusion = 0.8,
+                        .radius = 0.1,
+                        .view = view_of(25, false)},
+                solid = mesh;
+    shot one, other;
     solid.file = check_path("boxes.csg");
     FILE *file = fopen(solid.file, "wb");
-    if (!file || fputs("union() { multmatrix([[1,0,0,-2],[0,1,0,-0.2],[0,0,1,-2],[0,0,0,1]]) { cube(size = [4, 0.2, 4], center = false); }\n"
-                       "difference() { multmatrix([[1,0,0,-1],[0,1,0,-0.1],[0,0,1,-1],[0,0,0,1]]) { cube(size = [1, 1.1, 1], center = false); }\n"
-                       "multmatrix([[1,0,0,-0.5],[0,1,0,0.5],[0,0,1,-2],[0,0,0,1]]) { cube(size = [1, 1.1, 4], center = false); } } }\n", file) < 0 || fclose(file) != 0)
+    if (!file ||
+        fputs("union() { multmatrix([[1,0,0,-2],[0,1,0,-0.2],[0,0,1,-2],[0,0,0,1]]) { cube(size = [4, 0.2, 4], center "
+              "= false); }\n"
+              "difference() { multmatrix([[1,0,0,-1],[0,1,0,-0.1],[0,0,1,-1],[0,0,0,1]]) { cube(size = [1, 1.1, 1], "
+              "center = false); }\n"
+              "multmatrix([[1,0,0,-0.5],[0,1,0,0.5],[0,0,1,-2],[0,0,0,1]]) { cube(size = [1, 1.1, 4], center = false); "
+              "} } }\n",
+              file) < 0 ||
+        fclose(file) != 0)
         return;
     shape_box(&mesh.s, "floor", dvec_of(-2, -0.2, -2), dvec_of(2, 0, 2));
     shape_box(&mesh.s, "low", dvec_of(-1, 0, -1), dvec_of(0, 0.5, 0));
     shape_box(&mesh.s, "high", dvec_of(-1, 0.5, -1), dvec_of(-0.5, 1, 0));
     shot bare[2];
-    bool ok = light_shot(&one, &mesh, true) && light_shot(&other, &solid, true) && light_shot(&bare[0], &mesh, false) && light_shot(&bare[1], &solid, false);
+    bool ok = light_shot(&one, &mesh, true) && light_shot(&other, &solid, true) && light_shot(&bare[0], &mesh, false) &&
+              light_shot(&bare[1], &solid, false);
     check_that("P30", ok, "a solid is drawn");
     if (ok) {
         light_map a, b;
@@ -416,8 +476,10 @@ static void light_moves(void)
                 all++;
             }
             if (k == 4)
-                check_note("half a degree on: mean change %.2f, %d of %d places by more than 80", mean / all, jumps, all);
-            check_at_most("P30", mean / all, 2.5, "mean change of a picture, of 255, when the light turns by half a degree");
+                check_note("half a degree on: mean change %.2f, %d of %d places by more than 80", mean / all, jumps,
+                           all);
+            check_at_most("P30", mean / all, 2.5,
+                          "mean change of a picture, of 255, when the light turns by half a degree");
             check_at_most("P30", jumps, 0.01 * all, "places that change by more than 80");
             shot_release(&before);
         }
@@ -428,7 +490,7 @@ static void light_moves(void)
     shape_release(&l.s);
 }
 
-/* --- ambient occlusion ------------------------------------------------------------------------------------------- */
+/* --- ambient occlusion ---------------------------------------------------------------------------------- */
 
 static const dvec from_viewer = {0.3, 0.55, 0.8};
 
@@ -462,19 +524,30 @@ static void corners_are_darker(void)
 {
     static const struct {
         const char *name;
-        void      (*make)(shape *);
-        double      radius, mean;
-    } rows[] = {{"corner", corner, 0.12, 0.015}, {"corner, wide", corner, 0.35, 0.04}, {"box on floor", box_on_floor, 0.1, 0.01}, {"ball on floor", ball_on_floor, 0.12, 0.02}, {"cleft", cleft, 0.15, 0.02}};
+        void (*make)(shape *);
+        double radius, mean;
+    } rows[] = {{"corner", corner, 0.12, 0.015},
+                {"corner, wide", corner, 0.35, 0.04},
+                {"box on floor", box_on_floor, 0.1, 0.01},
+                {"ball on floor", ball_on_floor, 0.12, 0.02},
+                {"cleft", cleft, 0.15, 0.02}};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
         for (int k = 0; k < 2; k++) {
-            light_scene l = {.file = "occluded.glb", .towards = from_viewer, .view = view_of(k ? 15 : 30, k != 0), .softness = -1, .occlusion = 1, .radius = rows[r].radius};
+            light_scene l = {.file = "occluded.glb",
+                             .towards = from_viewer,
+                             .view = view_of(k ? 15 : 30, k != 0),
+                             .softness = -1,
+                             .occlusion = 1,
+                             .radius = rows[r].radius};
             light_score score;
             rows[r].make(&l.s);
             char name[32];
             snprintf(name, sizeof name, "sky-%zu-%d.png", r, k);
             if (score_of(&l, true, 128, 5, name, &score)) {
-                check_at_least("P31", score.places, 5000, "%s, %s: places compared", rows[r].name, k ? "parallel rays" : "perspective");
-                check_at_most("P31", score.mean, rows[r].mean, "mean difference of the share of the sky (worst %.2f)", score.worst);
+                check_at_least("P31", score.places, 5000, "%s, %s: places compared", rows[r].name,
+                               k ? "parallel rays" : "perspective");
+                check_at_most("P31", score.mean, rows[r].mean, "mean difference of the share of the sky (worst %.2f)",
+                              score.worst);
                 check_at_most("P31", score.far, 0.02, "share of places that are off by more than 0.25");
             }
             shape_release(&l.s);
@@ -484,14 +557,19 @@ static void corners_are_darker(void)
 /* The nearer to the corner, the darker; far from it nothing. */
 static void darkness_falls_off(void)
 {
-    light_scene l = {.file = "occluded.glb", .towards = from_viewer, .view = view_of(30, false), .softness = -1, .occlusion = 1, .radius = 0.12};
+    light_scene l = {.file = "occluded.glb",
+                     .towards = from_viewer,
+                     .view = view_of(30, false),
+                     .softness = -1,
+                     .occlusion = 1,
+                     .radius = 0.12};
     shot        with, without;
     light_map   m;
     corner(&l.s);
     if (light_shot(&with, &l, true)) {
         if (light_shot(&without, &l, false)) {
             static const double apart[] = {0.05, 0.15, 0.3, 0.5, 0.9};
-            double before = 0;
+            double              before = 0;
             light_map_drawn(&m, &with, &without);
             for (int k = 0; k < 5; k++) { /* from the foot of the back wall */
                 dvec   at = shot_project(&with, dvec_of(0.6, 0, -2 + apart[k]));
@@ -512,8 +590,13 @@ static void darkness_falls_off(void)
 static void strength_is_a_share(void)
 {
     static const double strengths[] = {0.25, 0.6};
-    light_scene l = {.file = "occluded.glb", .towards = from_viewer, .view = view_of(30, false), .softness = -1, .occlusion = 1, .radius = 0.3};
-    shot        whole, without, part;
+    light_scene         l = {.file = "occluded.glb",
+                             .towards = from_viewer,
+                             .view = view_of(30, false),
+                             .softness = -1,
+                             .occlusion = 1,
+                             .radius = 0.3};
+    shot                whole, without, part;
     corner(&l.s);
     if (light_shot(&without, &l, false) && light_shot(&whole, &l, true)) {
         light_map full, some;
@@ -531,7 +614,8 @@ static void strength_is_a_share(void)
                     missed += 1 - (double)some.drawn[i];
                     all++;
                 }
-            check_at_least("P31", missed / all, 0.01, "mean share that a corner misses at a strength of %g", strengths[k]);
+            check_at_least("P31", missed / all, 0.01, "mean share that a corner misses at a strength of %g",
+                           strengths[k]);
             check_at_most("P31", off, 0.04, "how far from that share of what it misses at 1");
             light_map_release(&some);
             shot_release(&part);
@@ -548,8 +632,16 @@ static void planes_stay(void)
     static const double elevations[] = {90, 45, 15, 6, 3};
     for (int e = 0; e < 10; e++) {
         double      angle = elevations[e % 5] * pi / 180;
-        light_scene l = {.file = "plane.glb", .towards = {0.6, 1, 0.4}, .softness = e % 2 ? 40 : -1, .occlusion = 1, .radius = e % 3 ? 0.1 : 0.4,
-                         .view = {.width = 401, .height = 301, .eye = {0.7, 3 * sin(angle), 3 * cos(angle) + 0.02}, .up = {0, 1, 0}, .orthographic = e >= 5}};
+        light_scene l = {.file = "plane.glb",
+                         .towards = {0.6, 1, 0.4},
+                         .softness = e % 2 ? 40 : -1,
+                         .occlusion = 1,
+                         .radius = e % 3 ? 0.1 : 0.4,
+                         .view = {.width = 401,
+                                  .height = 301,
+                                  .eye = {0.7, 3 * sin(angle), 3 * cos(angle) + 0.02},
+                                  .up = {0, 1, 0},
+                                  .orthographic = e >= 5}};
         shot        with, without;
         light_map   m;
         shape_box(&l.s, "floor", dvec_of(-5, -0.1, -5), dvec_of(5, 0, 5));
@@ -563,7 +655,8 @@ static void planes_stay(void)
                         least = fmin(least, (double)m.drawn[i]);
                         all++;
                     }
-                check_at_least("P31", all, 1000, "pixels of a plane seen at %g degrees, %s", elevations[e % 5], e >= 5 ? "parallel rays" : "perspective");
+                check_at_least("P31", all, 1000, "pixels of a plane seen at %g degrees, %s", elevations[e % 5],
+                               e >= 5 ? "parallel rays" : "perspective");
                 check_at_least("P31", least, 0.995, "least light on it");
                 light_map_release(&m);
                 shot_release(&without);
@@ -577,7 +670,12 @@ static void planes_stay(void)
 /* What stands far before a wall leaves it as it is. */
 static void no_halo(void)
 {
-    light_scene l = {.file = "halo.glb", .towards = {0.1, 0.2, 1}, .softness = -1, .occlusion = 1, .radius = 0.05, .view = {.width = 400, .height = 320, .eye = {0.3, 0.2, 9}, .up = {0, 1, 0}}};
+    light_scene l = {.file = "halo.glb",
+                     .towards = {0.1, 0.2, 1},
+                     .softness = -1,
+                     .occlusion = 1,
+                     .radius = 0.05,
+                     .view = {.width = 400, .height = 320, .eye = {0.3, 0.2, 9}, .up = {0, 1, 0}}};
     shot        with, without;
     light_map   m;
     shape_box(&l.s, "wall", dvec_of(-2, -2, -0.1), dvec_of(2, 2, 0));
@@ -602,9 +700,10 @@ static void no_halo(void)
     shape_release(&l.s);
 }
 
-/* --- lines around shadows --------------------------------------------------------------------------------------- */
+/* --- lines around shadows ------------------------------------------------------------------------------- */
 
-/* What a place is, by rays: lit, in a shadow, or nothing that a line is drawn for (empty, turned away, hardly facing the light). */
+/* What a place is, by rays: lit, in a shadow, or nothing that a line is drawn for (empty, turned away, hardly
+ * facing the light). */
 typedef enum lit_state { LIT, SHADOWED, NO_MATTER } lit_state;
 
 typedef struct hard_map {
@@ -617,7 +716,8 @@ static void hard_map_make(hard_map *m, const light_scene *l, const shot *s, doub
 {
     tracer *t = tracer_create(&l->s);
     dvec    towards = dvec_unit(shot_to_eye(s, l->towards, 0));
-    *m = (hard_map){.width = s->width, .height = s->height, .state = check_alloc((size_t)s->width * (size_t)s->height, 1)};
+    *m = (hard_map){
+        .width = s->width, .height = s->height, .state = check_alloc((size_t)s->width * (size_t)s->height, 1)};
     trace_map_make(&m->seen, t, s);
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++) {
@@ -626,12 +726,16 @@ static void hard_map_make(hard_map *m, const light_scene *l, const shot *s, doub
             size_t    at = (size_t)y * (size_t)s->width + (size_t)x;
             m->state[at] = NO_MATTER;
             shot_ray(s, x + 0.5, y + 0.5, &origin, &direction);
-            if (!m->seen.id[at] || dvec_dot(m->seen.normal[at], towards) < least || !tracer_hit(t, origin, direction, s->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
+            if (!m->seen.id[at] || dvec_dot(m->seen.normal[at], towards) < least ||
+                !tracer_hit(t, origin, direction, s->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
                 continue;
-            size_t count;
+            size_t                count;
             const trace_triangle *f = &tracer_triangles(t, &count)[hit.triangle];
-            dvec normal = dvec_dot(f->flat, l->towards) < 0 ? dvec_scale(f->flat, -1) : f->flat;
-            m->state[at] = light_of_disc(t, dvec_add(origin, dvec_scale(direction, hit.t)), normal, l->towards, 0, 1) > 0.5 ? LIT : SHADOWED;
+            dvec                  normal = dvec_dot(f->flat, l->towards) < 0 ? dvec_scale(f->flat, -1) : f->flat;
+            m->state[at] =
+                light_of_disc(t, dvec_add(origin, dvec_scale(direction, hit.t)), normal, l->towards, 0, 1) > 0.5
+                    ? LIT
+                    : SHADOWED;
         }
     tracer_destroy(t);
 }
@@ -644,7 +748,8 @@ static bool shadow_ends(const hard_map *m, int x, int y, int reach)
     for (int j = y - reach; j <= y + reach; j++)
         for (int i = x - reach; i <= x + reach; i++) {
             size_t at = (size_t)j * (size_t)m->width + (size_t)i;
-            if (i < 0 || j < 0 || i >= m->width || j >= m->height || m->seen.id[at] != m->seen.id[own] || dvec_dot(m->seen.normal[at], m->seen.normal[own]) < 0.7)
+            if (i < 0 || j < 0 || i >= m->width || j >= m->height || m->seen.id[at] != m->seen.id[own] ||
+                dvec_dot(m->seen.normal[at], m->seen.normal[own]) < 0.7)
                 continue;
             lit = lit || m->state[at] == LIT;
             dark = dark || m->state[at] == SHADOWED;
@@ -664,10 +769,13 @@ static bool ink_near(const shot *s, int x, int y, int reach)
 static const char *outline_look(const light_scene *l, const char *more, const char *layers)
 {
     static char look[768];
-    dvec back = dvec_unit(dvec_sub(l->view.eye, l->view.target)), right = dvec_unit(dvec_cross(l->view.up, back)), up = dvec_cross(back, right);
+    dvec back = dvec_unit(dvec_sub(l->view.eye, l->view.target)), right = dvec_unit(dvec_cross(l->view.up, back)),
+         up = dvec_cross(back, right);
     snprintf(look, sizeof look,
-             "{\"version\":1,\"name\":\"t\",\"scene\":{\"light_direction\":\"%.9f,%.9f,%.9f\"%s},\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
-             "\"lines\":{\"operator\":\"shadow\",\"colour\":\"#000000\"}%s}]}", dvec_dot(right, l->towards), dvec_dot(up, l->towards), dvec_dot(back, l->towards), more, layers);
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"light_direction\":\"%.9f,%.9f,%.9f\"%s},\"finish\":{"
+             "\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
+             "\"lines\":{\"operator\":\"shadow\",\"colour\":\"#000000\"}%s}]}",
+             dvec_dot(right, l->towards), dvec_dot(up, l->towards), dvec_dot(back, l->towards), more, layers);
     return look;
 }
 
@@ -695,7 +803,8 @@ static void outlines_lie_on_borders(void)
                         missed += !ink_near(&s, x, y, 2);
                     }
                 }
-            check_at_least("P15", border, 300, "pixels at shadows' borders, light %d, %s", k % 3, k < 3 ? "perspective" : "parallel rays");
+            check_at_least("P15", border, 300, "pixels at shadows' borders, light %d, %s", k % 3,
+                           k < 3 ? "perspective" : "parallel rays");
             check_at_most("P15", missed, 0.02 * border, "of them without a line");
             check_at_most("P15", stray, 0.01 * ink, "pixels of lines elsewhere (of %d)", ink);
             free(sure.state);
@@ -712,7 +821,7 @@ static void outlines_lie_on_borders(void)
 static void sheet_and_block(shape *s, bool from_behind)
 {
     static const float corners[4][3] = {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}};
-    shape_part *p = shape_add(s, "sheet", 4, 6, true, false);
+    shape_part        *p = shape_add(s, "sheet", 4, 6, true, false);
     for (uint32_t i = 0; i < 6; i++)
         p->indices[i] = (uint32_t[]){0, 1, 2, 0, 2, 3}[from_behind ? 5 - i : i];
     for (int k = 0; k < 4; k++)
@@ -727,8 +836,9 @@ static void sheet_and_block(shape *s, bool from_behind)
 static double outline_ink(double elevation, bool from_behind)
 {
     double      ink = 0, angle = elevation * pi / 180;
-    light_scene l = {.file = "sheet.glb", .towards = {-cos(angle), sin(angle), 0.1 * cos(angle)}, .view = view_of(25, false)};
-    shot        s;
+    light_scene l = {
+        .file = "sheet.glb", .towards = {-cos(angle), sin(angle), 0.1 * cos(angle)}, .view = view_of(25, false)};
+    shot s;
     sheet_and_block(&l.s, from_behind);
     if (shot_of_shape(&s, &l.s, l.file, outline_look(&l, "", ""), NULL, &l.view)) {
         for (int i = 0; i < s.width * s.height; i++)
@@ -771,7 +881,8 @@ static void outlines_nowhere_else(void)
     light_scene l = {.file = "court.glb", .towards = lights[0], .view = view_of(25, false)};
     shot        s, other;
     court(&l.s);
-    static const char *const scenes[] = {",\"shadows\":true", ",\"shadows\":true,\"shadow_softness\":8,\"occlusion\":1", ""};
+    static const char *const scenes[] = {",\"shadows\":true", ",\"shadows\":true,\"shadow_softness\":8,\"occlusion\":1",
+                                         ""};
     static const char *const layers[] = {"", "", ",\"layers\":{\"technique\":\"peel\",\"count\":1}"};
     if (shot_of_shape(&s, &l.s, l.file, outline_look(&l, "", ""), NULL, &l.view)) {
         for (int k = 0; k < 3; k++)
@@ -784,22 +895,30 @@ static void outlines_nowhere_else(void)
     shape_release(&l.s);
 }
 
-/* --- halftones --------------------------------------------------------------------------------------------------- */
+/* --- halftones ------------------------------------------------------------------------------------------ */
 
 /* Blocks of dots have as much ink as shadow and corner take light. */
 static void dots_follow(void)
 {
     enum { BLOCK = 20 };
-    light_scene l = {.file = "court.glb", .towards = lights[1], .softness = 10, .occlusion = 0.9, .radius = 0.12, .view = view_of(25, false)};
+    light_scene l = {.file = "court.glb",
+                     .towards = lights[1],
+                     .softness = 10,
+                     .occlusion = 0.9,
+                     .radius = 0.12,
+                     .view = view_of(25, false)};
     shot        light, dots;
     char        look[768];
     l.view.width = 800;
     l.view.height = 640;
     court(&l.s);
-    dvec back = dvec_unit(dvec_sub(l.view.eye, l.view.target)), right = dvec_unit(dvec_cross(l.view.up, back)), up = dvec_cross(back, right);
+    dvec back = dvec_unit(dvec_sub(l.view.eye, l.view.target)), right = dvec_unit(dvec_cross(l.view.up, back)),
+         up = dvec_cross(back, right);
     snprintf(look, sizeof look,
-             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":0,\"light_scale\":0.99,\"light_direction\":\"%.9f,%.9f,%.9f\",\"shadows\":true,\"shadow_softness\":10,\"occlusion\":0.9,\"occlusion_radius\":0.12},"
-             "\"rules\":[{\"surface\":{\"technique\":\"dots\",\"uneven\":0,\"shadow\":0,\"light\":1,\"contrast\":1,\"texture\":0,\"ink\":\"#000000\",\"paper\":\"#ffffff\",\"diameter\":2}}]}",
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":0,\"light_scale\":0.99,\"light_direction\":\"%.9f,%.9f,"
+             "%.9f\",\"shadows\":true,\"shadow_softness\":10,\"occlusion\":0.9,\"occlusion_radius\":0.12},"
+             "\"rules\":[{\"surface\":{\"technique\":\"dots\",\"uneven\":0,\"shadow\":0,\"light\":1,\"contrast\":1,"
+             "\"texture\":0,\"ink\":\"#000000\",\"paper\":\"#ffffff\",\"diameter\":2}}]}",
              dvec_dot(right, l.towards), dvec_dot(up, l.towards), dvec_dot(back, l.towards));
     if (light_shot(&light, &l, true)) {
         if (shot_of_shape(&dots, &l.s, l.file, look, NULL, &l.view)) {
@@ -812,7 +931,8 @@ static void dots_follow(void)
                     for (int j = y; j < y + BLOCK; j++)
                         for (int i = x; i < x + BLOCK; i++) {
                             size_t at = (size_t)j * (size_t)light.width + (size_t)i;
-                            whole = whole && light.depth[at] < INFINITY && light.id[at] == light.id[(size_t)y * (size_t)light.width + (size_t)x];
+                            whole = whole && light.depth[at] < INFINITY &&
+                                    light.id[at] == light.id[(size_t)y * (size_t)light.width + (size_t)x];
                             tone += picture_linear(light.picture[4 * at]) / (BLOCK * BLOCK);
                             drawn += picture_linear(dots.picture[4 * at]) / (BLOCK * BLOCK);
                         }
@@ -836,9 +956,25 @@ static void dots_follow(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"penumbra", penumbras_grow}, {"shadows", shadows_are_a_discs}, {"hard", hard_is_hard}, {"contact", contact_has_no_gap}, {"gap", thin_gaps_are_dark}, {"acne", no_acne}, {"lights", other_lights_stay},
-        {"paths", one_picture}, {"solid", solids_too}, {"motion", light_moves}, {"corners", corners_are_darker}, {"falloff", darkness_falls_off}, {"strength", strength_is_a_share}, {"plane", planes_stay}, {"halo", no_halo},
-        {"outlines", outlines_lie_on_borders}, {"elsewhere", outlines_nowhere_else}, {"sheets", outlines_on_sheets}, {"dots", dots_follow},
+        {"penumbra", penumbras_grow},
+        {"shadows", shadows_are_a_discs},
+        {"hard", hard_is_hard},
+        {"contact", contact_has_no_gap},
+        {"gap", thin_gaps_are_dark},
+        {"acne", no_acne},
+        {"lights", other_lights_stay},
+        {"paths", one_picture},
+        {"solid", solids_too},
+        {"motion", light_moves},
+        {"corners", corners_are_darker},
+        {"falloff", darkness_falls_off},
+        {"strength", strength_is_a_share},
+        {"plane", planes_stay},
+        {"halo", no_halo},
+        {"outlines", outlines_lie_on_borders},
+        {"elsewhere", outlines_nowhere_else},
+        {"sheets", outlines_on_sheets},
+        {"dots", dots_follow},
     };
     int status = check_main(argc, argv, "light", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,4 +1,5 @@
-/* The G-buffer as the AOVs show it, against rays through the pixel centres: depth, normal, id, and what is made of them. */
+/* The G-buffer as the AOVs show it, against rays through the pixel centres: depth, normal, id, and what is made of
+ * them. */
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,8 +12,8 @@
 static const char four_tap_lines[] = "{\"operator\":\"four-tap\",\"gain\":1,\"width\":2}";
 static const char denormal_lines[] = "{\"operator\":\"denormal\",\"gain\":1,\"width\":2}";
 
-/* Judges all three maps. Borders are known to a fraction of a pixel only: a pixel counts as inside when nothing changes around
- * it in either map. */
+/* Judges all three maps. Borders are known to a fraction of a pixel only: a pixel counts as inside when nothing
+ * changes around it in either map. */
 static void compare(const char *title, const shot *s, const shape *truth, double border, bool ids)
 {
     tracer   *t = tracer_create(truth);
@@ -133,8 +134,8 @@ static double normalised(const shot *s, int x, int y)
 static void depth_is_linear(void)
 {
     for (int parallel = 0; parallel < 2; parallel++) {
-        shape s = {0};
-        shot  drawing;
+        shape     s = {0};
+        shot      drawing;
         shot_view view = {.width = 200, .height = 200, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = parallel};
         double    nearest = INFINITY, farthest = 0;
         shape_quad(&s, "far", 1.5, -1);
@@ -148,8 +149,10 @@ static void depth_is_linear(void)
             }
             check_near("E05", nearest, 7, 1e-4, "eye depth of the nearest plane");
             check_near("E05", farthest, 9, 1e-4, "eye depth of the farthest plane");
-            check_that("E19", drawing.near_depth <= nearest && drawing.far_depth >= farthest, "the clip planes enclose the scene");
-            check_at_most("E19", (drawing.far_depth - drawing.near_depth) / (farthest - nearest), 1.01, "and are tight around it");
+            check_that("E19", drawing.near_depth <= nearest && drawing.far_depth >= farthest,
+                       "the clip planes enclose the scene");
+            check_at_most("E19", (drawing.far_depth - drawing.near_depth) / (farthest - nearest), 1.01,
+                          "and are tight around it");
         }
         shot_release(&drawing);
         shape_release(&s);
@@ -159,18 +162,19 @@ static void depth_is_linear(void)
 /* Normals of a finely cut sphere against the closed form, as an angle. */
 static void sphere_normals(void)
 {
-    shape s = {0};
-    shot  drawing;
+    shape  s = {0};
+    shot   drawing;
     double worst = 0;
     shape_sphere(&s, "sphere", dvec_of(0, 0, 0), 1, 128, 256, true);
     if (shot_of_shape(&drawing, &s, "sphere.ply", shot_line_look(NULL), NULL, &views[0]))
         for (int i = 0; i < drawing.width * drawing.height; i++) {
             dvec origin, direction;
             shot_ray(&drawing, i % drawing.width + 0.5, i / drawing.width + 0.5, &origin, &direction);
-            double a = dvec_dot(direction, direction), b = dvec_dot(origin, direction), root = b * b - a * (dvec_dot(origin, origin) - 1);
+            double a = dvec_dot(direction, direction), b = dvec_dot(origin, direction),
+                   root = b * b - a * (dvec_dot(origin, origin) - 1);
             if (root < 0.05 || isinf(drawing.depth[i]))
                 continue;
-            dvec p = dvec_add(origin, dvec_scale(direction, (-b - sqrt(root)) / a));
+            dvec   p = dvec_add(origin, dvec_scale(direction, (-b - sqrt(root)) / a));
             double c = dvec_dot(shot_to_eye(&drawing, p, 0), dvec_from(drawing.normal[i]));
             worst = fmax(worst, acos(fmin(c, 1)) * 57.29578);
         }
@@ -191,8 +195,9 @@ static void background_and_coarse(void)
             for (int x = 1; x + 1 < drawing.width; x++) {
                 int  i = y * drawing.width + x;
                 bool full = !isinf(drawing.depth[i]);
-                bool outline = full && (isinf(drawing.depth[i - 1]) || isinf(drawing.depth[i + 1]) ||
-                                        isinf(drawing.depth[i - drawing.width]) || isinf(drawing.depth[i + drawing.width]));
+                bool outline =
+                    full && (isinf(drawing.depth[i - 1]) || isinf(drawing.depth[i + 1]) ||
+                             isinf(drawing.depth[i - drawing.width]) || isinf(drawing.depth[i + drawing.width]));
                 border += outline;
                 open += outline && drawing.edge[4 * i + 2] > 200;
             }
@@ -218,8 +223,8 @@ static void background_and_coarse(void)
 static void capture_and_report(void)
 {
     static const char *const looks[] = {"plain", "gooch", "toon", "edges"};
-    shape s = {0};
-    shot  with, without;
+    shape                    s = {0};
+    shot                     with, without;
     shape_box(&s, "base", dvec_of(-1, -0.6, -0.7), dvec_of(0.7, 0.5, 0.6));
     shape_torus(&s, "ring", 0.9, 0.2, 64, 32);
     shape_place(&s, dvec_of(1, 0.4, 0), 70, dvec_of(0.1, 0.2, 0.1));
@@ -242,7 +247,9 @@ static void capture_and_report(void)
                 pixels += with.id[k] == 2;
             snprintf(wanted, sizeof wanted, "\"pixels\": %d", pixels);
             char *place = strstr(with.report, "\"parts_visible\"");
-            check_that("report", place && (strstr(place, wanted) || (memmove(wanted + 9, wanted + 10, 20), strstr(place, wanted))),
+            check_that("report",
+                       place &&
+                           (strstr(place, wanted) || (memmove(wanted + 9, wanted + 10, 20), strstr(place, wanted))),
                        "the report counts %d pixels of the second part", pixels);
         }
         shot_release(&with);
@@ -253,9 +260,9 @@ static void capture_and_report(void)
 /* All channels come from one geometry pass. */
 static void one_pass(void)
 {
-    shape s = {0};
-    shot  drawing;
-    int   passes = 0;
+    shape     s = {0};
+    shot      drawing;
+    int       passes = 0;
     shot_view view = views[0];
     view.profile = true;
     view.without_maps = true;
@@ -264,7 +271,8 @@ static void one_pass(void)
     if (shot_of_shape(&drawing, &s, "pass.glb", "edges", NULL, &view)) {
         json_t *report = json_loads(drawing.report, 0, NULL), *pass;
         size_t  i;
-        json_array_foreach(json_object_get(report, "passes"), i, pass) {
+        json_array_foreach(json_object_get(report, "passes"), i, pass)
+        {
             const char *name = json_string_value(json_object_get(pass, "name"));
             passes += name && strstr(name, "geometry") != NULL;
         }
@@ -278,9 +286,10 @@ static void one_pass(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"smooth", smooth_shapes},   {"parts", parts_and_placements}, {"normals", made_normals},     {"linear", depth_is_linear},
-        {"sphere", sphere_normals},  {"background", background_and_coarse}, {"capture", capture_and_report},
-        {"pass", one_pass},
+        {"smooth", smooth_shapes},       {"parts", parts_and_placements},
+        {"normals", made_normals},       {"linear", depth_is_linear},
+        {"sphere", sphere_normals},      {"background", background_and_coarse},
+        {"capture", capture_and_report}, {"pass", one_pass},
     };
     int status = check_main(argc, argv, "maps", cases, sizeof cases / sizeof *cases);
     shot_end();

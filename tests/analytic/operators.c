@@ -1,5 +1,5 @@
-/* Every edge operator against its twin on the CPU, pixel by pixel, on the raw maps of the same drawing; then the values that
- * the seeds derive for steps and creases, on geometry that has just those. */
+/* Every edge operator against its twin on the CPU, pixel by pixel, on the raw maps of the same drawing; then the
+ * values that the seeds derive for steps and creases, on geometry that has just those. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* --- twins ------------------------------------------------------------------------------------------------------- */
+/* --- twins ---------------------------------------------------------------------------------------------- */
 
 typedef twin_value (*twin_function)(const twin_map *m, int x, int y);
 
@@ -97,7 +97,7 @@ static void against_twin(const twin_case *c, const shape *s, const char *file, c
         twin_sharpen(&map, c->sharpen);
     for (int i = 0; i < map.width * map.height; i++) {
         twin_value v = c->twin(&map, i % map.width, i / map.width);
-        double r = twin_byte(v.profile), g = twin_byte(v.inner), wanted[3] = {r, g, r * g / 255};
+        double     r = twin_byte(v.profile), g = twin_byte(v.inner), wanted[3] = {r, g, r * g / 255};
         for (int k = 0; k < 3; k++) {
             double error = fabs(drawing.edge[4 * i + k] - wanted[k]);
             off += error > allowed && !v.doubtful;
@@ -109,7 +109,8 @@ static void against_twin(const twin_case *c, const shape *s, const char *file, c
     }
     static const char *const channel[] = {"R profile", "G inner", "B both"};
     for (int k = 0; k < 3; k++)
-        if (!check_at_most(c->row, worst[k], allowed, "%s on %s: levels between %s and its twin", c->lines, file, channel[k]))
+        if (!check_at_most(c->row, worst[k], allowed, "%s on %s: levels between %s and its twin", c->lines, file,
+                           channel[k]))
             check_note("worst at %d, %d (got %d); %d values are off", place[k] % map.width, place[k] / map.width,
                        drawing.edge[4 * place[k] + k], off);
     twin_map_release(&map);
@@ -120,7 +121,7 @@ static void twins(void)
 {
     const shot_view central = {.width = 301, .height = 223, .eye = {4, 3, 5}, .up = {0, 1, 0}};
     const shot_view parallel = {.width = 240, .height = 200, .eye = {2, 1.5, 4}, .up = {0, 1, 0}, .orthographic = true};
-    shape mixed = {0}, hills = {0};
+    shape           mixed = {0}, hills = {0};
     shape_torus(&mixed, "ring", 0.9, 0.3, 96, 48);
     shape_box(&mixed, "box", dvec_of(-0.5, -0.8, -0.5), dvec_of(0.4, 0.9, 0.4));
     shape_place(&mixed, dvec_of(0, 1, 1), 25, dvec_of(0.1, 0, 0));
@@ -133,9 +134,10 @@ static void twins(void)
     shape_release(&hills);
 }
 
-/* --- steps and creases ------------------------------------------------------------------------------------------- */
+/* --- steps and creases ---------------------------------------------------------------------------------- */
 
-static const shot_view front = {.width = 128, .height = 128, .eye = {0, 0, 10}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 30};
+static const shot_view front = {
+    .width = 128, .height = 128, .eye = {0, 0, 10}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 30};
 
 static void add_rectangle(shape *s, const char *name, double x0, double y0, double x1, double y1, double z)
 {
@@ -163,8 +165,10 @@ static double channel(const shot *s, int x, int y, int k)
 
 static void steps(void)
 {
-    static const double table[][3] = {{0.01, 0.980, 0.990}, {0.05, 0.904, 0.951}, {0.1, 0.815, 0.903}, {0.3, 0.522, 0.723}, {0.5, 0.316, 0.563}};
-    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}", "{\"operator\":\"four-tap\",\"width\":2,\"squared\":false}",
+    static const double table[][3] = {
+        {0.01, 0.980, 0.990}, {0.05, 0.904, 0.951}, {0.1, 0.815, 0.903}, {0.3, 0.522, 0.723}, {0.5, 0.316, 0.563}};
+    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}",
+                                        "{\"operator\":\"four-tap\",\"width\":2,\"squared\":false}",
                                         "{\"operator\":\"saito\",\"width\":2,\"weights\":\"pencil\"}",
                                         "{\"operator\":\"saito\",\"width\":2,\"weights\":\"pencil-shader\"}"};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
@@ -174,12 +178,15 @@ static void steps(void)
             shot drawing;
             if (!shot_of_shape(&drawing, &s, "step.glb", shot_line_look(lines[k]), NULL, &front))
                 continue;
-            /* The clip planes keep a small distance, so a step is a little less of the range than it is of the scene. */
+            /* The clip planes keep a small distance, so a step is a little less of the range than it is of the
+             * scene. */
             double step = table[i][0] / (drawing.far_depth - drawing.near_depth);
             double wanted = k < 2 ? table[i][k + 1] : k == 2 ? 1 - 0.5 * step : 1 - 2 * step;
-            check_near(k < 2 ? "E06" : "P4", channel(&drawing, 64, 60, 0), wanted, 1.5 / 255, "step %g, %s", table[i][0], lines[k]);
+            check_near(k < 2 ? "E06" : "P4", channel(&drawing, 64, 60, 0), wanted, 1.5 / 255, "step %g, %s",
+                       table[i][0], lines[k]);
             check_near(k < 2 ? "E06" : "P4", channel(&drawing, 63, 60, 0), wanted, 1.5 / 255, "  on the near side");
-            check_near("E07", channel(&drawing, 64, 60, 1), k < 2 ? 1 : channel(&drawing, 64, 60, 1), 1.5 / 255, "  and no inner line there");
+            check_near("E07", channel(&drawing, 64, 60, 1), k < 2 ? 1 : channel(&drawing, 64, 60, 1), 1.5 / 255,
+                       "  and no inner line there");
             shot_release(&drawing);
         }
         shape_release(&s);
@@ -188,39 +195,45 @@ static void steps(void)
 
 static void creases(void)
 {
-    static const double degrees[] = {20, 30, 45, 60, 75, 90, 120, 150};
-    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}", "{\"operator\":\"denormal\",\"width\":2}"};
-    const shot_view close = {.width = 128, .height = 128, .eye = {0, 0, 4}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 10};
+    static const double      degrees[] = {20, 30, 45, 60, 75, 90, 120, 150};
+    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}",
+                                        "{\"operator\":\"denormal\",\"width\":2}"};
+    const shot_view          close = {
+                 .width = 128, .height = 128, .eye = {0, 0, 4}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 10};
     for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
         for (int k = 0; k < 2; k++) {
-            shape s = {0};
-            shot  drawing;
+            shape  s = {0};
+            shot   drawing;
             double a = degrees[i] * pi / 180, least = 1;
             shape_wedge(&s, "wedge", degrees[i]);
             if (shot_of_shape(&drawing, &s, "wedge.glb", shot_line_look(lines[k]), NULL, &close)) {
                 for (int x = 62; x <= 65; x++)
                     least = fmin(least, channel(&drawing, x, 64, 1));
                 double wanted = k == 0 ? cos(a) : 1 - 4 * (1 - cos(a / 2) * cos(a / 2));
-                check_near(k == 0 ? "P3" : "OI-06", least, fmax(wanted, 0), 0.01, "crease of %g degrees, %s", degrees[i], lines[k]);
+                check_near(k == 0 ? "P3" : "OI-06", least, fmax(wanted, 0), 0.01, "crease of %g degrees, %s",
+                           degrees[i], lines[k]);
                 check_near(k == 0 ? "P3" : "OI-06", channel(&drawing, 55, 64, 1), 1, 1.5 / 255, "  flat beside it");
                 for (int x = 60; x < 68; x++)
-                    check_at_most("P5", channel(&drawing, x, 64, 2), channel(&drawing, x, 64, 1) + 1 / 255.0, "  combined is not lighter");
+                    check_at_most("P5", channel(&drawing, x, 64, 2), channel(&drawing, x, 64, 1) + 1 / 255.0,
+                                  "  combined is not lighter");
             }
             shot_release(&drawing);
             shape_release(&s);
         }
 }
 
-/* A step of 1/1000 of the range: found by the engine's own operator, seen by the four-tap operator with gain, lost in 8 bits. */
+/* A step of 1/1000 of the range: found by the engine's own operator, seen by the four-tap operator with gain, lost
+ * in 8 bits. */
 static void thousandth(void)
 {
-    static const char *const lines[] = {"{\"operator\":\"discontinuity\",\"width\":2}", "{\"operator\":\"four-tap\",\"width\":2,\"gain\":500}"};
+    static const char *const lines[] = {"{\"operator\":\"discontinuity\",\"width\":2}",
+                                        "{\"operator\":\"four-tap\",\"width\":2,\"gain\":500}"};
     for (int parallel = 0; parallel < 2; parallel++)
         for (int k = 0; k < 2; k++) {
-            shape s = {0}, joined = {0};
-            shot  drawing;
+            shape     s = {0}, joined = {0};
+            shot      drawing;
             shot_view view = front;
-            int   found = 0, false_ink = 0;
+            int       found = 0, false_ink = 0;
             view.orthographic = parallel;
             view.fov_deg = 28;
             step_scene(&s, 0.3, 0.001);
@@ -232,7 +245,8 @@ static void thousandth(void)
                 for (int x = 20; x < 108; x++)
                     false_ink += (x < 61 || x > 66) && shot_ink(&drawing, x, y) <= 127;
             }
-            check_at_least("E19", found, 60, "rows of 60 in which a step of 1/1000 is a line: %s, %s", lines[k], parallel ? "parallel" : "central");
+            check_at_least("E19", found, 60, "rows of 60 in which a step of 1/1000 is a line: %s, %s", lines[k],
+                           parallel ? "parallel" : "central");
             check_at_most("E19", false_ink, 0, "ink beside it");
             twin_map map;
             twin_map_make(&map, &drawing);
@@ -247,23 +261,26 @@ static void thousandth(void)
         }
 }
 
-/* Pre-filter: the profile of a line gets wider and darker, across a crease (its inner channel) and across a depth step. The
- * seed's "factor -0.1" can be read two ways; the one in which each neighbour weighs -0.1 (`sharpen` 0.1) does it. */
+/* Pre-filter: the profile of a line gets wider and darker, across a crease (its inner channel) and across a depth
+ * step. The seed's "factor -0.1" can be read two ways; the one in which each neighbour weighs -0.1 (`sharpen` 0.1)
+ * does it. */
 static void prefilter(void)
 {
-    const shot_view close = {.width = 128, .height = 128, .eye = {0, 0, 4}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 10};
+    const shot_view close = {
+        .width = 128, .height = 128, .eye = {0, 0, 4}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 10};
     for (int kind = 0; kind < 2; kind++) {
         double sum[3] = {0}, width[3] = {0}, least[3] = {1, 1, 1};
         for (int k = 0; k < 3; k++) {
             static const char *const amounts[] = {"0", "-0.1", "0.1"};
-            const char *changes[] = {"lines.sharpen", amounts[k], NULL};
-            shape s = {0};
-            shot  drawing;
+            const char              *changes[] = {"lines.sharpen", amounts[k], NULL};
+            shape                    s = {0};
+            shot                     drawing;
             if (kind == 0)
                 shape_wedge(&s, "wedge", 45);
             else
                 step_scene(&s, 0, 0.3);
-            if (shot_of_shape(&drawing, &s, "prefilter.glb", shot_line_look("{\"operator\":\"four-tap\",\"width\":2}"), changes, kind ? &front : &close))
+            if (shot_of_shape(&drawing, &s, "prefilter.glb", shot_line_look("{\"operator\":\"four-tap\",\"width\":2}"),
+                              changes, kind ? &front : &close))
                 for (int x = 50; x < 78; x++) {
                     double ink = 1 - channel(&drawing, x, 60, kind ? 0 : 1);
                     sum[k] += ink;
@@ -274,15 +291,15 @@ static void prefilter(void)
             shape_release(&s);
         }
         const char *what = kind ? "depth step" : "crease";
-        check_note("%s, sharpen 0: width %g, ink %.3f, darkest %.3f; -0.1: %g, %.3f, %.3f; +0.1: %g, %.3f, %.3f", what, width[0], sum[0],
-                   least[0], width[1], sum[1], least[1], width[2], sum[2], least[2]);
+        check_note("%s, sharpen 0: width %g, ink %.3f, darkest %.3f; -0.1: %g, %.3f, %.3f; +0.1: %g, %.3f, %.3f", what,
+                   width[0], sum[0], least[0], width[1], sum[1], least[1], width[2], sum[2], least[2]);
         check_at_least("P6", width[2], width[0] + 1, "%s: width in px when neighbours weigh -0.1", what);
         check_at_least("P6", sum[2], sum[0] + 0.01, "%s: ink across the line", what);
         check_at_most("P6", least[2], least[0] - 0.01, "%s: its darkest place", what);
     }
 }
 
-/* --- ids --------------------------------------------------------------------------------------------------------- */
+/* --- ids ------------------------------------------------------------------------------------------------ */
 
 /* Boxes side by side whose fronts lie in one plane, and one a hair in front. */
 static void id_scene(shape *s)
@@ -299,7 +316,8 @@ static void judge_ids(const shot *s, bool id_channel, const char *title)
     int missing = 0, wrong = 0, borders = 0;
     for (int y = 1; y + 1 < s->height; y++)
         for (int x = 1; x + 1 < s->width; x++) {
-            bool straight = false, any = false, ink = (id_channel ? s->edge[4 * (y * s->width + x) + 3] : shot_ink(s, x, y)) <= 127;
+            bool straight = false, any = false,
+                 ink = (id_channel ? s->edge[4 * (y * s->width + x) + 3] : shot_ink(s, x, y)) <= 127;
             for (int k = 0; k < 9; k++) {
                 bool other = s->id[(y + k / 3 - 1) * s->width + x + k % 3 - 1] != s->id[y * s->width + x];
                 any = any || other;
@@ -317,15 +335,17 @@ static void judge_ids(const shot *s, bool id_channel, const char *title)
 static void id_edges(void)
 {
     const shot_view view = {.width = 256, .height = 200, .eye = {0, 0, 8}, .up = {0, 1, 0}};
-    shape s = {0};
-    shot  by_id, by_shape, own;
+    shape           s = {0};
+    shot            by_id, by_shape, own;
     id_scene(&s);
     int lines = 0, shape_lines = 0;
     if (shot_of_shape(&by_id, &s, "ids.glb", shot_line_look("{\"operator\":\"id\",\"width\":2}"), NULL, &view))
         judge_ids(&by_id, true, "id");
     if (shot_of_shape(&own, &s, "ids.glb", shot_line_look("{\"operator\":\"discontinuity\",\"width\":2}"), NULL, &view))
         judge_ids(&own, false, "discontinuity");
-    if (shot_of_shape(&by_shape, &s, "ids.glb", shot_line_look("{\"operator\":\"four-tap\",\"width\":2}"), NULL, &view) && by_id.edge)
+    if (shot_of_shape(&by_shape, &s, "ids.glb", shot_line_look("{\"operator\":\"four-tap\",\"width\":2}"), NULL,
+                      &view) &&
+        by_id.edge)
         for (int y = 0; y < view.height; y++) {
             dvec seam = shot_project(&by_id, dvec_of(-0.7, 0, 0));
             int  x = (int)floor(seam.x);
@@ -343,18 +363,20 @@ static void id_edges(void)
     shape_release(&s);
 }
 
-/* --- colour and bumps -------------------------------------------------------------------------------------------- */
+/* --- colour and bumps ----------------------------------------------------------------------------------- */
 
 enum { TEXTURE = 64 };
 
-/* Four dark panes on a light wall; or, as a normal map, an upright groove in the middle, 45 degrees steep on both sides. */
+/* Four dark panes on a light wall; or, as a normal map, an upright groove in the middle, 45 degrees steep on both
+ * sides. */
 static void paint(shape_part *p, bool bumps)
 {
     uint8_t *pixels = check_alloc(TEXTURE * TEXTURE, 4);
     for (int i = 0; i < TEXTURE * TEXTURE; i++) {
-        int  x = i % TEXTURE, y = i / TEXTURE;
-        bool pane = x % 32 >= 8 && x % 32 < 24 && y % 32 >= 8 && y % 32 < 24;
-        uint8_t wall[4] = {200, 190, 180, 255}, glass[4] = {40, 60, 110, 255}, up[4] = {128, 128, 255, 255}, left[4] = {38, 128, 218, 255};
+        int     x = i % TEXTURE, y = i / TEXTURE;
+        bool    pane = x % 32 >= 8 && x % 32 < 24 && y % 32 >= 8 && y % 32 < 24;
+        uint8_t wall[4] = {200, 190, 180, 255}, glass[4] = {40, 60, 110, 255}, up[4] = {128, 128, 255, 255},
+                left[4] = {38, 128, 218, 255};
         uint8_t right[4] = {218, 128, 218, 255};
         memcpy(&pixels[4 * i], bumps ? (x < 24 || x >= 40 ? up : x < 32 ? left : right) : (pane ? glass : wall), 4);
     }
@@ -365,14 +387,16 @@ static void paint(shape_part *p, bool bumps)
 static void painted_windows(void)
 {
     const shot_view view = {.width = 256, .height = 256, .eye = {0, 0, 4.8}, .up = {0, 1, 0}};
-    shape s = {0}, ball = {0};
-    shot  drawing;
-    int   found = 0, wrong = 0;
+    shape           s = {0}, ball = {0};
+    shot            drawing;
+    int             found = 0, wrong = 0;
     shape_quad(&s, "wall", 1, 0);
     paint(&s.parts[0], false);
-    if (shot_of_shape(&drawing, &s, "windows.glb", shot_line_look("{\"operator\":\"colour\",\"width\":2,\"gain\":4}"), NULL, &view)) {
+    if (shot_of_shape(&drawing, &s, "windows.glb", shot_line_look("{\"operator\":\"colour\",\"width\":2,\"gain\":4}"),
+                      NULL, &view)) {
         for (int i = 0; i < 1000; i++) {
-            dvec p = shot_project(&drawing, dvec_of(-1 + 2 * (8 + 16 * (i % 250) / 250.0) / 64, 1 - 2 * (8 + 16 * (i / 250 % 2)) / 64.0, 0));
+            dvec p = shot_project(&drawing, dvec_of(-1 + 2 * (8 + 16 * (i % 250) / 250.0) / 64,
+                                                    1 - 2 * (8 + 16 * (i / 250 % 2)) / 64.0, 0));
             bool ink = false;
             for (int k = 0; k < 9; k++)
                 ink = ink || shot_ink(&drawing, (int)p.x + k % 3 - 1, (int)p.y + k / 3 - 1) <= 127;
@@ -390,7 +414,8 @@ static void painted_windows(void)
     shape_sphere(&ball, "ball", dvec_of(0, 0, 0), 1, 64, 128, true);
     const char *changes[] = {"surface.technique", "lambert", NULL};
     wrong = 0;
-    if (shot_of_shape(&drawing, &ball, "gradient.ply", shot_line_look("{\"operator\":\"colour\",\"width\":2,\"gain\":4}"), changes, &view))
+    if (shot_of_shape(&drawing, &ball, "gradient.ply",
+                      shot_line_look("{\"operator\":\"colour\",\"width\":2,\"gain\":4}"), changes, &view))
         for (int i = 0; i < 256 * 256; i++)
             if (!isinf(drawing.depth[i]) && drawing.normal[i][2] > 0.4f)
                 wrong += shot_ink(&drawing, i % 256, i / 256) < 254;
@@ -402,8 +427,9 @@ static void painted_windows(void)
 
 static void bumps(void)
 {
-    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}", "{\"operator\":\"denormal\",\"width\":2}",
-                                        "{\"operator\":\"discontinuity\",\"width\":2}", "{\"operator\":\"sobel\",\"width\":2}"};
+    static const char *const lines[] = {
+        "{\"operator\":\"four-tap\",\"width\":2}", "{\"operator\":\"denormal\",\"width\":2}",
+        "{\"operator\":\"discontinuity\",\"width\":2}", "{\"operator\":\"sobel\",\"width\":2}"};
     const shot_view view = {.width = 256, .height = 256, .eye = {0, 0, 10}, .up = {0, 1, 0}};
     for (int k = 0; k < 4; k++) {
         shape s = {0};
@@ -427,15 +453,17 @@ static void bumps(void)
     }
 }
 
-/* --- properties -------------------------------------------------------------------------------------------------- */
+/* --- properties ----------------------------------------------------------------------------------------- */
 
 /* Lines of every direction and of both signs: around a sphere in each of 32 sectors, and on both sides of a plate. */
 static void all_directions(void)
 {
-    static const char *const lines[] = {"{\"operator\":\"sobel\",\"width\":2,\"gain\":8}", "{\"operator\":\"sobel\",\"width\":2,\"gain\":8,\"taps\":\"eight\"}",
-                                        "{\"operator\":\"four-tap\",\"width\":2,\"gain\":8}", "{\"operator\":\"saito\",\"width\":2,\"gain\":8}",
+    static const char *const lines[] = {"{\"operator\":\"sobel\",\"width\":2,\"gain\":8}",
+                                        "{\"operator\":\"sobel\",\"width\":2,\"gain\":8,\"taps\":\"eight\"}",
+                                        "{\"operator\":\"four-tap\",\"width\":2,\"gain\":8}",
+                                        "{\"operator\":\"saito\",\"width\":2,\"gain\":8}",
                                         "{\"operator\":\"discontinuity\",\"width\":2}"};
-    const shot_view view = {.width = 200, .height = 200, .eye = {0, 0, 8}, .up = {0, 1, 0}, .fov_deg = 20};
+    const shot_view          view = {.width = 200, .height = 200, .eye = {0, 0, 8}, .up = {0, 1, 0}, .fov_deg = 20};
     for (int k = 0; k < 5; k++) {
         shape s = {0};
         shot  drawing;
@@ -459,10 +487,11 @@ static void all_directions(void)
 /* A depth step between equal normals: nothing for the plain filter, a line when depth is a unit vector too. */
 static void depth_as_vector(void)
 {
-    static const char *const lines[] = {"{\"operator\":\"denormal\",\"width\":2}", "{\"operator\":\"denormal\",\"width\":2,\"depth\":true}"};
+    static const char *const lines[] = {"{\"operator\":\"denormal\",\"width\":2}",
+                                        "{\"operator\":\"denormal\",\"width\":2,\"depth\":true}"};
     for (int k = 0; k < 2; k++) {
-        shape s = {0};
-        shot  drawing;
+        shape  s = {0};
+        shot   drawing;
         double least = 1;
         step_scene(&s, 0, 0.4);
         if (shot_of_shape(&drawing, &s, "vector.glb", shot_line_look(lines[k]), NULL, &front))
@@ -486,7 +515,8 @@ static void one_fetch(void)
     bool  extra = false;
     while (file && fgets(line, sizeof line, file)) {
         extra = strncmp(line, "#if DEPTH", 9) == 0 || (extra && strncmp(line, "#endif", 6) != 0);
-        fetches += !extra && (strstr(line, "texture") || strstr(line, "texel(") || strstr(line, "texelFetch") || strstr(line, "bilinear("));
+        fetches += !extra && (strstr(line, "texture") || strstr(line, "texel(") || strstr(line, "texelFetch") ||
+                              strstr(line, "bilinear("));
     }
     if (file)
         fclose(file);
@@ -496,9 +526,10 @@ static void one_fetch(void)
 /* I1 answers on both sides of a jump and makes two lines; the normalised operator must not. */
 static void double_lines(void)
 {
-    static const char *const lines[] = {"{\"operator\":\"saito\",\"width\":2,\"gain\":8}", "{\"operator\":\"saito-normalised\",\"width\":2}"};
-    const shot_view view = {.width = 240, .height = 240, .eye = {0, 0, 8}, .up = {0, 1, 0}, .fov_deg = 20};
-    int doubled[2] = {0, 0}, profile[2] = {0, 0};
+    static const char *const lines[] = {"{\"operator\":\"saito\",\"width\":2,\"gain\":8}",
+                                        "{\"operator\":\"saito-normalised\",\"width\":2}"};
+    const shot_view          view = {.width = 240, .height = 240, .eye = {0, 0, 8}, .up = {0, 1, 0}, .fov_deg = 20};
+    int                      doubled[2] = {0, 0}, profile[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
         shape s = {0};
         shot  drawing;
@@ -512,8 +543,8 @@ static void double_lines(void)
         shot_release(&drawing);
         shape_release(&s);
     }
-    check_note("second-order ink on a sphere before a wall: saito %d px, normalised %d px; profile %d and %d px", doubled[0], doubled[1],
-               profile[0], profile[1]);
+    check_note("second-order ink on a sphere before a wall: saito %d px, normalised %d px; profile %d and %d px",
+               doubled[0], doubled[1], profile[0], profile[1]);
     check_at_least("E26", doubled[0], 200, "I1 doubles the outline (px)");
     check_at_most("E26", doubled[1], 0.05 * doubled[0], "the normalised operator does not (px)");
     check_at_least("E26", profile[1], 200, "and keeps the profile (px)");
@@ -522,9 +553,10 @@ static void double_lines(void)
 /* Equation 2 draws broader than equation 3 at the gains that are printed. */
 static void pencil_breadth(void)
 {
-    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}", "{\"operator\":\"saito\",\"width\":2,\"weights\":\"pencil\"}"};
-    const shot_view view = {.width = 240, .height = 240, .eye = {4, 3, 5}, .up = {0, 1, 0}};
-    int broad[2] = {0, 0};
+    static const char *const lines[] = {"{\"operator\":\"four-tap\",\"width\":2}",
+                                        "{\"operator\":\"saito\",\"width\":2,\"weights\":\"pencil\"}"};
+    const shot_view          view = {.width = 240, .height = 240, .eye = {4, 3, 5}, .up = {0, 1, 0}};
+    int                      broad[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
         shape s = {0};
         shot  drawing;
@@ -541,9 +573,19 @@ static void pencil_breadth(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"twins", twins},       {"steps", steps},           {"creases", creases},         {"thousandth", thousandth},
-        {"prefilter", prefilter}, {"ids", id_edges},        {"windows", painted_windows}, {"bumps", bumps},
-        {"directions", all_directions}, {"vector", depth_as_vector}, {"double", double_lines}, {"breadth", pencil_breadth}, {"fetch", one_fetch},
+        {"twins", twins},
+        {"steps", steps},
+        {"creases", creases},
+        {"thousandth", thousandth},
+        {"prefilter", prefilter},
+        {"ids", id_edges},
+        {"windows", painted_windows},
+        {"bumps", bumps},
+        {"directions", all_directions},
+        {"vector", depth_as_vector},
+        {"double", double_lines},
+        {"breadth", pencil_breadth},
+        {"fetch", one_fetch},
     };
     int status = check_main(argc, argv, "operators", cases, sizeof cases / sizeof *cases);
     shot_end();

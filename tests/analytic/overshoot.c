@@ -1,4 +1,5 @@
-/* Lines that run on in drawings: how far along the projected edges of a box, what lies in front of them, and what must not change. */
+/* Lines that run on in drawings: how far along the projected edges of a box, what lies in front of them, and what
+ * must not change. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,16 +9,18 @@
 #include "shape.h"
 #include "shot.h"
 
-#define LINES "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"faint\":20,\"crease\":30}"
+#define LINES       "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"faint\":20,\"crease\":30}"
 #define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[" RULES "]}"
-#define FLAT "\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"}"
+#define FLAT        "\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"}"
 
-static const shot_view box_view = {.width = 640, .height = 600, .eye = {5, 3.4, 6.3}, .up = {0.1, 1, 0}, .without_maps = true};
+static const shot_view box_view = {
+    .width = 640, .height = 600, .eye = {5, 3.4, 6.3}, .up = {0.1, 1, 0}, .without_maps = true};
 
 static const double corner[8][3] = {{-1.4, -1, -1.2}, {1.2, -1, -1.2}, {-1.4, 1.1, -1.2}, {1.2, 1.1, -1.2},
                                     {-1.4, -1, 1.3},  {1.2, -1, 1.3},  {-1.4, 1.1, 1.3},  {1.2, 1.1, 1.3}};
 /* The nine edges that are seen from in front, right, above, and the three that are not. */
-static const int box_edges[12][2] = {{4, 5}, {5, 1}, {1, 3}, {3, 2}, {2, 6}, {6, 4}, {6, 7}, {7, 5}, {7, 3}, {0, 1}, {0, 2}, {0, 4}};
+static const int box_edges[12][2] = {{4, 5}, {5, 1}, {1, 3}, {3, 2}, {2, 6}, {6, 4},
+                                     {6, 7}, {7, 5}, {7, 3}, {0, 1}, {0, 2}, {0, 4}};
 
 static void box_of(shape *s)
 {
@@ -37,11 +40,13 @@ static void cylinder_of(shape *s)
     for (uint32_t i = 0; i <= AROUND; i++)
         for (uint32_t k = 0; k < 2; k++) {
             double turn = 2 * 3.14159265358979323846 * i / AROUND, r = i == AROUND ? 0 : 1.2, y = k ? 1.3 : -1.3;
-            memcpy(p->positions[2 * i + k], (float[]){(float)(r * cos(turn)), (float)y, (float)(r * sin(turn))}, sizeof p->positions[0]);
+            memcpy(p->positions[2 * i + k], (float[]){(float)(r * cos(turn)), (float)y, (float)(r * sin(turn))},
+                   sizeof p->positions[0]);
         }
     for (uint32_t i = 0; i < AROUND; i++) {
         uint32_t a = 2 * i, b = 2 * ((i + 1) % AROUND), c = 2 * AROUND;
-        memcpy(&p->indices[12 * i], (uint32_t[]){a, a + 1, b + 1, a, b + 1, b, a, b, c, a + 1, c + 1, b + 1}, 12 * sizeof(uint32_t));
+        memcpy(&p->indices[12 * i], (uint32_t[]){a, a + 1, b + 1, a, b + 1, b, a, b, c, a + 1, c + 1, b + 1},
+               12 * sizeof(uint32_t));
     }
     shape_make_normals(s, 40);
 }
@@ -50,7 +55,9 @@ static void cylinder_of(shape *s)
 static double darkness(const shot *s, double x, double y)
 {
     int column = (int)floor(x), row = (int)floor(y);
-    return column < 0 || row < 0 || column >= s->width || row >= s->height ? 0 : 1 - picture_linear(s->picture[4 * (row * s->width + column)]);
+    return column < 0 || row < 0 || column >= s->width || row >= s->height
+               ? 0
+               : 1 - picture_linear(s->picture[4 * (row * s->width + column)]);
 }
 
 static dvec corner_at(const shot *s, int i)
@@ -116,16 +123,18 @@ static box_verdict judge_box(const shot *s, int count, double length, double wid
             if (darkness(s, x, y) < 0.1)
                 continue;
             for (int e = 0; e < count; e++)
-                nearest = fmin(nearest, distance_to(corner_at(s, box_edges[e][0]), corner_at(s, box_edges[e][1]), 1.3 * length + 1, x + 0.5, y + 0.5));
+                nearest = fmin(nearest, distance_to(corner_at(s, box_edges[e][0]), corner_at(s, box_edges[e][1]),
+                                                    1.3 * length + 1, x + 0.5, y + 0.5));
             v.strays += nearest > 0.5 * width + 1.5;
         }
     return v;
 }
 
-static bool draw(shot *out, void (*make)(shape *), const char *overshoot, const char *width, const char *look, const shot_view *view)
+static bool draw(shot *out, void (*make)(shape *), const char *overshoot, const char *width, const char *look,
+                 const shot_view *view)
 {
     const char *changes[] = {"lines.overshoot", overshoot, "lines.width", width, NULL};
-    shape s = {0};
+    shape       s = {0};
     make(&s);
     bool good = shot_of_shape(out, &s, "overshoot.glb", look, changes, view);
     shape_release(&s);
@@ -145,7 +154,8 @@ static void edges_of_a_box(void)
                 view.orthographic = parallel;
                 if (draw(&s, box_of, lengths[i], i == 1 ? "1" : "2", shot_line_look(LINES), &view)) {
                     box_verdict v = judge_box(&s, 9, length, 2);
-                    check_at_least("overshoot", v.shortest, least_of(length), "px of the shortest stroke of %s px, rolled %d", lengths[i], roll);
+                    check_at_least("overshoot", v.shortest, least_of(length),
+                                   "px of the shortest stroke of %s px, rolled %d", lengths[i], roll);
                     check_at_most("overshoot", v.longest, 1.3 * length + 3, "px of the longest");
                     check_near("overshoot", v.mean, length, 0.2 * length + 1, "px on average");
                     check_at_most("overshoot", v.strays, 0, "pixels of ink elsewhere");
@@ -156,8 +166,8 @@ static void edges_of_a_box(void)
 
 static void what_stays(void)
 {
-    shot plain, zero, run, again, es;
-    shape s = {0};
+    shot      plain, zero, run, again, es;
+    shape     s = {0};
     shot_view other = box_view;
     other.es = true;
     box_of(&s);
@@ -180,7 +190,8 @@ static void what_stays(void)
     mapped.without_maps = false;
     good = draw(&zero, box_of, "0", "2", shot_line_look(LINES), &mapped);
     if (draw(&run, box_of, "14", "2", shot_line_look(LINES), &mapped) && good)
-        check_that("overshoot", memcmp(zero.edge, run.edge, (size_t)zero.width * (size_t)zero.height * 4) == 0, "the edge map is the same");
+        check_that("overshoot", memcmp(zero.edge, run.edge, (size_t)zero.width * (size_t)zero.height * 4) == 0,
+                   "the edge map is the same");
     shot_release(&zero);
     shot_release(&run);
 }
@@ -206,8 +217,10 @@ static void round_things(void)
     if (draw(&run, cylinder_of, "16", "2", shot_line_look(LINES), &view) && good) {
         int elsewhere = 0;
         for (int side = 0; side < 2; side++) {
-            dvec low = shot_project(&run, dvec_of(side ? 1.2 : -1.2, -1.3, 0)), high = shot_project(&run, dvec_of(side ? 1.2 : -1.2, 1.3, 0));
-            check_at_least("overshoot", run_of(&run, low, high, 6), 16, "px by which side %d of a cylinder runs on above", side);
+            dvec low = shot_project(&run, dvec_of(side ? 1.2 : -1.2, -1.3, 0)),
+                 high = shot_project(&run, dvec_of(side ? 1.2 : -1.2, 1.3, 0));
+            check_at_least("overshoot", run_of(&run, low, high, 6), 16,
+                           "px by which side %d of a cylinder runs on above", side);
             check_at_least("overshoot", run_of(&run, high, low, 6), 16, "px below");
         }
         for (int y = 0; y < run.height; y++)
@@ -215,8 +228,10 @@ static void round_things(void)
                 double nearest = 1e9;
                 for (int side = 0; side < 2; side++)
                     nearest = fmin(nearest, distance_to(shot_project(&run, dvec_of(side ? 1.2 : -1.2, -1.3, 0)),
-                                                        shot_project(&run, dvec_of(side ? 1.2 : -1.2, 1.3, 0)), 52, x + 0.5, y + 0.5));
-                elsewhere += abs(run.picture[4 * (y * run.width + x)] - plain.picture[4 * (y * run.width + x)]) > 8 && nearest > 2.5;
+                                                        shot_project(&run, dvec_of(side ? 1.2 : -1.2, 1.3, 0)), 52,
+                                                        x + 0.5, y + 0.5));
+                elsewhere += abs(run.picture[4 * (y * run.width + x)] - plain.picture[4 * (y * run.width + x)]) > 8 &&
+                             nearest > 2.5;
             }
         check_at_most("overshoot", elsewhere, 0, "pixels that change elsewhere");
     }
@@ -235,8 +250,9 @@ static void box_and_wall(shape *s, bool in_front)
 /* Strokes outside their figure lie as deep as their line would. */
 static void among_others(void)
 {
-    static const char *const look = LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES "},"
-                                         "{\"select\":\"wall*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d0e0ff\"}}");
+    static const char *const look =
+        LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES "},"
+             "{\"select\":\"wall*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d0e0ff\"}}");
     const char *changes[] = {"0:lines.overshoot", "24", NULL};
     for (int in_front = 0; in_front < 2; in_front++) {
         shape s = {0};
@@ -246,7 +262,8 @@ static void among_others(void)
             int shown = 0, all = 0;
             for (int e = 0; e < 9; e++)
                 for (int side = 0; side < 2; side++) {
-                    dvec a = corner_at(&run, box_edges[e][!side]), b = corner_at(&run, box_edges[e][side]), at = beyond(a, b, 9, 0);
+                    dvec a = corner_at(&run, box_edges[e][!side]), b = corner_at(&run, box_edges[e][side]),
+                         at = beyond(a, b, 9, 0);
                     dvec beside = beyond(a, b, 9, 12);
                     if (run.picture[4 * ((int)beside.y * run.width + (int)beside.x) + 2] < 250)
                         continue; /* near another line */
@@ -254,7 +271,8 @@ static void among_others(void)
                     all += on_wall;
                     shown += on_wall && darkness(&run, at.x, at.y) > 0.4;
                 }
-            check_at_least("E20", all, 4, "strokes over a wall that another rule draws %s", in_front ? "in front" : "behind");
+            check_at_least("E20", all, 4, "strokes over a wall that another rule draws %s",
+                           in_front ? "in front" : "behind");
             check_near("E20", shown, in_front ? 0 : all, 0.5, "of which show");
         }
         shot_release(&run);
@@ -265,11 +283,12 @@ static void among_others(void)
 /* A box on a floor of another rule: strokes of its lower edges lie on the floor. */
 static void on_a_floor(void)
 {
-    static const char *const look = LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES "},"
-                                         "{\"select\":\"floor*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d0e0ff\"}}");
+    static const char *const look =
+        LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES "},"
+             "{\"select\":\"floor*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d0e0ff\"}}");
     const char *changes[] = {"0:lines.overshoot", "24", NULL};
-    shape s = {0};
-    shot  run;
+    shape       s = {0};
+    shot        run;
     box_of(&s);
     shape_quad(&s, "floor", 5, 0);
     shape_place(&s, dvec_of(1, 0, 0), -90, dvec_of(0, -1, 0));
@@ -296,12 +315,14 @@ static void on_a_floor(void)
 /* Each layer has its own lines: hidden edges run on as well. */
 static void through_layers(void)
 {
-    static const char *const look = LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0},"
-                                         "\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0,\"hidden_opacity\":1}}");
+    static const char *const look =
+        LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0},"
+             "\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0,\"hidden_opacity\":1}}");
     shot run;
     if (draw(&run, box_of, "16", "2", look, &box_view)) {
         box_verdict v = judge_box(&run, 12, 16, 2);
-        check_at_least("B04", v.shortest, least_of(16), "px of the shortest of the strokes of 16 px of all edges, hidden ones too");
+        check_at_least("B04", v.shortest, least_of(16),
+                       "px of the shortest of the strokes of 16 px of all edges, hidden ones too");
         check_at_most("B04", v.strays, 0, "pixels of ink elsewhere");
     }
     shot_release(&run);
@@ -310,7 +331,7 @@ static void through_layers(void)
 /* Wide lines, several samples, and two line techniques of which the first runs on. */
 static void variants(void)
 {
-    shot run;
+    shot      run;
     shot_view fine = box_view;
     fine.samples = 9;
     if (draw(&run, box_of, "16", "6", shot_line_look(LINES), &box_view)) {
@@ -327,11 +348,12 @@ static void variants(void)
     shot_release(&run);
     static const char *const pair = "[{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"overshoot\":16},"
                                     "{\"operator\":\"id\",\"colour\":\"#000000\"}]";
-    shape s = {0};
+    shape                    s = {0};
     box_of(&s);
     if (shot_of_shape(&run, &s, "overshoot.glb", shot_line_look(pair), NULL, &box_view)) {
         box_verdict v = judge_box(&run, 9, 16, 2);
-        check_at_least("overshoot", v.shortest, least_of(16), "px of the shortest stroke of the first of two line techniques");
+        check_at_least("overshoot", v.shortest, least_of(16),
+                       "px of the shortest stroke of the first of two line techniques");
     }
     shot_release(&run);
     shape_release(&s);
@@ -340,7 +362,7 @@ static void variants(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"box", edges_of_a_box}, {"stays", what_stays}, {"round", round_things},  {"others", among_others},
+        {"box", edges_of_a_box}, {"stays", what_stays},      {"round", round_things}, {"others", among_others},
         {"floor", on_a_floor},   {"layers", through_layers}, {"variants", variants},
     };
     int status = check_main(argc, argv, "overshoot", cases, sizeof cases / sizeof *cases);

@@ -1,5 +1,6 @@
-/* Paper on the page: ink on hills and on flanks that face the stroke, bare paper, tones, grounds, samples, sizes; and a paper that goes with the model, measured against
- * how its surface moves. Row P28 of the notes on the pencil city. */
+/* Paper on the page: ink on hills and on flanks that face the stroke, bare paper, tones, grounds, samples, sizes;
+ * and a paper that goes with the model, measured against how its surface moves. Row P28 of the notes on the pencil
+ * city. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,14 +17,15 @@ enum { SIDE = 256, KINDS = PAPER_COUNT };
 typedef struct wanted {
     int         paper, samples, size; /* 0: 1 sample, SIDE */
     bool        es;
-    const char *ink, *ground, *keys;  /* of the sheet, beginning with a comma, or "" */
+    const char *ink, *ground, *keys; /* of the sheet, beginning with a comma, or "" */
 } wanted;
 
 /* The papers themselves, made once. */
 static const paper *paper_of(int kind)
 {
     static paper papers[KINDS];
-    if (!papers[kind].heights && !check_that("P28", paper_create(&papers[kind], (paper_kind)kind, 0, NULL) == LMN_OK, "%s can be made", paper_names[kind]))
+    if (!papers[kind].heights && !check_that("P28", paper_create(&papers[kind], (paper_kind)kind, 0, NULL) == LMN_OK,
+                                             "%s can be made", paper_names[kind]))
         exit(2);
     return &papers[kind];
 }
@@ -33,7 +35,9 @@ static bool take(shot *out, wanted w)
 {
     char look[600];
     int  size = w.size ? w.size : SIDE;
-    snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"%s\",\"paper\":\"%s\"%s},\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"%s\"}}]}",
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"%s\",\"paper\":\"%s\"%s},\"rules\":[{\"surface\":{"
+             "\"technique\":\"flat\",\"colour\":\"%s\"}}]}",
              w.ground, paper_names[w.paper], w.keys, w.ink);
     halftone_scene s = {0};
     shot_view      view = halftone_view(size, size, size / 4.0);
@@ -61,16 +65,18 @@ static const char *grey(double ink, double *rounded)
 
 static bool same_pixels(const shot *a, const shot *b, int first_row, int rows)
 {
-    return memcmp(a->picture + 4 * (size_t)first_row * (size_t)a->width, b->picture + 4 * (size_t)first_row * (size_t)a->width, 4 * (size_t)rows * (size_t)a->width) == 0;
+    return memcmp(a->picture + 4 * (size_t)first_row * (size_t)a->width,
+                  b->picture + 4 * (size_t)first_row * (size_t)a->width, 4 * (size_t)rows * (size_t)a->width) == 0;
 }
 
-/* --- ink and grain ----------------------------------------------------------------------------------------------------- */
+/* --- ink and grain -------------------------------------------------------------------------------------- */
 
 /* Height and lean towards the stroke under a pixel of paper that lies still, between texels. */
 static void under(const paper *p, double size, int x, int row, double *height, double *facing)
 {
-    double u = (x + 0.5) * PAPER_TEXELS_A_GRAIN / size - 0.5, v = (SIDE - row - 0.5) * PAPER_TEXELS_A_GRAIN / size - 0.5;
-    int    left = (int)floor(u), low = (int)floor(v);
+    double u = (x + 0.5) * PAPER_TEXELS_A_GRAIN / size - 0.5,
+           v = (SIDE - row - 0.5) * PAPER_TEXELS_A_GRAIN / size - 0.5;
+    int left = (int)floor(u), low = (int)floor(v);
     *height = *facing = 0;
     for (int k = 0; k < 4; k++) {
         float  normal[3];
@@ -99,7 +105,8 @@ static void relate(relation *r, double a, double b)
 
 static double correlation(const relation *r)
 {
-    double n = r->count, a = r->squares[0] / n - r->sums[0] * r->sums[0] / n / n, b = r->squares[1] / n - r->sums[1] * r->sums[1] / n / n;
+    double n = r->count, a = r->squares[0] / n - r->sums[0] * r->sums[0] / n / n,
+           b = r->squares[1] / n - r->sums[1] * r->sums[1] / n / n;
     return (r->product / n - r->sums[0] * r->sums[1] / n / n) / sqrt(fmax(a * b, 1e-20));
 }
 
@@ -122,17 +129,21 @@ static void compare(const shot *s, const paper *p, double size, bool light)
                 flanks[facing > 0]++;
             }
         }
-    check_at_least("P28", correlation(&of_height), 0.75, "%s%s: correlation of ink with height", paper_names[p->kind], light ? ", light on dark" : "");
+    check_at_least("P28", correlation(&of_height), 0.75, "%s%s: correlation of ink with height", paper_names[p->kind],
+                   light ? ", light on dark" : "");
     check_at_least("P28", correlation(&of_facing), 0.2, "with the lean of its normals towards the stroke");
-    check_at_most("P28", fabs(correlation(&of_another)), p->kind < PAPER_LAID ? 0.05 : 0.6, "with the height elsewhere");
-    check_at_least("P28", flank[1] / flanks[1] - flank[0] / flanks[0], 0.05, "more ink on flanks that face it than on those that do not, alike in height");
+    check_at_most("P28", fabs(correlation(&of_another)), p->kind < PAPER_LAID ? 0.05 : 0.6,
+                  "with the height elsewhere");
+    check_at_least("P28", flank[1] / flanks[1] - flank[0] / flanks[0], 0.05,
+                   "more ink on flanks that face it than on those that do not, alike in height");
 }
 
 static void ink_stays_on_hills(void)
 {
     for (int kind = 1; kind < KINDS; kind++) {
         shot s;
-        if (take(&s, (wanted){.paper = kind, .ink = grey(0.5, NULL), .ground = "#ffffff", .keys = ",\"grain_size\":3"})) {
+        if (take(&s,
+                 (wanted){.paper = kind, .ink = grey(0.5, NULL), .ground = "#ffffff", .keys = ",\"grain_size\":3"})) {
             compare(&s, paper_of(kind), 3, false);
             shot_release(&s);
         }
@@ -153,10 +164,16 @@ static void bare_paper_is_its_ground(void)
             if (!take(&without, (wanted){.samples = samples, .ink = ink, .ground = grounds[g], .keys = ""}))
                 return;
             for (int kind = 1; kind < KINDS; kind++)
-                if (take(&with, (wanted){.paper = kind, .samples = samples, .ink = ink, .ground = grounds[g], .keys = ",\"grain\":1,\"relief\":0"})) {
-                    check_that("P28", same_pixels(&without, &with, SIDE * 3 / 4, SIDE / 4), "%s, %s, %d samples: bare paper is the ground to the byte", paper_names[kind], grounds[g],
-                               samples);
-                    check_at_least("P28", shot_differing(&without, &with, 8), SIDE * SIDE / 4, "pixels of ink that it changes");
+                if (take(&with, (wanted){.paper = kind,
+                                         .samples = samples,
+                                         .ink = ink,
+                                         .ground = grounds[g],
+                                         .keys = ",\"grain\":1,\"relief\":0"})) {
+                    check_that("P28", same_pixels(&without, &with, SIDE * 3 / 4, SIDE / 4),
+                               "%s, %s, %d samples: bare paper is the ground to the byte", paper_names[kind],
+                               grounds[g], samples);
+                    check_at_least("P28", shot_differing(&without, &with, 8), SIDE * SIDE / 4,
+                                   "pixels of ink that it changes");
                     shot_release(&with);
                 }
             shot_release(&without);
@@ -168,7 +185,8 @@ static void no_grain_is_no_paper(void)
     shot none, grainless;
     if (!take(&none, (wanted){.ink = "#777777", .ground = "#ffffff", .keys = ""}))
         return;
-    if (take(&grainless, (wanted){.paper = PAPER_ROUGH, .ink = "#777777", .ground = "#ffffff", .keys = ",\"grain\":0"})) {
+    if (take(&grainless,
+             (wanted){.paper = PAPER_ROUGH, .ink = "#777777", .ground = "#ffffff", .keys = ",\"grain\":0"})) {
         check_that("P28", same_pixels(&none, &grainless, 0, SIDE), "grain 0 is no paper to the byte");
         shot_release(&grainless);
     }
@@ -186,26 +204,33 @@ static void tones_stay(void)
     static const struct {
         const char *keys;
         double      mid, full; /* how much off, up to half ink and above */
-    } cases[] = {{",\"grain\":1,\"pressure\":1", 0.012, 0.012}, {"", 0.02, 0.035}, {",\"grain\":1,\"pressure\":0.6", 0.08, 0.2}, {",\"motion\":\"zooming\",\"pressure\":1", 0.015, 0.015}};
+    } cases[] = {{",\"grain\":1,\"pressure\":1", 0.012, 0.012},
+                 {"", 0.02, 0.035},
+                 {",\"grain\":1,\"pressure\":0.6", 0.08, 0.2},
+                 {",\"motion\":\"zooming\",\"pressure\":1", 0.015, 0.015}};
     for (int k = 0; k < 4; k++)
         for (int kind = 1; kind < KINDS; kind++) {
             double mid = 0, full = 0;
             for (int i = 2; i <= 20; i += 2) {
                 double ink;
                 shot   s;
-                if (!take(&s, (wanted){.paper = kind, .ink = grey(i / 20.0, &ink), .ground = "#ffffff", .keys = cases[k].keys}))
+                if (!take(&s,
+                          (wanted){
+                              .paper = kind, .ink = grey(i / 20.0, &ink), .ground = "#ffffff", .keys = cases[k].keys}))
                     return;
                 double off = fabs(mean_of(&s) - ink);
                 shot_release(&s);
                 mid = i <= 10 ? fmax(mid, off) : mid;
                 full = fmax(full, off);
             }
-            check_at_most("P28", mid, cases[k].mid, "%s%s: mean ink off, up to half ink", paper_names[kind], cases[k].keys);
+            check_at_most("P28", mid, cases[k].mid, "%s%s: mean ink off, up to half ink", paper_names[kind],
+                          cases[k].keys);
             check_at_most("P28", full, cases[k].full, "up to full ink");
         }
 }
 
-/* Between its ground and the strongest ink of its hue: differences from the ground keep their proportions, whatever the grain makes of them. */
+/* Between its ground and the strongest ink of its hue: differences from the ground keep their proportions, whatever
+ * the grain makes of them. */
 static void ink_keeps_its_hue(void)
 {
     static const struct {
@@ -217,7 +242,10 @@ static void ink_keeps_its_hue(void)
         int    at = SIDE / 2 * SIDE + 7, bare = (SIDE - 2) * SIDE + 7;
         if (!take(&plain, (wanted){.ink = cases[k].ink, .ground = cases[k].ground, .keys = ""}))
             return;
-        if (take(&grained, (wanted){.paper = PAPER_ROUGH, .ink = cases[k].ink, .ground = cases[k].ground, .keys = ",\"grain\":1,\"pressure\":0.8"})) {
+        if (take(&grained, (wanted){.paper = PAPER_ROUGH,
+                                    .ink = cases[k].ink,
+                                    .ground = cases[k].ground,
+                                    .keys = ",\"grain\":1,\"pressure\":0.8"})) {
             double wanted[3], ground[3], size = 0;
             for (int c = 0; c < 3; c++) {
                 ground[c] = picture_linear(plain.picture[4 * bare + c]);
@@ -231,7 +259,8 @@ static void ink_keeps_its_hue(void)
                 for (int c = 0; c < 3; c++)
                     off = fmax(off, fabs(picture_linear(grained.picture[4 * i + c]) - ground[c] - along * wanted[c]));
             }
-            check_at_most("P28", off, 0.01, "%s on %s: how far a pixel is off the line from its ground through its ink", cases[k].ink, cases[k].ground);
+            check_at_most("P28", off, 0.01, "%s on %s: how far a pixel is off the line from its ground through its ink",
+                          cases[k].ink, cases[k].ground);
             shot_release(&grained);
         }
         shot_release(&plain);
@@ -244,22 +273,28 @@ static void hills_get_no_more_than_the_pencil_has(void)
     static const struct {
         const char *ink, *ground, *keys;
         int         byte, sign; /* of the strongest ink; whether ink is darker or lighter than its ground */
-    } cases[] = {{"#dadada", "#ffffff", ",\"grain\":1,\"pressure\":1,\"ink\":\"#cbcbcb\"", 0xcb, -1}, {"#959595", "#202020", ",\"grain\":1,\"pressure\":1,\"ink\":\"#aaaaaa\"", 0xaa, 1}};
+    } cases[] = {{"#dadada", "#ffffff", ",\"grain\":1,\"pressure\":1,\"ink\":\"#cbcbcb\"", 0xcb, -1},
+                 {"#959595", "#202020", ",\"grain\":1,\"pressure\":1,\"ink\":\"#aaaaaa\"", 0xaa, 1}};
     for (int k = 0; k < 2; k++)
         for (int kind = 1; kind < KINDS; kind++) {
-            shot limited, not;
+            shot limited, not ;
             int  beyond[2] = {0};
-            if (!take(&limited, (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = cases[k].keys}))
+            if (!take(&limited,
+                      (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = cases[k].keys}))
                 return;
-            if (take(&not, (wanted){.paper = kind, .ink = cases[k].ink, .ground = cases[k].ground, .keys = ",\"grain\":1,\"pressure\":1"})) {
+            if (take(&not, (wanted){.paper = kind,
+                                    .ink = cases[k].ink,
+                                    .ground = cases[k].ground,
+                                    .keys = ",\"grain\":1,\"pressure\":1"})) {
                 for (int i = 0; i < SIDE * SIDE * 3 / 4; i++) {
                     beyond[0] += (limited.picture[4 * i] - cases[k].byte) * cases[k].sign > 1;
-                    beyond[1] += (not.picture[4 * i] - cases[k].byte) * cases[k].sign > 1;
+                    beyond[1] += (not .picture[4 * i] - cases[k].byte) * cases[k].sign > 1;
                 }
-                check_at_most("P28", beyond[0], 0, "%s: pixels of %s on %s beyond the pencil's own", paper_names[kind], cases[k].ink, cases[k].ground);
+                check_at_most("P28", beyond[0], 0, "%s: pixels of %s on %s beyond the pencil's own", paper_names[kind],
+                              cases[k].ink, cases[k].ground);
                 check_at_least("P28", beyond[1], 500, "without a limit");
-                check_near("P28", mean_of(&limited), mean_of(&not), 0.012, "mean ink with and without");
-                shot_release(&not);
+                check_near("P28", mean_of(&limited), mean_of(&not ), 0.012, "mean ink with and without");
+                shot_release(&not );
             }
             shot_release(&limited);
         }
@@ -273,7 +308,10 @@ static void more_ink_gives_more(void)
         double bare_faint = 0, bare_firm = 0;
         for (int i = 1; i <= 20; i++) {
             double ink;
-            if (!take(&now, (wanted){.paper = kind, .ink = grey(i / 20.0, &ink), .ground = "#ffffff", .keys = ",\"grain\":1,\"pressure\":1"}))
+            if (!take(&now, (wanted){.paper = kind,
+                                     .ink = grey(i / 20.0, &ink),
+                                     .ground = "#ffffff",
+                                     .keys = ",\"grain\":1,\"pressure\":1"}))
                 break;
             for (int y = 0; y < SIDE * 3 / 4; y++)
                 for (int x = 0; x < SIDE; x++) {
@@ -282,7 +320,8 @@ static void more_ink_gives_more(void)
                     bare_firm += i == 18 && halftone_ink(&now, x, y) < 0.3 * ink;
                 }
             if (i == 20)
-                check_near("P28", mean_of(&now), 1, 1e-6, "%s: full ink at full pressure fills the valleys", paper_names[kind]);
+                check_near("P28", mean_of(&now), 1, 1e-6, "%s: full ink at full pressure fills the valleys",
+                           paper_names[kind]);
             if (before.picture)
                 shot_release(&before);
             before = now;
@@ -290,20 +329,22 @@ static void more_ink_gives_more(void)
         if (before.picture)
             shot_release(&before);
         check_at_most("P28", less, 0, "pixels that get lighter where there is more ink, in 20 steps");
-        check_at_least("P28", bare_faint - bare_firm, 0.1 * SIDE * SIDE * 3 / 4, "pixels that faint ink leaves out and firm ink does not");
+        check_at_least("P28", bare_faint - bare_firm, 0.1 * SIDE * SIDE * 3 / 4,
+                       "pixels that faint ink leaves out and firm ink does not");
     }
 }
 
 static void samples_and_size_do_not_matter(void)
 {
     for (int kind = 1; kind < KINDS; kind++) {
-        shot one, four, large, es;
+        shot   one, four, large, es;
         wanted w = {.paper = kind, .ink = "#888888", .ground = "#f0f0f0", .keys = ",\"grain_size\":3"};
         if (!take(&one, w))
             return;
         w.samples = 4;
         if (take(&four, w)) {
-            check_at_most("P28", shot_differing(&one, &four, 1), 0, "%s: pixels that 4 samples change", paper_names[kind]);
+            check_at_most("P28", shot_differing(&one, &four, 1), 0, "%s: pixels that 4 samples change",
+                          paper_names[kind]);
             shot_release(&four);
         }
         w.samples = 1;
@@ -318,7 +359,8 @@ static void samples_and_size_do_not_matter(void)
             int differ = 0;
             for (int y = 0; y < SIDE; y++) /* both have ink in rows from SIDE / 2 to SIDE from the bottom */
                 for (int x = 0; x < SIDE && y >= SIDE / 2; x++)
-                    differ += abs(one.picture[4 * ((SIDE - 1 - y) * SIDE + x)] - large.picture[4 * ((2 * SIDE - 1 - y) * 2 * SIDE + x)]) > 1;
+                    differ += abs(one.picture[4 * ((SIDE - 1 - y) * SIDE + x)] -
+                                  large.picture[4 * ((2 * SIDE - 1 - y) * 2 * SIDE + x)]) > 1;
             check_at_most("P28", differ, 0, "pixels in which a larger page has another grain");
             shot_release(&large);
         }
@@ -332,7 +374,9 @@ static void transparent_pages_keep_their_ink(void)
         shot   s;
         double alpha = 0, squares = 0;
         int    wrong = 0, count = SIDE * SIDE * 3 / 4;
-        if (!take(&s, (wanted){.paper = kind, .ink = "#40608080", .ground = "none", .keys = ",\"relief\":0.5,\"pressure\":1"}))
+        if (!take(&s,
+                  (wanted){
+                      .paper = kind, .ink = "#40608080", .ground = "none", .keys = ",\"relief\":0.5,\"pressure\":1"}))
             return;
         for (int i = 0; i < count; i++) {
             const uint8_t *p = s.picture + 4 * i;
@@ -354,20 +398,24 @@ static void relief_shows_on_bare_paper(void)
     for (int kind = 1; kind < KINDS; kind++) {
         shot     s;
         relation lit = {{0}};
-        if (take(&s, (wanted){.paper = kind, .ink = "#888888", .ground = "#e0d8c8", .keys = ",\"relief\":0.4,\"grain_size\":3"})) {
+        if (take(&s, (wanted){.paper = kind,
+                              .ink = "#888888",
+                              .ground = "#e0d8c8",
+                              .keys = ",\"relief\":0.4,\"grain_size\":3"})) {
             for (int y = SIDE * 3 / 4; y < SIDE; y++)
                 for (int x = 0; x < SIDE; x++) {
                     double height, facing;
                     under(paper_of(kind), 3, x, y, &height, &facing);
                     relate(&lit, -halftone_ink(&s, x, y), facing);
                 }
-            check_at_least("P28", correlation(&lit), 0.95, "%s: correlation of bare paper's light with the lean to the upper left", paper_names[kind]);
+            check_at_least("P28", correlation(&lit), 0.95,
+                           "%s: correlation of bare paper's light with the lean to the upper left", paper_names[kind]);
             shot_release(&s);
         }
     }
 }
 
-/* --- motion ------------------------------------------------------------------------------------------------------------ */
+/* --- motion --------------------------------------------------------------------------------------------- */
 
 enum { WIDE = 288, HIGH = 240, PATCH = 10, AROUND = 9, STEP = 12 };
 
@@ -379,10 +427,15 @@ static shot_view view_at(stand s)
 {
     const double degree = 0.017453292519943295;
     double       a = s.azimuth * degree, e = s.elevation * degree, r = s.roll * degree;
-    dvec         to = {sin(a) * cos(e), sin(e), cos(a) * cos(e)}, right = {cos(a), 0, -sin(a)}, up = {-sin(a) * sin(e), cos(e), -cos(a) * sin(e)};
-    dvec         target = dvec_scale(right, s.aside);
-    return (shot_view){.width = WIDE, .height = HIGH, .eye = dvec_add(target, dvec_scale(to, s.distance)), .target = target,
-                       .up = dvec_add(dvec_scale(right, sin(r)), dvec_scale(up, cos(r))), .fov_deg = 30};
+    dvec         to = {sin(a) * cos(e), sin(e), cos(a) * cos(e)}, right = {cos(a), 0, -sin(a)},
+         up = {-sin(a) * sin(e), cos(e), -cos(a) * sin(e)};
+    dvec target = dvec_scale(right, s.aside);
+    return (shot_view){.width = WIDE,
+                       .height = HIGH,
+                       .eye = dvec_add(target, dvec_scale(to, s.distance)),
+                       .target = target,
+                       .up = dvec_add(dvec_scale(right, sin(r)), dvec_scale(up, cos(r))),
+                       .fov_deg = 30};
 }
 
 static bool on_model(const shot *s, int x, int y, int around)
@@ -400,7 +453,8 @@ static double unlike(const shot *a, const shot *b, int x, int y, int dx, int dy,
     double sum = 0;
     for (int j = -PATCH; j <= PATCH && sum < enough; j++)
         for (int i = -PATCH; i <= PATCH; i++) {
-            double off = a->picture[4 * ((y + j) * a->width + x + i)] - b->picture[4 * ((y + j + dy) * b->width + x + i + dx)];
+            double off =
+                a->picture[4 * ((y + j) * a->width + x + i)] - b->picture[4 * ((y + j + dy) * b->width + x + i + dx)];
             sum += off * off;
         }
     return sum;
@@ -428,8 +482,10 @@ static dvec grain_motion(const shot *a, const shot *b, int x, int y)
         }
     dvec out = {best_x, best_y, 0};
     if (least > 0) {
-        out.x += vertex(unlike(a, b, x, y, best_x - 1, best_y, INFINITY), least, unlike(a, b, x, y, best_x + 1, best_y, INFINITY));
-        out.y += vertex(unlike(a, b, x, y, best_x, best_y - 1, INFINITY), least, unlike(a, b, x, y, best_x, best_y + 1, INFINITY));
+        out.x += vertex(unlike(a, b, x, y, best_x - 1, best_y, INFINITY), least,
+                        unlike(a, b, x, y, best_x + 1, best_y, INFINITY));
+        out.y += vertex(unlike(a, b, x, y, best_x, best_y - 1, INFINITY), least,
+                        unlike(a, b, x, y, best_x, best_y + 1, INFINITY));
     }
     return out;
 }
@@ -476,23 +532,29 @@ typedef struct sequence {
 } sequence;
 
 static const sequence sequences[] = {
-    {"orbit", {0, 10, 7, 0, 0}, {45, 0, 0, 0, 0}, {1.5, 0, 0, 0, 0}, 8},  {"orbit from above", {0, 40, 7, 0, 0}, {75, 0, 0, 0, 0}, {1.5, 0, 0, 0, 0}, 5},
+    {"orbit", {0, 10, 7, 0, 0}, {45, 0, 0, 0, 0}, {1.5, 0, 0, 0, 0}, 8},
+    {"orbit from above", {0, 40, 7, 0, 0}, {75, 0, 0, 0, 0}, {1.5, 0, 0, 0, 0}, 5},
     {"tilt", {30, -20, 7, 0, 0}, {20, 10, 0, 0, 0}, {0, 1.5, 0, 0, 0}, 6},
-    {"pan", {20, 15, 7, -0.4, 0}, {30, 0, 0, 0.2, 0}, {0, 0, 0, 0.05, 0}, 5}, {"roll", {20, 15, 7, 0, -60}, {30, 0, 0, 0, 25}, {0, 0, 0, 0, 2}, 5},
+    {"pan", {20, 15, 7, -0.4, 0}, {30, 0, 0, 0.2, 0}, {0, 0, 0, 0.05, 0}, 5},
+    {"roll", {20, 15, 7, 0, -60}, {30, 0, 0, 0, 25}, {0, 0, 0, 0, 2}, 5},
     {"zoom", {20, 15, 8, 0, 0}, {40, 0, -0.6, 0, 0}, {0, 0, -0.2, 0, 0}, 6},
 };
 
 static stand moved_by(stand s, stand by, double times)
 {
-    return (stand){s.azimuth + times * by.azimuth, s.elevation + times * by.elevation, s.distance + times * by.distance, s.aside + times * by.aside, s.roll + times * by.roll};
+    return (stand){s.azimuth + times * by.azimuth, s.elevation + times * by.elevation, s.distance + times * by.distance,
+                   s.aside + times * by.aside, s.roll + times * by.roll};
 }
 
 static slip run(const shape *model, const sequence *q, const char *motion)
 {
     slip out = {0};
     char look[400];
-    snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain\":1,\"grain_size\":4,\"motion\":\"%s\"},\"rules\":[{\"surface\":{\"technique\":"
-                                "\"flat\",\"colour\":\"#bbbbbb\"}}]}", motion);
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain\":1,\"grain_size\":4,\"motion\":"
+             "\"%s\"},\"rules\":[{\"surface\":{\"technique\":"
+             "\"flat\",\"colour\":\"#bbbbbb\"}}]}",
+             motion);
     for (int i = 0; i < q->places; i++) {
         shot      a, b;
         stand     here = moved_by(q->first, q->next, i);
@@ -512,9 +574,10 @@ static slip run(const shape *model, const sequence *q, const char *motion)
 static void paper_goes_with_the_model(void)
 {
     static const char *const motions[] = {"fixed", "following", "zooming"}, *const names[] = {"ball", "box"};
-    /* What is left of the shower door, by sequence: of a ball, whose points differ in speed, about 0.3 is the least that a stiff paper can have. */
+    /* What is left of the shower door, by sequence: of a ball, whose points differ in speed, about 0.3 is the least
+     * that a stiff paper can have. */
     static const double limits[2][6] = {{0.45, 0.7, 0.45, 0.12, 0.15, 1}, {0.55, 0.7, 0.55, 0.12, 0.15, 0.3}};
-    shape models[2] = {{0}};
+    shape               models[2] = {{0}};
     shape_sphere(&models[0], "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
     shape_box(&models[1], "box", dvec_of(-1, -0.7, -0.85), dvec_of(1, 0.7, 0.85));
     for (int k = 0; k < 2; k++)
@@ -522,11 +585,13 @@ static void paper_goes_with_the_model(void)
             for (int m = 0; m < 3; m++) {
                 slip   s = run(&models[k], &sequences[q], motions[m]);
                 double share = s.off / fmax(s.moved, 1e-9);
-                check_at_least("P28", s.count, 60, "%s, %s, %s: places measured, which moved by %.2f px", names[k], sequences[q].name, motions[m], s.moved / fmax(s.count, 1));
+                check_at_least("P28", s.count, 60, "%s, %s, %s: places measured, which moved by %.2f px", names[k],
+                               sequences[q].name, motions[m], s.moved / fmax(s.count, 1));
                 if (m == 0)
                     check_near("P28", share, 1, 1e-9, "slip of the paper over the surface as a share of its motion");
                 else
-                    check_at_most("P28", share, limits[m - 1][q], "slip of the paper over the surface as a share of its motion");
+                    check_at_most("P28", share, limits[m - 1][q],
+                                  "slip of the paper over the surface as a share of its motion");
             }
     shape_release(&models[0]);
     shape_release(&models[1]);
@@ -536,19 +601,23 @@ static void paper_goes_with_the_model(void)
 static void paper_depends_on_the_view_alone(void)
 {
     static const char *const motions[] = {"following", "zooming"};
-    shape model = {0};
+    shape                    model = {0};
     shape_sphere(&model, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
     for (int m = 0; m < 2; m++) {
-        shot        first, again, round;
-        char        look[400];
-        stand       here = {179.99, 12, 6, 0.1, 0}, there = {-179.99, 12, 6, 0.1, 0}, far = {20, 12, 6, 0.1, 0};
-        shot_view   views[3] = {view_at(here), view_at(there), view_at(far)};
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain_size\":4,\"motion\":\"%s\"},\"rules\":[{\"surface\":{\"technique\":\"flat\","
-                                    "\"colour\":\"#bbbbbb\"}}]}", motions[m]);
+        shot      first, again, round;
+        char      look[400];
+        stand     here = {179.99, 12, 6, 0.1, 0}, there = {-179.99, 12, 6, 0.1, 0}, far = {20, 12, 6, 0.1, 0};
+        shot_view views[3] = {view_at(here), view_at(there), view_at(far)};
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain_size\":4,\"motion\":\"%s\"},"
+                 "\"rules\":[{\"surface\":{\"technique\":\"flat\","
+                 "\"colour\":\"#bbbbbb\"}}]}",
+                 motions[m]);
         if (!shot_of_shape(&first, &model, "round.glb", look, NULL, &views[0]))
             return;
         if (shot_of_shape(&round, &model, "round.glb", look, NULL, &views[1])) {
-            check_at_most("P28", halftone_difference(&first, &round), 0.01, "%s: difference of the page where the turn closes", motions[m]);
+            check_at_most("P28", halftone_difference(&first, &round), 0.01,
+                          "%s: difference of the page where the turn closes", motions[m]);
             shot_release(&round);
         }
         if (shot_of_shape(&round, &model, "round.glb", look, NULL, &views[2])) {
@@ -568,15 +637,18 @@ static void paper_depends_on_the_view_alone(void)
 static void paper_never_jumps(void)
 {
     static const char *const motions[] = {"following", "zooming"};
-    shape model = {0};
+    shape                    model = {0};
     shape_sphere(&model, "ball", dvec_of(0, 0, 0), 1, 24, 48, true);
     for (int m = 0; m < 2; m++) {
         shot   before = {0}, now;
         char   look[400];
         double most = 0, sum = 0;
         int    at = 0;
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain_size\":8,\"motion\":\"%s\"},\"rules\":[{\"surface\":{\"technique\":\"flat\","
-                                    "\"colour\":\"#bbbbbb\"}}]}", motions[m]);
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"grain_size\":8,\"motion\":\"%s\"},"
+                 "\"rules\":[{\"surface\":{\"technique\":\"flat\","
+                 "\"colour\":\"#bbbbbb\"}}]}",
+                 motions[m]);
         for (int i = 0; i <= 360; i++) {
             shot_view view = view_at((stand){i, 10, 5, 0, 0});
             view.width = view.height = 96;
@@ -593,7 +665,8 @@ static void paper_never_jumps(void)
             before = now;
         }
         shot_release(&before);
-        check_at_most("P28", most, 2.5 * sum, "%s: the largest change in a degree (at %d) against the mean one of all around", motions[m], at);
+        check_at_most("P28", most, 2.5 * sum,
+                      "%s: the largest change in a degree (at %d) against the mean one of all around", motions[m], at);
     }
     shape_release(&model);
 }
@@ -616,10 +689,17 @@ static void grain_stays_as_fine_when_nearer(void)
     double least = INFINITY, most = 0, change = 0, spread[2] = {INFINITY, 0};
     shot   before = {0}, now;
     for (int i = 0; i <= 40; i++) {
-        shot_view view = {.width = WIDE, .height = HIGH, .eye = {0, 0, 12 * pow(2, -i / 16.0)}, .up = {0, 1, 0}, .fov_deg = 30, .without_maps = true};
+        shot_view view = {.width = WIDE,
+                          .height = HIGH,
+                          .eye = {0, 0, 12 * pow(2, -i / 16.0)},
+                          .up = {0, 1, 0},
+                          .fov_deg = 30,
+                          .without_maps = true};
         if (!shot_of_shape(&now, &model, "near.glb",
-                           "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"pressure\":1,\"grain_size\":3,\"motion\":\"zooming\"},\"rules\":[{\"surface\":{\"technique\":\"flat\","
-                           "\"colour\":\"#bbbbbb\"}}]}", NULL, &view))
+                           "{\"version\":1,\"name\":\"t\",\"finish\":{\"paper\":\"drawing\",\"pressure\":1,\"grain_"
+                           "size\":3,\"motion\":\"zooming\"},\"rules\":[{\"surface\":{\"technique\":\"flat\","
+                           "\"colour\":\"#bbbbbb\"}}]}",
+                           NULL, &view))
             break;
         double steps = steps_of(&now), mean = halftone_mean(&now, WIDE / 2 - 40, HIGH / 2 - 40, 80, 80);
         least = fmin(least, steps);

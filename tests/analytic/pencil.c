@@ -1,4 +1,5 @@
-/* Pencil shading: strokes along quantised ways, tones, leads, colours, and what depth focus leaves. Notes: seed-pencil-city P20 to P24, P32 to P34, P36, P37. */
+/* Pencil shading: strokes along quantised ways, tones, leads, colours, and what depth focus leaves. Notes:
+ * seed-pencil-city P20 to P24, P32 to P34, P36, P37. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,14 +16,17 @@ static const double PI = 3.14159265358979323846;
 
 enum { WALL = 256 };
 
-/* --- tones -------------------------------------------------------------------------------------------------------- */
+/* --- tones ---------------------------------------------------------------------------------------------- */
 
 /* Mean ink on a wall of one tone, as share of what the lead takes. */
 static double wall_ink(const char *keys, double darkness, lead_grade lead)
 {
     char surface[400];
     shot s;
-    snprintf(surface, sizeof surface, "pencil\",\"coordinates\":\"screen\",\"lead\":\"%s\",\"shadow\":%.9g,\"light\":%.9g,\"ink\":\"#000000\",%s", lead_grade_names[lead], 1 - darkness, 1 - darkness, keys);
+    snprintf(
+        surface, sizeof surface,
+        "pencil\",\"coordinates\":\"screen\",\"lead\":\"%s\",\"shadow\":%.9g,\"light\":%.9g,\"ink\":\"#000000\",%s",
+        lead_grade_names[lead], 1 - darkness, 1 - darkness, keys);
     if (!halftone_far(&s, surface, 0, WALL, 1))
         return NAN;
     double ink = halftone_mean(&s, 0, 0, WALL, WALL);
@@ -48,7 +52,8 @@ static void hatching_and_gradation(void)
             worst = i < 38 ? fmax(worst, fabs(ink - i / 48.0)) : worst;
         }
         check_at_most("P20", falls, 0, "%s: tones of a ramp that get lighter", shadings[k]);
-        check_at_most("P21", worst, k ? 0.05 : 1.0 / 6, "ink off the wanted darkness, at most: one of six steps for hatching");
+        check_at_most("P21", worst, k ? 0.05 : 1.0 / 6,
+                      "ink off the wanted darkness, at most: one of six steps for hatching");
         if (k == 0) {
             check_near("P20", levels, 7, 0, "amounts of ink of six tones and paper");
             check_near("P20", step, 0.82 / 6, 0.04, "between two of them");
@@ -81,7 +86,10 @@ static void leads(void)
     for (int k = 0; k < LEAD_COUNT; k++) {
         char surface[300];
         shot s;
-        snprintf(surface, sizeof surface, "pencil\",\"coordinates\":\"screen\",\"overlays\":4,\"vary\":40,\"lead\":\"%s\",\"shadow\":0,\"light\":0,\"ink\":\"#000000", lead_grade_names[k]);
+        snprintf(surface, sizeof surface,
+                 "pencil\",\"coordinates\":\"screen\",\"overlays\":4,\"vary\":40,\"lead\":\"%s\",\"shadow\":0,"
+                 "\"light\":0,\"ink\":\"#000000",
+                 lead_grade_names[k]);
         double darkest = 0;
         surface[strlen(surface)] = '\0';
         char whole[320];
@@ -89,7 +97,8 @@ static void leads(void)
         if (halftone_far(&s, whole, 0, WALL, 1)) {
             for (int i = 0; i < WALL * WALL; i++)
                 darkest = fmax(darkest, 1 - s.picture[4 * i] / 255.0);
-            check_near("P33", darkest, (double)lead_darkest((lead_grade)k), 0.008, "%s: darkest pixel of four times over", lead_grade_names[k]);
+            check_near("P33", darkest, (double)lead_darkest((lead_grade)k), 0.008,
+                       "%s: darkest pixel of four times over", lead_grade_names[k]);
             check_at_least("P33", darkest - before, 0.004, "darker than the harder one by");
             before = darkest;
         }
@@ -104,10 +113,12 @@ static void leads(void)
         ink[n] = wall_ink(keys, 1 - pow(0.5, n), LEAD_4B);
     }
     for (int n = 2; n <= 4; n++)
-        check_at_most("P32", ink[n] - ink[n - 1], 0.75 * (ink[n - 1] - ink[n - 2]), "ink that time %d adds, of what the one before added (ink %.3f)", n, ink[n]);
+        check_at_most("P32", ink[n] - ink[n - 1], 0.75 * (ink[n - 1] - ink[n - 2]),
+                      "ink that time %d adds, of what the one before added (ink %.3f)", n, ink[n]);
 }
 
-/* How much ink changes along rows, as a share of how much it does along columns: strokes from left to right hardly do. */
+/* How much ink changes along rows, as a share of how much it does along columns: strokes from left to right hardly
+ * do. */
 static double steps_along(const shot *s)
 {
     double along = 0, across = 1e-12;
@@ -123,20 +134,26 @@ static double steps_along(const shot *s)
 static void repetitions_differ(void)
 {
     static const int degrees[] = {0, 20, 40};
-    double before = 0;
+    double           before = 0;
     for (int n = 2; n <= 4; n++) {
         char keys[64];
         snprintf(keys, sizeof keys, "\"overlays\":%d,\"vary\":0,\"shading\":\"gradation\"", n);
-        check_near("P36", wall_ink(keys, 0.6, LEAD_8B), 0.6, 0.012, "ink of %d times over that lie alike, wanted 0.6", n);
+        check_near("P36", wall_ink(keys, 0.6, LEAD_8B), 0.6, 0.012, "ink of %d times over that lie alike, wanted 0.6",
+                   n);
     }
     for (int k = 0; k < 3; k++) {
         char surface[200];
         shot s;
-        snprintf(surface, sizeof surface, "pencil\",\"coordinates\":\"screen\",\"angle\":0,\"overlays\":2,\"vary\":%d,\"shadow\":0.7,\"light\":0.7,\"ink\":\"#000000\"", degrees[k]);
+        snprintf(surface, sizeof surface,
+                 "pencil\",\"coordinates\":\"screen\",\"angle\":0,\"overlays\":2,\"vary\":%d,\"shadow\":0.7,\"light\":"
+                 "0.7,\"ink\":\"#000000\"",
+                 degrees[k]);
         if (!halftone_far(&s, surface, 0, WALL, 1))
             return;
         double now = steps_along(&s), slope = tan(degrees[k] * PI / 180);
-        check_at_least("P36", now - before, 0.7 * slope * slope, "turned by %d degrees to both sides: by how much more ink changes from left to right", degrees[k]);
+        check_at_least("P36", now - before, 0.7 * slope * slope,
+                       "turned by %d degrees to both sides: by how much more ink changes from left to right",
+                       degrees[k]);
         check_at_most("P36", now, slope * slope + 0.2, "and not more than strokes that lie like this");
         before = k ? before : now;
         shot_release(&s);
@@ -150,18 +167,22 @@ static void coloured_leads(void)
         char   surface[300];
         shot   s;
         double darkest = 0;
-        snprintf(surface, sizeof surface, "pencil\",\"coordinates\":\"screen\",\"overlays\":4,\"vary\":40,\"lead\":\"%s\",\"shadow\":0,\"light\":0,\"pencils\":[\"#000000\",\"#000001\"],\"opacity\":1,"
-                 "\"paper_tint\":0", lead_grade_names[k]);
+        snprintf(surface, sizeof surface,
+                 "pencil\",\"coordinates\":\"screen\",\"overlays\":4,\"vary\":40,\"lead\":\"%s\",\"shadow\":0,"
+                 "\"light\":0,\"pencils\":[\"#000000\",\"#000001\"],\"opacity\":1,"
+                 "\"paper_tint\":0",
+                 lead_grade_names[k]);
         if (!halftone_far(&s, surface, 0, WALL, 1))
             return;
         for (int i = 0; i < WALL * WALL; i++)
             darkest = fmax(darkest, 1 - s.picture[4 * i] / 255.0);
-        check_near("P33", darkest, (double)lead_darkest((lead_grade)k), 0.008, "%s, two colours: darkest pixel of four times over", lead_grade_names[k]);
+        check_near("P33", darkest, (double)lead_darkest((lead_grade)k), 0.008,
+                   "%s, two colours: darkest pixel of four times over", lead_grade_names[k]);
         shot_release(&s);
     }
 }
 
-/* --- ways --------------------------------------------------------------------------------------------------------- */
+/* --- ways ----------------------------------------------------------------------------------------------- */
 
 enum { RING = 640, WINDOW = 17, PLACES = 144, MAPS = 6 };
 
@@ -172,9 +193,13 @@ static bool ring(shot *out, const char *keys)
     char  look[900];
     shape_torus(&s, "ring", 1.5, 0.6, 400, 160);
     shape_place(&s, dvec_of(1, 0, 0), 90, dvec_of(0, 0, 0));
-    snprintf(look, sizeof look, "{\"version\":1,\"name\":\"ring\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"pencil\","
-             "\"coordinates\":\"form\",\"shadow\":0.55,\"light\":0.55,\"ink\":\"#000000\",\"texture\":0%s%s}}]}", *keys ? "," : "", keys);
-    const shot_view view = {.width = RING, .height = RING, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 0};
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"ring\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{"
+             "\"select\":\"*\",\"surface\":{\"technique\":\"pencil\","
+             "\"coordinates\":\"form\",\"shadow\":0.55,\"light\":0.55,\"ink\":\"#000000\",\"texture\":0%s%s}}]}",
+             *keys ? "," : "", keys);
+    const shot_view view = {
+        .width = RING, .height = RING, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 0};
     bool drawn = shot_of_shape(out, &s, "ring.glb", look, NULL, &view);
     shape_release(&s);
     return drawn;
@@ -211,7 +236,8 @@ static void add_way(stroke_way *out, const shot *s, const double *ink, double cx
         for (int x = -WINDOW; x <= WINDOW; x++) {
             if (x * x + y * y > WINDOW * WINDOW)
                 continue;
-            size_t at = (size_t)((int)(cy + 0.5) + y) * (size_t)s->width + (size_t)((int)(cx + 0.5) + x), row = (size_t)s->width;
+            size_t at = (size_t)((int)(cy + 0.5) + y) * (size_t)s->width + (size_t)((int)(cx + 0.5) + x),
+                   row = (size_t)s->width;
             double gx = ink[at + 1] - ink[at - 1], gy = ink[at - row] - ink[at + row];
             out->xx += gx * gx;
             out->xy += gx * gy;
@@ -228,7 +254,8 @@ static double turned_by(double a, double b)
     return off * 180 / PI;
 }
 
-/* Around the ring's crest, which lies in the page's plane; several maps of strokes together, so that what single strokes do is averaged. */
+/* Around the ring's crest, which lies in the page's plane; several maps of strokes together, so that what single
+ * strokes do is averaged. */
 static bool measure_ring(const char *keys, stroke_way out[PLACES], double radial[PLACES])
 {
     memset(out, 0, PLACES * sizeof *out);
@@ -268,7 +295,8 @@ static void ways_of_strokes(void)
             char       keys[160];
             stroke_way way[PLACES];
             double     radial[PLACES], worst = 0, mean = 0, least = 1, most = 0;
-            snprintf(keys, sizeof keys, "\"overlays\":1,\"vary\":0,\"ways_on_page\":%d,\"angle\":%g", ways[k], angles[a]);
+            snprintf(keys, sizeof keys, "\"overlays\":1,\"vary\":0,\"ways_on_page\":%d,\"angle\":%g", ways[k],
+                     angles[a]);
             if (!measure_ring(keys, way, radial))
                 return;
             for (int i = 0; i < PLACES; i++) {
@@ -278,9 +306,14 @@ static void ways_of_strokes(void)
                 least = fmin(least, way[i].ink);
                 most = fmax(most, way[i].ink);
             }
-            check_at_most("P23", worst, 90.0 / ways[k] + 1.5, "%d ways, angle %g: degrees that strokes lie off, at most (half a step and how well it is measured)", ways[k], angles[a]);
+            check_at_most(
+                "P23", worst, 90.0 / ways[k] + 1.5,
+                "%d ways, angle %g: degrees that strokes lie off, at most (half a step and how well it is measured)",
+                ways[k], angles[a]);
             check_near("P24", mean, 0, 1, "degrees off on the mean, the angle taken into account");
-            check_at_most("P23", (most - least) / (most + least), 0.2, "ink in windows of %d px: half the range over the mean (%.3f to %.3f)", 2 * WINDOW, least, most);
+            check_at_most("P23", (most - least) / (most + least), 0.2,
+                          "ink in windows of %d px: half the range over the mean (%.3f to %.3f)", 2 * WINDOW, least,
+                          most);
         }
 }
 
@@ -292,9 +325,11 @@ static void strokes_move_along(void)
     shot  here, there;
     int   off = 0, all = 0;
     shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
-    const char *look = "{\"version\":1,\"name\":\"m\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"pencil\",\"coordinates\":\"form\",\"shadow\":0.55,\"light\":0.55,"
+    const char *look = "{\"version\":1,\"name\":\"m\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
+                       "\"technique\":\"pencil\",\"coordinates\":\"form\",\"shadow\":0.55,\"light\":0.55,"
                        "\"ink\":\"#000000\",\"texture\":0}}]}";
-    shot_view   view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 30};
+    shot_view   view = {
+          .width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 30};
     if (shot_of_shape(&here, &s, "moved.glb", look, NULL, &view)) {
         double pixel = 1 / (shot_project(&here, dvec_of(1, 0, 0)).x - shot_project(&here, dvec_of(0, 0, 0)).x);
         view.eye.x = view.target.x = -MOVED * pixel;
@@ -325,27 +360,31 @@ static double repeating(const stroke_way way[PLACES], int times)
     return hypot(a, b);
 }
 
-/* Row P36: where two ways meet, strokes cross; that shows in how alike directions are, twice for each way. Gone over three times, it is no more than what any place has. */
+/* Row P36: where two ways meet, strokes cross; that shows in how alike directions are, twice for each way. Gone
+ * over three times, it is no more than what any place has. */
 static void seams_vanish(void)
 {
     double seams[2];
     for (int k = 0; k < 2; k++) {
         stroke_way way[PLACES];
         double     radial[PLACES], noise = 0;
-        if (!measure_ring(k ? "\"overlays\":3,\"vary\":0,\"ways_on_page\":9" : "\"overlays\":1,\"vary\":0,\"ways_on_page\":9", way, radial))
+        if (!measure_ring(k ? "\"overlays\":3,\"vary\":0,\"ways_on_page\":9"
+                            : "\"overlays\":1,\"vary\":0,\"ways_on_page\":9",
+                          way, radial))
             return;
         for (int times = 11; times <= 31; times++)
             noise += times == 18 ? 0 : repeating(way, times) / 20;
         seams[k] = repeating(way, 18);
         if (k == 0)
-            check_at_least("P36", seams[k] / noise, 3, "once over: what repeats with the ways, over the noise beside it");
+            check_at_least("P36", seams[k] / noise, 3,
+                           "once over: what repeats with the ways, over the noise beside it");
         else
             check_at_most("P36", seams[k] / noise, 2, "three times over");
     }
     check_at_most("P36", seams[1] / seams[0], 0.4, "of the seams, what is left");
 }
 
-/* --- colours, gloss, light ---------------------------------------------------------------------------------------- */
+/* --- colours, gloss, light ------------------------------------------------------------------------------ */
 
 static void coloured_pencils(void)
 {
@@ -358,7 +397,8 @@ static void coloured_pencils(void)
     s.parts[1].colour[0] = 0.1f, s.parts[1].colour[1] = 0.1f, s.parts[1].colour[2] = 0.8f, s.parts[1].colour[3] = 1;
     shape_place(&s, dvec_of(0, 1, 0), 0, dvec_of(1, 0, 0));
     const shot_view view = {.width = 400, .height = 200, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
-    const char *look = "{\"version\":1,\"name\":\"c\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"pencil\",\"shadow\":0.4,"
+    const char *look = "{\"version\":1,\"name\":\"c\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{"
+                       "\"select\":\"*\",\"surface\":{\"technique\":\"pencil\",\"shadow\":0.4,"
                        "\"light\":0.4,\"ink_tint\":1,\"texture\":0}}]}";
     if (shot_of_shape(&got, &s, "pencils.glb", look, NULL, &view)) {
         double sums[2][3] = {{0}};
@@ -367,12 +407,15 @@ static void coloured_pencils(void)
             if (got.id[i])
                 for (int c = 0; c < 3; c++, counts[got.id[i] - 1]++)
                     sums[got.id[i] - 1][c] += 1 - got.picture[4 * i + c] / 255.0;
-        check_at_least("P34", sums[0][2] / fmax(sums[0][0], 1e-9), 1.6, "the red part's pencil takes more blue than red away");
+        check_at_least("P34", sums[0][2] / fmax(sums[0][0], 1e-9), 1.6,
+                       "the red part's pencil takes more blue than red away");
         check_at_least("P34", sums[1][0] / fmax(sums[1][2], 1e-9), 1.6, "the blue part's more red than blue");
     }
     shot_release(&got);
-    look = "{\"version\":1,\"name\":\"c\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"pencil\",\"shadow\":0.3,\"light\":0.3,"
-           "\"pencils\":[\"#ffe000\",\"#30a0ff\"],\"overlays\":2,\"vary\":40,\"opacity\":1,\"lead\":\"8B\",\"texture\":0}}]}";
+    look = "{\"version\":1,\"name\":\"c\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*"
+           "\",\"surface\":{\"technique\":\"pencil\",\"shadow\":0.3,\"light\":0.3,"
+           "\"pencils\":[\"#ffe000\",\"#30a0ff\"],\"overlays\":2,\"vary\":40,\"opacity\":1,\"lead\":\"8B\",\"texture\":"
+           "0}}]}";
     int yellow = 0, blue = 0, green = 0;
     if (shot_of_shape(&got, &s, "pencils.glb", look, NULL, &view))
         for (int i = 0; i < got.width * got.height; i++) {
@@ -391,23 +434,29 @@ static void coloured_pencils(void)
 /* A wall in black on white, the same on no ground, and in white on black. */
 static void grounds(void)
 {
-    static const char *const looks[][3] = {{"#ffffff", "#000000", "0.4"}, {"none", "#000000", "0.4"}, {"#000000", "#ffffff", "0.6"}};
+    static const char *const looks[][3] = {
+        {"#ffffff", "#000000", "0.4"}, {"none", "#000000", "0.4"}, {"#000000", "#ffffff", "0.6"}};
     shape s = {0};
     shape_quad(&s, "wall", 2, 0);
     shape_place(&s, dvec_of(0, 1, 0), 0, dvec_of(0, 0, 0));
     const shot_view view = {.width = WALL, .height = WALL, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
-    double ink[3] = {0};
+    double          ink[3] = {0};
     for (int k = 0; k < 3; k++) {
         shot got;
         char look[500];
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"g\",\"doc\":\"x.\",\"finish\":{\"ground\":\"%s\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"pencil\","
-                 "\"lead\":\"8B\",\"texture\":0,\"ink\":\"%s\",\"shadow\":%s,\"light\":%s}}]}", looks[k][0], looks[k][1], looks[k][2], looks[k][2]);
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"g\",\"doc\":\"x.\",\"finish\":{\"ground\":\"%s\"},\"rules\":[{\"select\":"
+                 "\"*\",\"surface\":{\"technique\":\"pencil\","
+                 "\"lead\":\"8B\",\"texture\":0,\"ink\":\"%s\",\"shadow\":%s,\"light\":%s}}]}",
+                 looks[k][0], looks[k][1], looks[k][2], looks[k][2]);
         if (!shot_of_shape(&got, &s, "ground.glb", look, NULL, &view))
             continue;
         int count = 0;
         for (int i = 0; i < WALL * WALL; i++)
             if (got.id[i]) {
-                ink[k] += k == 0 ? 1 - picture_linear(got.picture[4 * i]) : k == 1 ? got.picture[4 * i + 3] / 255.0 : picture_linear(got.picture[4 * i]);
+                ink[k] += k == 0   ? 1 - picture_linear(got.picture[4 * i])
+                          : k == 1 ? got.picture[4 * i + 3] / 255.0
+                                   : picture_linear(got.picture[4 * i]);
                 count++;
             }
         ink[k] /= fmax(count, 1);
@@ -415,7 +464,8 @@ static void grounds(void)
     }
     check_at_least("P21", ink[0], 0.4, "ink on white");
     check_near("P21", ink[1], ink[0], 0.01, "on a transparent ground: as much ink as on white");
-    check_near("P21", ink[2], ink[0], 0.03, "white on black: as much light as there is ink on white where the tone is its opposite");
+    check_near("P21", ink[2], ink[0], 0.03,
+               "white on black: as much light as there is ink on white where the tone is its opposite");
     shape_release(&s);
 }
 
@@ -426,12 +476,15 @@ static void light_on_a_ball(void)
     shape s = {0};
     shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
     const shot_view view = {.width = SIZE, .height = SIZE, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
-    double bare[2] = {0}, sums[2] = {0};
+    double          bare[2] = {0}, sums[2] = {0};
     for (int k = 0; k < 2; k++) {
         shot got;
         char look[900];
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"b\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":[-0.4,0.5,0.8],\"fill\":0},\"rules\":[{"
-                 "\"select\":\"*\",\"surface\":{\"technique\":\"pencil\",\"shading\":\"gradation\",\"shadow\":0.2,\"light\":0.9,\"texture\":0,\"ink\":\"#000000\",\"lead\":\"6B\",\"gloss\":%g}}]}",
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"b\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_"
+                 "direction\":[-0.4,0.5,0.8],\"fill\":0},\"rules\":[{"
+                 "\"select\":\"*\",\"surface\":{\"technique\":\"pencil\",\"shading\":\"gradation\",\"shadow\":0.2,"
+                 "\"light\":0.9,\"texture\":0,\"ink\":\"#000000\",\"lead\":\"6B\",\"gloss\":%g}}]}",
                  k ? 0.6 : 0.0);
         if (!shot_of_shape(&got, &s, "ball.glb", look, NULL, &view))
             continue;
@@ -471,7 +524,7 @@ static void light_on_a_ball(void)
     shape_release(&s);
 }
 
-/* --- depth focus -------------------------------------------------------------------------------------------------- */
+/* --- depth focus ---------------------------------------------------------------------------------------- */
 
 enum { ROW = 8 };
 
@@ -479,21 +532,30 @@ enum { ROW = 8 };
 static void depth_focus(void)
 {
     static const double at[] = {0, 0.5};
-    shape s = {0};
+    shape               s = {0};
     for (int i = 0; i < ROW; i++) {
         char name[16];
         snprintf(name, sizeof name, "box%d", i);
         double x = 2.2 * i, z = -3.0 * i;
         shape_box(&s, name, dvec_of(x, 0, z - 0.8), dvec_of(x + 1.6, 1.6, z));
     }
-    const shot_view view = {.width = 1100, .height = 200, .eye = {8.5, 0.8, 40}, .target = {8.5, 0.8, 0}, .up = {0, 1, 0}, .orthographic = true};
-    double sharp = 0;
+    const shot_view view = {.width = 1100,
+                            .height = 200,
+                            .eye = {8.5, 0.8, 40},
+                            .target = {8.5, 0.8, 0},
+                            .up = {0, 1, 0},
+                            .orthographic = true};
+    double          sharp = 0;
     for (int k = 0; k < 3; k++) {
         shot got;
         char look[1000];
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"f\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#f0e8d8\"},\"scene\":{\"focus\":%g,\"focus_at\":%g,\"focus_depth\":0.9},\"rules\":[{\"select\":\"*\","
-                 "\"surface\":{\"technique\":\"pencil\",\"shadow\":0.5,\"light\":0.5,\"texture\":0},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"},"
-                 "\"perturb\":{\"technique\":\"pencil\",\"light\":0}}]}", k ? 1.0 : 0.0, k ? at[k - 1] : 0.0);
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"f\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#f0e8d8\"},\"scene\":{"
+                 "\"focus\":%g,\"focus_at\":%g,\"focus_depth\":0.9},\"rules\":[{\"select\":\"*\","
+                 "\"surface\":{\"technique\":\"pencil\",\"shadow\":0.5,\"light\":0.5,\"texture\":0},\"lines\":{"
+                 "\"operator\":\"discontinuity\",\"colour\":\"#000000\"},"
+                 "\"perturb\":{\"technique\":\"pencil\",\"light\":0}}]}",
+                 k ? 1.0 : 0.0, k ? at[k - 1] : 0.0);
         if (!shot_of_shape(&got, &s, "row.glb", look, NULL, &view))
             continue;
         double ink[ROW] = {0};
@@ -508,8 +570,9 @@ static void depth_focus(void)
             /* The paper between strokes is the page's, not a paler one. */
             painted += got.picture[4 * i + 1] > 233 || got.picture[4 * i] > 241;
         }
-        double beside = 0; /* lines of the first box beyond its outline are as near as it is, though there is nothing under them */
-        int    border = (int)shot_project(&got, dvec_of(1.9, 0.8, 0)).x;
+        double beside =
+            0; /* lines of the first box beyond its outline are as near as it is, though there is nothing under them */
+        int border = (int)shot_project(&got, dvec_of(1.9, 0.8, 0)).x;
         for (int y = 0; y < got.height; y++)
             for (int x = 0; x < border; x++)
                 beside += got.id[y * got.width + x] ? 0 : fmax(1 - got.picture[4 * (y * got.width + x) + 1] / 232.0, 0);
@@ -519,7 +582,7 @@ static void depth_focus(void)
         if (k == 1)
             check_near("P22", beside, sharp, 0.03 * sharp, "the same where that box is in focus");
         check_at_most("P22", painted, 0, "focus at %g: pixels paler than the paper", k ? at[k - 1] : 0.0);
-        int rises = 0;
+        int    rises = 0;
         double first = ink[0] / count[0], last = ink[ROW - 1] / count[ROW - 1], middle = ink[ROW / 2] / count[ROW / 2];
         for (int i = 1; i < ROW; i++)
             rises += ink[i] / count[i] > ink[i - 1] / count[i - 1] + 0.004;
@@ -528,7 +591,8 @@ static void depth_focus(void)
         } else if (k == 1) {
             check_at_most("P22", rises, 0, "boxes that have more ink than the one before");
             check_at_most("P22", last / first, 0.05, "ink of the last box over that of the first");
-            check_at_most("P22", (double)dark[ROW - 1], 0.05 * dark[0], "dark pixels of the last box, of the first one's");
+            check_at_most("P22", (double)dark[ROW - 1], 0.05 * dark[0],
+                          "dark pixels of the last box, of the first one's");
         } else {
             check_at_least("P22", middle / fmax(first, 1e-9), 1.5, "focus in the middle: its ink over the first box's");
             check_at_least("P22", middle / fmax(last, 1e-9), 1.5, "and over the last one's");
@@ -544,11 +608,19 @@ static void focus_curve(void)
     shape s = {0};
     for (int i = 0; i < ROW; i++)
         shape_box(&s, "box", dvec_of(2.2 * i, 0, -3.0 * i - 0.8), dvec_of(2.2 * i + 1.6, 1.6, -3.0 * i));
-    const shot_view view = {.width = 1100, .height = 200, .eye = {8.5, 0.8, 40}, .target = {8.5, 0.8, 0}, .up = {0, 1, 0}, .orthographic = true};
-    shot got;
+    const shot_view view = {.width = 1100,
+                            .height = 200,
+                            .eye = {8.5, 0.8, 40},
+                            .target = {8.5, 0.8, 0},
+                            .up = {0, 1, 0},
+                            .orthographic = true};
+    shot            got;
     if (shot_of_shape(&got, &s, "row.glb",
-                      "{\"version\":1,\"name\":\"f\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"focus\":1,\"focus_at\":0,\"focus_depth\":1},\"rules\":[{\"surface\":{\"technique\":\"pencil\","
-                      "\"shading\":\"gradation\",\"lead\":\"8B\",\"ink\":\"#000000\",\"coordinates\":\"screen\",\"shadow\":0.4,\"light\":0.4,\"texture\":0}}]}", NULL, &view)) {
+                      "{\"version\":1,\"name\":\"f\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"focus\":1,"
+                      "\"focus_at\":0,\"focus_depth\":1},\"rules\":[{\"surface\":{\"technique\":\"pencil\","
+                      "\"shading\":\"gradation\",\"lead\":\"8B\",\"ink\":\"#000000\",\"coordinates\":\"screen\","
+                      "\"shadow\":0.4,\"light\":0.4,\"texture\":0}}]}",
+                      NULL, &view)) {
         double ink[ROW] = {0}, count[ROW] = {0};
         for (int i = 0; i < got.width * got.height; i++)
             if (got.id[i]) {
@@ -557,7 +629,8 @@ static void focus_curve(void)
             }
         for (int i = 1; i < ROW; i++) {
             double off = 3.0 * i / (3.0 * (ROW - 1) + 0.8);
-            check_near("P22", ink[i] / count[i] / (ink[0] / count[0]), 1 - off * off * (3 - 2 * off), 0.07, "share of its ink that box %d keeps", i);
+            check_near("P22", ink[i] / count[i] / (ink[0] / count[0]), 1 - off * off * (3 - 2 * off), 0.07,
+                       "share of its ink that box %d keeps", i);
         }
         shot_release(&got);
     }

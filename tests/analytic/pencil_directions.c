@@ -1,4 +1,5 @@
-/* The ways strokes take on the page, against the principal directions of surfaces whose equation is known. Notes: seed-pencil-city P23 to P27, P36. */
+/* The ways strokes take on the page, against the principal directions of surfaces whose equation is known. Notes:
+ * seed-pencil-city P23 to P27, P36. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,13 +11,13 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* --- bodies ------------------------------------------------------------------------------------------------------- */
+/* --- bodies --------------------------------------------------------------------------------------------- */
 
 typedef struct body {
     const char *name;
-    double    (*level)(dvec p);                /* 0 on the surface, negative inside */
-    dvec      (*at)(double u, double v);       /* u, v in 0 … 1 */
-    int         nu, nv;
+    double (*level)(dvec p);        /* 0 on the surface, negative inside */
+    dvec (*at)(double u, double v); /* u, v in 0 … 1 */
+    int nu, nv;
 } body;
 
 static double ellipsoid_level(dvec p)
@@ -64,8 +65,10 @@ static dvec saddle_at(double u, double v)
 }
 
 static const body bodies[] = {
-    {"ellipsoid", ellipsoid_level, ellipsoid_at, 240, 160}, {"torus", torus_level, torus_at, 240, 120},
-    {"cylinder", cylinder_level, cylinder_at, 240, 24},     {"saddle", saddle_level, saddle_at, 160, 160},
+    {"ellipsoid", ellipsoid_level, ellipsoid_at, 240, 160},
+    {"torus", torus_level, torus_at, 240, 120},
+    {"cylinder", cylinder_level, cylinder_at, 240, 24},
+    {"saddle", saddle_level, saddle_at, 160, 160},
 };
 
 /* Columns: where the body's axes point. */
@@ -92,24 +95,30 @@ static dvec turned_back(const turn *t, dvec p)
 static dvec gradient(const body *b, dvec p)
 {
     const double h = 1e-5;
-    return dvec_scale(dvec_of(b->level(dvec_of(p.x + h, p.y, p.z)) - b->level(dvec_of(p.x - h, p.y, p.z)), b->level(dvec_of(p.x, p.y + h, p.z)) - b->level(dvec_of(p.x, p.y - h, p.z)),
-                              b->level(dvec_of(p.x, p.y, p.z + h)) - b->level(dvec_of(p.x, p.y, p.z - h))), 0.5 / h);
+    return dvec_scale(dvec_of(b->level(dvec_of(p.x + h, p.y, p.z)) - b->level(dvec_of(p.x - h, p.y, p.z)),
+                              b->level(dvec_of(p.x, p.y + h, p.z)) - b->level(dvec_of(p.x, p.y - h, p.z)),
+                              b->level(dvec_of(p.x, p.y, p.z + h)) - b->level(dvec_of(p.x, p.y, p.z - h))),
+                      0.5 / h);
 }
 
 /* How the unit normal changes along a unit tangent. */
 static dvec turn_of_normal(const body *b, dvec p, dvec tangent)
 {
     const double h = 1e-4;
-    return dvec_scale(dvec_sub(dvec_unit(gradient(b, dvec_add(p, dvec_scale(tangent, h)))), dvec_unit(gradient(b, dvec_add(p, dvec_scale(tangent, -h))))), 0.5 / h);
+    return dvec_scale(dvec_sub(dvec_unit(gradient(b, dvec_add(p, dvec_scale(tangent, h)))),
+                               dvec_unit(gradient(b, dvec_add(p, dvec_scale(tangent, -h))))),
+                      0.5 / h);
 }
 
 /* The tangent along the greatest curvature (by size); false where both differ by less than a fifth. */
 static bool greatest(const body *b, dvec p, dvec *out)
 {
-    dvec n = dvec_unit(gradient(b, p)), t1 = dvec_unit(dvec_cross(fabs(n.y) < 0.9 ? dvec_of(0, 1, 0) : dvec_of(1, 0, 0), n)), t2 = dvec_cross(n, t1);
-    dvec d1 = turn_of_normal(b, p, t1), d2 = turn_of_normal(b, p, t2);
+    dvec n = dvec_unit(gradient(b, p)),
+         t1 = dvec_unit(dvec_cross(fabs(n.y) < 0.9 ? dvec_of(0, 1, 0) : dvec_of(1, 0, 0), n)), t2 = dvec_cross(n, t1);
+    dvec   d1 = turn_of_normal(b, p, t1), d2 = turn_of_normal(b, p, t2);
     double a = dvec_dot(d1, t1), m = 0.5 * (dvec_dot(d1, t2) + dvec_dot(d2, t1)), c = dvec_dot(d2, t2);
-    double mean = (a + c) / 2, apart = sqrt((a - c) * (a - c) / 4 + m * m), large = fmax(fabs(mean + apart), fabs(mean - apart)), small = fmin(fabs(mean + apart), fabs(mean - apart));
+    double mean = (a + c) / 2, apart = sqrt((a - c) * (a - c) / 4 + m * m),
+           large = fmax(fabs(mean + apart), fabs(mean - apart)), small = fmin(fabs(mean + apart), fabs(mean - apart));
     if (large - small < 0.2 * large)
         return false;
     double angle = 0.5 * atan2(2 * m, a - c) + (mean < 0 ? PI / 2 : 0);
@@ -119,11 +128,12 @@ static bool greatest(const body *b, dvec p, dvec *out)
 
 static void add_body(shape *s, const body *b, const turn *t)
 {
-    uint32_t columns = (uint32_t)b->nu + 1, rows = (uint32_t)b->nv + 1, k = 0;
+    uint32_t    columns = (uint32_t)b->nu + 1, rows = (uint32_t)b->nv + 1, k = 0;
     shape_part *p = shape_add(s, b->name, columns * rows, (uint32_t)(b->nu * b->nv) * 6, true, false);
     for (uint32_t j = 0; j < rows; j++)
         for (uint32_t i = 0; i < columns; i++) {
-            dvec at = b->at((double)i / b->nu, (double)j / b->nv), place = turned(t, at), normal = turned(t, dvec_unit(gradient(b, at)));
+            dvec at = b->at((double)i / b->nu, (double)j / b->nv), place = turned(t, at),
+                 normal = turned(t, dvec_unit(gradient(b, at)));
             const double values[2][3] = {{place.x, place.y, place.z}, {normal.x, normal.y, normal.z}};
             for (int c = 0; c < 3; c++) {
                 p->positions[j * columns + i][c] = (float)values[0][c];
@@ -132,14 +142,14 @@ static void add_body(shape *s, const body *b, const turn *t)
         }
     for (uint32_t j = 0; j + 1 < rows; j++)
         for (uint32_t i = 0; i + 1 < columns; i++) {
-            uint32_t a = j * columns + i;
+            uint32_t       a = j * columns + i;
             const uint32_t corners[6] = {a, a + columns, a + 1, a + 1, a + columns, a + columns + 1};
             for (int c = 0; c < 6; c++)
                 p->indices[k++] = corners[c];
         }
 }
 
-/* --- comparing ---------------------------------------------------------------------------------------------------- */
+/* --- comparing ------------------------------------------------------------------------------------------ */
 
 static int by_size(const void *a, const void *b)
 {
@@ -157,7 +167,7 @@ static bool point_seen(const shot *s, const body *b, const turn *t, int x, int y
     shot_ray(s, x + 0.5, y + 0.5, &origin, &direction);
     double start = -shot_to_eye(s, origin, 1).z, rate = -shot_to_eye(s, direction, 0).z, way = (depth - start) / rate;
     for (int i = 0; i < 12; i++) {
-        dvec p = turned_back(t, dvec_add(origin, dvec_scale(direction, way)));
+        dvec   p = turned_back(t, dvec_add(origin, dvec_scale(direction, way)));
         double slope = dvec_dot(gradient(b, p), turned_back(t, direction));
         if (fabs(slope) < 1e-9)
             return false;
@@ -170,7 +180,8 @@ static bool point_seen(const shot *s, const body *b, const turn *t, int x, int y
 /* Angle on the page of a tangent at a point of the body, from the right to the top. */
 static double seen_angle(const shot *s, const turn *t, dvec p, dvec tangent)
 {
-    dvec a = shot_project(s, turned(t, dvec_add(p, dvec_scale(tangent, 1e-4)))), b = shot_project(s, turned(t, dvec_add(p, dvec_scale(tangent, -1e-4))));
+    dvec a = shot_project(s, turned(t, dvec_add(p, dvec_scale(tangent, 1e-4)))),
+         b = shot_project(s, turned(t, dvec_add(p, dvec_scale(tangent, -1e-4))));
     return atan2(b.y - a.y, a.x - b.x);
 }
 
@@ -194,14 +205,16 @@ static bool is_inside(const shot *s, int x, int y, int margin)
     return true;
 }
 
-static const char form_look[] = "{\"version\":1,\"name\":\"form\",\"doc\":\"x.\",\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"pencil\",\"coordinates\":\"form\"}}]}";
+static const char form_look[] = "{\"version\":1,\"name\":\"form\",\"doc\":\"x.\",\"rules\":[{\"select\":\"*\","
+                                "\"surface\":{\"technique\":\"pencil\",\"coordinates\":\"form\"}}]}";
 
 /* Sorted errors in degrees. */
 static size_t errors_of(const shot *s, const body *b, const turn *t, double **out)
 {
     size_t count = 0;
     *out = check_alloc((size_t)s->width * (size_t)s->height, sizeof **out);
-    for (int y = s->height - 3; y >= 0; y -= 4) /* pixels that the small picture is measured at: the third of four, from the bottom */
+    for (int y = s->height - 3; y >= 0;
+         y -= 4) /* pixels that the small picture is measured at: the third of four, from the bottom */
         for (int x = 2; x < s->width; x += 4) {
             dvec p, way;
             if (!is_inside(s, x, y, 8) || !point_seen(s, b, t, x, y, &p) || !greatest(b, p, &way))
@@ -218,16 +231,24 @@ static void ways_on_smooth_bodies(void)
     static const double turns[3][2] = {{0.3, 0}, {-0.7, 0.9}, {1.2, 2.0}};
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++)
         for (int k = 0; k < 6; k++) {
-            turn t = turn_of(turns[k / 2][0], turns[k / 2][1]);
+            turn  t = turn_of(turns[k / 2][0], turns[k / 2][1]);
             shape s = {0};
             shot  got;
             add_body(&s, &bodies[i], &t);
-            const shot_view view = {.width = 560, .height = 420, .eye = {0.6, 1.1, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = k & 1};
-            if (shot_of_shape(&got, &s, "body.glb", form_look, NULL, &view) && check_that("P25", got.direction != NULL, "%s: there is a map of directions", bodies[i].name)) {
+            const shot_view view = {.width = 560,
+                                    .height = 420,
+                                    .eye = {0.6, 1.1, 6},
+                                    .up = {0, 1, 0},
+                                    .fov_deg = 32,
+                                    .orthographic = k & 1};
+            if (shot_of_shape(&got, &s, "body.glb", form_look, NULL, &view) &&
+                check_that("P25", got.direction != NULL, "%s: there is a map of directions", bodies[i].name)) {
                 double *errors;
-                size_t count = errors_of(&got, &bodies[i], &t, &errors);
-                check_at_least("P25", (double)count, 500, "%s, turn %d, %s: places compared", bodies[i].name, k / 2, k & 1 ? "parallel" : "perspective");
-                check_at_most("P25", count ? errors[count / 2] : 90, 1, "%s: median error of directions, degrees", bodies[i].name);
+                size_t  count = errors_of(&got, &bodies[i], &t, &errors);
+                check_at_least("P25", (double)count, 500, "%s, turn %d, %s: places compared", bodies[i].name, k / 2,
+                               k & 1 ? "parallel" : "perspective");
+                check_at_most("P25", count ? errors[count / 2] : 90, 1, "%s: median error of directions, degrees",
+                              bodies[i].name);
                 check_at_most("P25", count ? errors[count * 95 / 100] : 90, 5, "%s: 95 %% of them", bodies[i].name);
                 free(errors);
             }
@@ -236,9 +257,10 @@ static void ways_on_smooth_bodies(void)
         }
 }
 
-/* --- no way of their own ------------------------------------------------------------------------------------------ */
+/* --- no way of their own -------------------------------------------------------------------------------- */
 
-/* A ball, a box and a plane have no greatest curvature; on walls strokes run up, on level roofs along the house, however it is turned. */
+/* A ball, a box and a plane have no greatest curvature; on walls strokes run up, on level roofs along the house,
+ * however it is turned. */
 static void ways_where_nothing_bends(void)
 {
     static const double degrees[] = {0, 20, 45, 77};
@@ -263,22 +285,25 @@ static void ways_where_nothing_bends(void)
                     if (got.id[at] != 1 || !is_inside(&got, x, y, 12))
                         continue;
                     /* Two faces of one box do not blend beyond their edge. */
-                    dvec n = dvec_from(got.normal[at]), beside = dvec_from(got.normal[at + 12]), above = dvec_from(got.normal[at - 12 * (size_t)got.width]);
+                    dvec n = dvec_from(got.normal[at]), beside = dvec_from(got.normal[at + 12]),
+                         above = dvec_from(got.normal[at - 12 * (size_t)got.width]);
                     if (dvec_dot(n, beside) < 0.9 || dvec_dot(n, above) < 0.9)
                         continue;
-                    speckles += off_by(0.5 * atan2((double)v[1], (double)v[0]), 0.5 * atan2((double)next[1], (double)next[0])) > 3;
+                    speckles += off_by(0.5 * atan2((double)v[1], (double)v[0]),
+                                       0.5 * atan2((double)next[1], (double)next[0])) > 3;
                     dvec up = shot_to_eye(&got, dvec_of(0, 1, 0), 0), p = dvec_of(0, 0, 0), origin, ray;
                     shot_ray(&got, x + 0.5, y + 0.5, &origin, &ray);
                     double start = -shot_to_eye(&got, origin, 1).z, rate = -shot_to_eye(&got, ray, 0).z;
                     p = dvec_add(origin, dvec_scale(ray, ((double)got.depth[at] - start) / rate));
                     const turn none = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-                    double own = 0.5 * atan2((double)v[1], (double)v[0]);
+                    double     own = 0.5 * atan2((double)v[1], (double)v[0]);
                     if (fabs(dvec_dot(n, up)) < 0.1) {
                         walls++;
                         off += off_by(own, seen_angle(&got, &none, p, dvec_of(0, 1, 0))) > 1;
                     } else if (dvec_dot(n, up) > 0.99) {
                         tops++;
-                        double turn = degrees[k] * PI / 180, off_axis = off_by(own, seen_angle(&got, &none, p, dvec_of(cos(turn), 0, -sin(turn))));
+                        double turn = degrees[k] * PI / 180,
+                               off_axis = off_by(own, seen_angle(&got, &none, p, dvec_of(cos(turn), 0, -sin(turn))));
                         first = isnan(first) ? off_axis : first;
                         tops_off += off_axis > 1;
                     }
@@ -287,7 +312,8 @@ static void ways_where_nothing_bends(void)
             check_at_most("P27", speckles, 0, "neighbours on a face that lie differently");
             check_at_least("P27", walls, 350, "places on walls");
             check_at_most("P27", off, 0, "of them whose strokes do not run up");
-            check_at_most("P27", tops ? (double)tops_off / tops : 1, 0, "of the roof, share whose strokes do not run along the house (%g degrees off)", first);
+            check_at_most("P27", tops ? (double)tops_off / tops : 1, 0,
+                          "of the roof, share whose strokes do not run along the house (%g degrees off)", first);
         }
         shot_release(&got);
         shape_release(&s);
@@ -302,8 +328,10 @@ static void ways_on_a_ball(void)
         shape s = {0};
         shot  got;
         shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1.2, 192, 384, true);
-        const shot_view view = {.width = 480, .height = 360, .eye = {1, 1.4, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = k};
-        if (shot_of_shape(&got, &s, "ball.glb", form_look, NULL, &view) && check_that("P27", got.direction != NULL, "there is a map of directions")) {
+        const shot_view view = {
+            .width = 480, .height = 360, .eye = {1, 1.4, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = k};
+        if (shot_of_shape(&got, &s, "ball.glb", form_look, NULL, &view) &&
+            check_that("P27", got.direction != NULL, "there is a map of directions")) {
             int all = 0, off = 0;
             for (int y = got.height - 3; y >= 2; y -= 4)
                 for (int x = 2; x < got.width; x += 4) {
@@ -313,12 +341,14 @@ static void ways_on_a_ball(void)
                         continue;
                     shot_ray(&got, x + 0.5, y + 0.5, &origin, &ray);
                     double start = -shot_to_eye(&got, origin, 1).z, rate = -shot_to_eye(&got, ray, 0).z;
-                    dvec   p = dvec_add(origin, dvec_scale(ray, ((double)got.depth[at] - start) / rate)), n = dvec_unit(p);
+                    dvec   p = dvec_add(origin, dvec_scale(ray, ((double)got.depth[at] - start) / rate)),
+                         n = dvec_unit(p);
                     if (fabs(n.y) > 0.8) /* above it turns to an axis */
                         continue;
                     const float *v = got.direction[at];
                     all++;
-                    off += off_by(0.5 * atan2((double)v[1], (double)v[0]), seen_angle(&got, &none, p, dvec_sub(dvec_of(0, 1, 0), dvec_scale(n, n.y)))) > 3;
+                    off += off_by(0.5 * atan2((double)v[1], (double)v[0]),
+                                  seen_angle(&got, &none, p, dvec_sub(dvec_of(0, 1, 0), dvec_scale(n, n.y)))) > 3;
                 }
             check_at_least("P27", all, 300, "places on a ball, %s", k ? "parallel" : "perspective");
             check_at_most("P27", off, 0.02 * all, "of them whose strokes do not run up");
@@ -338,12 +368,15 @@ static void ways_on_thin_tubes(void)
         int   all = 0, off = 0;
         shape_torus(&s, "ring", 1.2, radii[k], 400, 64);
         shape_place(&s, dvec_of(1, 0, 0), 90, dvec_of(0, 0, 0));
-        const shot_view view = {.width = 480, .height = 360, .eye = {0, 0, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = true};
-        if (shot_of_shape(&got, &s, "tube.glb", form_look, NULL, &view) && check_that("P27", got.direction != NULL, "there is a map of directions"))
+        const shot_view view = {
+            .width = 480, .height = 360, .eye = {0, 0, 6}, .up = {0, 1, 0}, .fov_deg = 32, .orthographic = true};
+        if (shot_of_shape(&got, &s, "tube.glb", form_look, NULL, &view) &&
+            check_that("P27", got.direction != NULL, "there is a map of directions"))
             for (int y = got.height - 3; y >= 2; y -= 4)
                 for (int x = 2; x < got.width; x += 4) {
                     size_t at = (size_t)y * (size_t)got.width + (size_t)x;
-                    if (abs(y - got.height / 2) > 30 || !isfinite((double)got.depth[at]) || (double)got.normal[at][2] < 0.9)
+                    if (abs(y - got.height / 2) > 30 || !isfinite((double)got.depth[at]) ||
+                        (double)got.normal[at][2] < 0.9)
                         continue;
                     const float *v = got.direction[at];
                     all++;

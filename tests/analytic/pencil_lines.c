@@ -1,5 +1,6 @@
-/* Lines that are drawn several times, against equations 4 and 5 and the blend modes of seed 004, section 2.3, worked out pixel by pixel on the CPU from the exact edge map.
- * Notes: seed-pencil-city P7 to P11, P29, P33 to P35, P38. */
+/* Lines that are drawn several times, against equations 4 and 5 and the blend modes of seed 004, section 2.3,
+ * worked out pixel by pixel on the CPU from the exact edge map. Notes: seed-pencil-city P7 to P11, P29, P33 to P35,
+ * P38. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -25,13 +26,17 @@ typedef struct setting {
     copy   copies[COPIES];
 } setting;
 
-/* --- the reference ------------------------------------------------------------------------------------------------ */
+/* --- the reference -------------------------------------------------------------------------------------- */
 
 static const char *pencil_look(const char *keys)
 {
     static char text[1024];
-    snprintf(text, sizeof text, "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\","
-             "\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"},\"perturb\":{\"technique\":\"pencil\"%s%s}}]}", *keys ? "," : "", keys);
+    snprintf(text, sizeof text,
+             "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":"
+             "\"*\",\"surface\":{\"technique\":\"flat\","
+             "\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"},\"perturb\":{"
+             "\"technique\":\"pencil\"%s%s}}]}",
+             *keys ? "," : "", keys);
     return text;
 }
 
@@ -41,7 +46,8 @@ static bool draw_numbers(setting *out, const char *keys, int dark, int light)
     lmn_look *look = NULL;
     lmn_error error = {0};
     float     numbers[NUMBERS_MAX][4];
-    if (!check_that("P11", lmn_look_parse(&look, pencil_look(keys), "look", &error) == LMN_OK, "the look can be read: %s", error.message))
+    if (!check_that("P11", lmn_look_parse(&look, pencil_look(keys), "look", &error) == LMN_OK,
+                    "the look can be read: %s", error.message))
         return false;
     const technique_use *use = &look->rules[0].uses[KIND_PERTURB][0];
     size_t count = use->technique->numbers(use->values, (uint32_t)out->seed, out->width, out->height, numbers);
@@ -50,7 +56,8 @@ static bool draw_numbers(setting *out, const char *keys, int dark, int light)
     out->light = light;
     for (int i = 0; i < dark + light; i++) {
         const float *wave = numbers[2 * i], *rest = numbers[2 * i + 1];
-        out->copies[i] = (copy){(double)wave[0], (double)wave[1], (double)wave[2], (double)wave[3], (double)rest[0], (double)rest[1], (double)rest[2]};
+        out->copies[i] = (copy){(double)wave[0], (double)wave[1], (double)wave[2], (double)wave[3],
+                                (double)rest[0], (double)rest[1], (double)rest[2]};
     }
     out->darkest = (double)numbers[count - 1][0];
     lmn_look_destroy(&look);
@@ -70,7 +77,8 @@ static double paper_of_pixel(const shot *exact, int x, int y, int channel)
 {
     x = x < 0 ? 0 : x >= exact->width ? exact->width - 1 : x;
     y = y < 0 ? 0 : y >= exact->height ? exact->height - 1 : y;
-    return exact->edge[4 * ((size_t)(exact->height - 1 - y) * (size_t)exact->width + (size_t)x) + (size_t)channel] / 255.0;
+    return exact->edge[4 * ((size_t)(exact->height - 1 - y) * (size_t)exact->width + (size_t)x) + (size_t)channel] /
+           255.0;
 }
 
 static const int classes[3] = {0, 1, 3};
@@ -86,8 +94,10 @@ static double ink_between(const shot *exact, double x, double y)
     int    left = (int)floor(x), low = (int)floor(y);
     double right = x - left, up = y - low, paper = 1;
     for (int k = 0; k < 3; k++) {
-        double below = paper_of_pixel(exact, left, low, classes[k]) * (1 - right) + paper_of_pixel(exact, left + 1, low, classes[k]) * right;
-        double above = paper_of_pixel(exact, left, low + 1, classes[k]) * (1 - right) + paper_of_pixel(exact, left + 1, low + 1, classes[k]) * right;
+        double below = paper_of_pixel(exact, left, low, classes[k]) * (1 - right) +
+                       paper_of_pixel(exact, left + 1, low, classes[k]) * right;
+        double above = paper_of_pixel(exact, left, low + 1, classes[k]) * (1 - right) +
+                       paper_of_pixel(exact, left + 1, low + 1, classes[k]) * right;
         paper *= below * (1 - up) + above * up;
     }
     return 1 - paper;
@@ -99,7 +109,11 @@ static double grain_between(const mip_chain *grain, int channel, int x, int y)
     const uint8_t *bytes = mip_layer(grain, 0, 0);
     double         sum = 0;
     for (int k = 0; k < 4; k++)
-        sum += 0.25 * bytes[2 * (((y - 1 + (k >> 1)) & (GRAPHITE_SIDE - 1)) * GRAPHITE_SIDE + ((x - 1 + (k & 1)) & (GRAPHITE_SIDE - 1))) + channel] / 255.0;
+        sum += 0.25 *
+               bytes[2 * (((y - 1 + (k >> 1)) & (GRAPHITE_SIDE - 1)) * GRAPHITE_SIDE +
+                          ((x - 1 + (k & 1)) & (GRAPHITE_SIDE - 1))) +
+                     channel] /
+               255.0;
     return sum;
 }
 
@@ -114,7 +128,8 @@ static double expected(const setting *s, const shot *exact, const mip_chain *gra
         dark += i < s->dark ? ink / s->dark : 0;
         light += i < s->dark ? 0 : ink / s->light;
     }
-    double p = grain_between(grain, 0, x, y), intensity_light = 1 - light * s->sketch * (1 - p), intensity_dark = 1 - dark;
+    double p = grain_between(grain, 0, x, y), intensity_light = 1 - light * s->sketch * (1 - p),
+           intensity_dark = 1 - dark;
     /* Row P29: streaks take from both groups, the weight of the hand changes final lines alone. */
     double force = 1 - s->texture * (1 - grain_between(grain, 1, x, y));
     force *= intensity_dark <= intensity_light ? 1 - s->pressure * (1 - p) : 1;
@@ -134,7 +149,8 @@ static void scene_of_lines(shape *s)
     shape_box(s, "bar", dvec_of(0.5, -1.5, 0.2), dvec_of(0.8, 1.3, 0.5));
 }
 
-static const shot_view view_of_lines = {.width = 360, .height = 300, .eye = {0.8, 0.9, 6}, .up = {0, 1, 0}, .fov_deg = 34};
+static const shot_view view_of_lines = {
+    .width = 360, .height = 300, .eye = {0.8, 0.9, 6}, .up = {0, 1, 0}, .fov_deg = 34};
 
 static void equations(void)
 {
@@ -151,31 +167,39 @@ static void equations(void)
                 {"\"dark\":16,\"light\":16,\"lead\":\"HB\"", 16, 16, 0, 0.6, 0, 0},
                 {"\"texture\":0.5", 4, 3, 0, 0.6, 0.5, 0},
                 {"\"pressure\":0.7,\"sketch\":0.9", 4, 3, 0, 0.9, 0, 0.7}};
-    shape scene = {0};
+    shape     scene = {0};
     mip_chain grain;
     lmn_error error = {0};
     scene_of_lines(&scene);
     if (!check_that("P10", graphite_grain(&grain, 1, &error) == LMN_OK, "noise can be made"))
         return;
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        setting   s = {.width = view_of_lines.width, .height = view_of_lines.height, .seed = rows[r].seed, .sketch = rows[r].sketch, .texture = rows[r].texture, .pressure = rows[r].pressure};
+        setting   s = {.width = view_of_lines.width,
+                       .height = view_of_lines.height,
+                       .seed = rows[r].seed,
+                       .sketch = rows[r].sketch,
+                       .texture = rows[r].texture,
+                       .pressure = rows[r].pressure};
         shot      exact, drawn;
         shot_view bare = view_of_lines;
         bare.without_maps = true;
         bare.seed = (uint32_t)rows[r].seed;
-        if (draw_numbers(&s, rows[r].keys, rows[r].dark, rows[r].light) && shot_of_shape(&exact, &scene, "lines.glb", pencil_look(rows[r].keys), NULL, &view_of_lines)) {
+        if (draw_numbers(&s, rows[r].keys, rows[r].dark, rows[r].light) &&
+            shot_of_shape(&exact, &scene, "lines.glb", pencil_look(rows[r].keys), NULL, &view_of_lines)) {
             if (shot_of_shape(&drawn, &scene, "lines.glb", pencil_look(rows[r].keys), NULL, &bare)) {
                 double worst = 0;
                 int    off = 0, inked = 0;
                 for (int y = 0; y < s.height; y++)
                     for (int x = 0; x < s.width; x++) {
-                        double wanted = expected(&s, &exact, &grain, x, y), far = fabs(shown(&drawn, x, y) - wanted) * 255;
+                        double wanted = expected(&s, &exact, &grain, x, y),
+                               far = fabs(shown(&drawn, x, y) - wanted) * 255;
                         worst = fmax(worst, far);
                         off += far > 1.5;
                         inked += wanted < 0.99;
                     }
                 check_at_least("P8", inked, 1000, "%d dark and %d light copies: pixels with ink", s.dark, s.light);
-                check_at_most("P10", off, inked / 500, "pixels more than 1.5/255 from equations 4 and 5, Screen and Darken (worst %.1f)", worst);
+                check_at_most("P10", off, inked / 500,
+                              "pixels more than 1.5/255 from equations 4 and 5, Screen and Darken (worst %.1f)", worst);
                 shot_release(&drawn);
             }
             shot_release(&exact);
@@ -185,7 +209,7 @@ static void equations(void)
     shape_release(&scene);
 }
 
-/* --- single rows -------------------------------------------------------------------------------------------------- */
+/* --- single rows ---------------------------------------------------------------------------------------- */
 
 /* Waves never fold the picture: the map from places to where they look keeps its sense. */
 static void no_folds(void)
@@ -199,14 +223,16 @@ static void no_folds(void)
                 return;
             for (int i = 0; i < 32; i++)
                 for (int n = 0; n < 400; n++) {
-                    double share_y = (n % 20) / 20.0, share_x = (n / 20) / 20.0;
+                    double      share_y = (n % 20) / 20.0, share_x = (n / 20) / 20.0;
                     const copy *c = &s.copies[i];
-                    double a = c->sway * c->omega_x / s.height * cos(c->omega_x * share_y + c->phase_x), b = -c->sway * c->omega_y / s.width * sin(c->omega_y * share_x + c->phase_y);
+                    double      a = c->sway * c->omega_x / s.height * cos(c->omega_x * share_y + c->phase_x),
+                           b = -c->sway * c->omega_y / s.width * sin(c->omega_y * share_x + c->phase_y);
                     least = fmin(least, 1 - a * b);
                     largest = fmax(largest, c->sway);
                 }
         }
-        check_at_least("P7", least, 0.05, "%d x %d: determinant of the copies' maps, least (sway at most %.2f px)", s.width, s.height, largest);
+        check_at_least("P7", least, 0.05, "%d x %d: determinant of the copies' maps, least (sway at most %.2f px)",
+                       s.width, s.height, largest);
     }
 }
 
@@ -223,7 +249,8 @@ static void numbers_in_their_ranges(void)
             most[light] = fmax(most[light], fmax(s.copies[i].omega_x, s.copies[i].omega_y));
             jitter = fmax(jitter, fmax(fabs(s.copies[i].jitter_x), fabs(s.copies[i].jitter_y)));
             for (int k = 0; k < i; k++)
-                apart = fmin(apart, fabs(s.copies[i].phase_x - s.copies[k].phase_x) + fabs(s.copies[i].omega_x - s.copies[k].omega_x));
+                apart = fmin(apart, fabs(s.copies[i].phase_x - s.copies[k].phase_x) +
+                                        fabs(s.copies[i].omega_x - s.copies[k].omega_x));
         }
     }
     check_at_least("P11", least[0], 7.9, "radians of dark waves across the page, least");
@@ -243,14 +270,16 @@ static void displacement(void)
     shot  exact, drawn;
     shape_quad(&scene, "plate", 1.2, 0);
     for (int group = 0; group < 2; group++) {
-        const char *keys = group ? "\"dark\":0,\"light\":1,\"sketch\":1" : "\"dark\":1,\"light\":0,\"dark_sway\":6";
+        const char     *keys = group ? "\"dark\":0,\"light\":1,\"sketch\":1" : "\"dark\":1,\"light\":0,\"dark_sway\":6";
         const shot_view view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
-        setting s = {.width = 400, .height = 400};
-        if (draw_numbers(&s, keys, !group, group) && shot_of_shape(&exact, &scene, "plate.glb", pencil_look(keys), NULL, &view) &&
+        setting         s = {.width = 400, .height = 400};
+        if (draw_numbers(&s, keys, !group, group) &&
+            shot_of_shape(&exact, &scene, "plate.glb", pencil_look(keys), NULL, &view) &&
             shot_of_shape(&drawn, &scene, "plate.glb", pencil_look(keys), NULL, &view)) {
             double worst = 0, beyond = 0;
             int    rows = 0;
-            int    side = (int)floor(shot_project(&exact, dvec_of(-1.2, 0, 0)).x), first = (int)floor(shot_project(&exact, dvec_of(0, -1.2, 0)).y);
+            int    side = (int)floor(shot_project(&exact, dvec_of(-1.2, 0, 0)).x),
+                first = (int)floor(shot_project(&exact, dvec_of(0, -1.2, 0)).y);
             for (int y = s.height - 1 - first + 40; y < first - 40; y++) {
                 double own = 0, own_at = 0, got = 0, got_at = 0;
                 for (int x = side - 30; x < side + 30; x++) {
@@ -264,14 +293,17 @@ static void displacement(void)
                 if (own <= 0 || got < 0.05)
                     continue; /* a light line may have faded */
                 /* What is looked up at x' is drawn at x: x' is the border there. The wave depends on the row alone. */
-                double share = (y + 0.5) / s.height, way = s.copies[0].sway * sin(s.copies[0].omega_x * share + s.copies[0].phase_x) - s.copies[0].jitter_x;
+                double share = (y + 0.5) / s.height,
+                       way = s.copies[0].sway * sin(s.copies[0].omega_x * share + s.copies[0].phase_x) -
+                             s.copies[0].jitter_x;
                 worst = fmax(worst, fabs(got_at / got - (own_at / own - way)));
                 rows++;
             }
             check_at_least("P7", rows, 140, "rows with a line, %s group", group ? "light" : "dark");
             check_at_most("P7", worst, 0.5, "px that it lies off the predicted place");
             if (group)
-                check_at_most("P9", beyond, 18.5, "px that light lines reach beyond the border, whose own line is half outside");
+                check_at_most("P9", beyond, 18.5,
+                              "px that light lines reach beyond the border, whose own line is half outside");
             if (group)
                 check_at_least("P9", beyond, 12, "and they do reach far");
         }
@@ -306,7 +338,8 @@ static void copies_share_the_ink(void)
 {
     shape scene = {0};
     shape_quad(&scene, "plate", 1.2, 0);
-    const shot_view view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
+    const shot_view view = {
+        .width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
     double first = 0;
     int    most = 0, separate = 0;
     for (int n = 1; n <= 12; n++) {
@@ -360,7 +393,8 @@ static void frames_are_the_same(void)
     shot_view later = view, other = view;
     later.time_s = 3.7;
     other.seed = 5;
-    if (shot_of_shape(&a, &scene, "lines.glb", pencil_look(""), NULL, &view) && shot_of_shape(&b, &scene, "lines.glb", pencil_look(""), NULL, &later) &&
+    if (shot_of_shape(&a, &scene, "lines.glb", pencil_look(""), NULL, &view) &&
+        shot_of_shape(&b, &scene, "lines.glb", pencil_look(""), NULL, &later) &&
         shot_of_shape(&c, &scene, "lines.glb", pencil_look(""), NULL, &other)) {
         check_at_most("P11", shot_differing(&a, &b, 0), 0, "values that differ in a later frame of the same view");
         check_at_least("P11", shot_differing(&a, &c, 10), 1000, "values that another seed changes");
@@ -383,8 +417,8 @@ static int passes_of(const shot *s)
 static void one_pass(void)
 {
     static const char *const keys[] = {"\"dark\":1,\"light\":0", "\"dark\":4,\"light\":3", "\"dark\":16,\"light\":16"};
-    shape scene = {0};
-    int   first = 0;
+    shape                    scene = {0};
+    int                      first = 0;
     scene_of_lines(&scene);
     shot_view view = view_of_lines;
     view.without_maps = view.profile = true;
@@ -401,7 +435,7 @@ static void one_pass(void)
     shape_release(&scene);
 }
 
-/* --- graphite ----------------------------------------------------------------------------------------------------- */
+/* --- graphite ------------------------------------------------------------------------------------------- */
 
 /* Broad exact lines: what is inside. */
 static void inside_of_lines(const char *keys, double *mean, double *variance)
@@ -410,9 +444,13 @@ static void inside_of_lines(const char *keys, double *mean, double *variance)
     shot  drawn;
     char  look[1024];
     shape_quad(&scene, "plate", 1.2, 0);
-    snprintf(look, sizeof look, "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":"
-             "\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":12},\"perturb\":{\"technique\":\"pencil\",\"dark\":1,\"light\":0,\"dark_sway\":0,"
-             "\"jitter\":0,%s}}]}", keys);
+    snprintf(look, sizeof look,
+             "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":"
+             "\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":"
+             "\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":12},\"perturb\":{"
+             "\"technique\":\"pencil\",\"dark\":1,\"light\":0,\"dark_sway\":0,"
+             "\"jitter\":0,%s}}]}",
+             keys);
     const shot_view view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
     *mean = *variance = 0;
     if (shot_of_shape(&drawn, &scene, "broad.glb", look, NULL, &view)) {
@@ -420,7 +458,8 @@ static void inside_of_lines(const char *keys, double *mean, double *variance)
         int    count = 0;
         for (int y = 0; y < 400; y++)
             for (int x = 0; x < 400; x++)
-                if (ink_of_pixel(&drawn, x, y) > 0.99 && ink_of_pixel(&drawn, x - 2, y) > 0.99 && ink_of_pixel(&drawn, x + 2, y) > 0.99) {
+                if (ink_of_pixel(&drawn, x, y) > 0.99 && ink_of_pixel(&drawn, x - 2, y) > 0.99 &&
+                    ink_of_pixel(&drawn, x + 2, y) > 0.99) {
                     double ink = 1 - shown(&drawn, x, y);
                     sum += ink;
                     squares += ink * ink;
@@ -447,7 +486,8 @@ static void graphite(void)
         char keys[64];
         snprintf(keys, sizeof keys, "\"lead\":\"%s\"", lead_grade_names[k]);
         inside_of_lines(keys, &mean, &variance);
-        check_at_least("P33", mean - before, 0.005, "%s: darkness %.3f, above that of the harder one by", lead_grade_names[k], mean);
+        check_at_least("P33", mean - before, 0.005, "%s: darkness %.3f, above that of the harder one by",
+                       lead_grade_names[k], mean);
         check_near("P33", mean, (double)lead_darkest((lead_grade)k), 0.006, "and it is the lead's");
         before = mean;
     }
@@ -459,11 +499,14 @@ static void coloured(void)
     shape scene = {0};
     shot  drawn;
     shape_quad(&scene, "plate", 1.2, 0);
-    const shot_view view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
-    const char *look = "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
-                       "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":14},\"perturb\":{\"technique\":\"pencil\",\"dark\":2,\"light\":0,\"dark_sway\":9,"
+    const shot_view view = {
+        .width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
+    const char *look = "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{"
+                       "\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
+                       "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":14},\"perturb\":{"
+                       "\"technique\":\"pencil\",\"dark\":2,\"light\":0,\"dark_sway\":9,"
                        "\"colours\":[\"#ff4040\",\"#40ffff\"]}}]}";
-    int red = 0, blue = 0, both = 0;
+    int         red = 0, blue = 0, both = 0;
     if (shot_of_shape(&drawn, &scene, "coloured.glb", look, NULL, &view))
         for (int i = 0; i < 400 * 400; i++) {
             const uint8_t *p = &drawn.picture[4 * i];
@@ -482,16 +525,21 @@ static void coloured(void)
 static void overrun(void)
 {
     static const double lengths[] = {0, 6, 12};
-    shape scene = {0};
+    shape               scene = {0};
     shape_quad(&scene, "plate", 1.2, 0);
     const shot_view view = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
     for (int k = 0; k < 3; k++) {
         char look[1024];
         shot drawn;
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":"
-                 "\"#808080\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"none\"},\"perturb\":{\"technique\":\"pencil\",\"overrun\":%g,\"overrun_angle\":0}}]}", lengths[k]);
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"p\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{"
+                 "\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":"
+                 "\"#808080\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"none\"},\"perturb\":{"
+                 "\"technique\":\"pencil\",\"overrun\":%g,\"overrun_angle\":0}}]}",
+                 lengths[k]);
         if (shot_of_shape(&drawn, &scene, "plate.glb", look, NULL, &view)) {
-            int    side = (int)floor(shot_project(&drawn, dvec_of(1.2, 0, 0)).x), beyond = 0, short_of = 0, before = 0, even = 0;
+            int side = (int)floor(shot_project(&drawn, dvec_of(1.2, 0, 0)).x), beyond = 0, short_of = 0, before = 0,
+                even = 0;
             for (int y = 100; y < 300; y++) {
                 int last = 0;
                 for (int x = side - 40; x < side + 40 && x < 400; x++)
@@ -504,7 +552,8 @@ static void overrun(void)
             /* Strokes of a band end together, and bands pass into one another. */
             check_at_least("P35", even, k ? 60 : 199, "rows of 200 that end where the one before does");
             check_at_most("P35", even, k ? 150 : 199, "and not all of a band");
-            check_near("P35", beyond, lengths[k], 1.6, "overrun %g: px that strokes run past the contour at most", lengths[k]);
+            check_near("P35", beyond, lengths[k], 1.6, "overrun %g: px that strokes run past the contour at most",
+                       lengths[k]);
             check_near("P35", short_of, lengths[k], 2.1, "and fall short of it");
         }
         shot_release(&drawn);

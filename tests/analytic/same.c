@@ -1,5 +1,5 @@
-/* Same input, same picture: twice, with one thread and two, through the command and the library, after another scene, in
- * both dialects of GL, and for every technique in its own example. */
+/* Same input, same picture: twice, with one thread and two, through the command and the library, after another
+ * scene, in both dialects of GL, and for every technique in its own example. */
 #include <jansson.h>
 #include <limner/limner.h>
 #include <stdio.h>
@@ -42,9 +42,12 @@ static void twice(void)
         bool ok = shot_of_shape(&first, &s, "twice.glb", looks[i], NULL, &view);
         if (shot_of_shape(&second, &s, "twice.glb", looks[i], NULL, &view) && ok) {
             size_t count = (size_t)(first.width * first.height);
-            check_at_most("same", differing(first.picture, second.picture, 4 * count, 0), 0, "bytes that differ between two calls: %s", looks[i]);
-            check_that("same", memcmp(first.depth, second.depth, count * sizeof(float)) == 0 &&
-                                   memcmp(first.edge, second.edge, 4 * count) == 0, "and so do the maps");
+            check_at_most("same", differing(first.picture, second.picture, 4 * count, 0), 0,
+                          "bytes that differ between two calls: %s", looks[i]);
+            check_that("same",
+                       memcmp(first.depth, second.depth, count * sizeof(float)) == 0 &&
+                           memcmp(first.edge, second.edge, 4 * count) == 0,
+                       "and so do the maps");
         }
         shot_release(&first);
         shot_release(&second);
@@ -69,11 +72,13 @@ static void one_after_another(void)
         }
     }
     for (int i = 0; i < 8; i++) {
-        wrong += !fresh[i].picture || !later[i].picture || differing(fresh[i].picture, later[i].picture, (size_t)(view.width * view.height * 4), 0) > 0;
+        wrong += !fresh[i].picture || !later[i].picture ||
+                 differing(fresh[i].picture, later[i].picture, (size_t)(view.width * view.height * 4), 0) > 0;
         shot_release(&fresh[i]);
         shot_release(&later[i]);
     }
-    check_at_most("same", wrong, 0, "of 8 scenes drawn one after another that look different from a renderer of their own");
+    check_at_most("same", wrong, 0,
+                  "of 8 scenes drawn one after another that look different from a renderer of their own");
 }
 
 /* Runs the command with one more variable in the environment; its exit status. */
@@ -82,8 +87,8 @@ static int run_command(const char *variable, const char *value, const char *mode
     pid_t child = fork();
     if (child == 0) {
         setenv(variable, value, 1);
-        execl(LIMNER_COMMAND, "limner", "draw", model, "-o", out, "--look", look, "--size", "200x160", "--eye", "4,3,5", "--target",
-              "0,0,0", "--up", "0,1,0", "--quiet", (char *)NULL);
+        execl(LIMNER_COMMAND, "limner", "draw", model, "-o", out, "--look", look, "--size", "200x160", "--eye", "4,3,5",
+              "--target", "0,0,0", "--up", "0,1,0", "--quiet", (char *)NULL);
         _exit(127);
     }
     int status = -1;
@@ -108,10 +113,11 @@ static bool same_files(const char *a, const char *b)
 
 static void command_and_threads(void)
 {
-    static const char *const variables[][2] = {{"LP_NUM_THREADS", "1"}, {"LP_NUM_THREADS", "2"}, {"LP_NUM_THREADS", "0"}, {"LIMNER_GL", "es"}};
+    static const char *const variables[][2] = {
+        {"LP_NUM_THREADS", "1"}, {"LP_NUM_THREADS", "2"}, {"LP_NUM_THREADS", "0"}, {"LIMNER_GL", "es"}};
     static const char *const looks[] = {"edges", "toon", "gooch"};
-    shape s = {0};
-    char  model[256], paths[4][256];
+    shape                    s = {0};
+    char                     model[256], paths[4][256];
     scene_of(&s);
     snprintf(model, sizeof model, "%s", check_path("command.glb"));
     model_write(model, &s);
@@ -122,8 +128,9 @@ static void command_and_threads(void)
         bare.without_maps = true;
         for (int i = 0; i < 4; i++) {
             snprintf(paths[i], sizeof paths[i], "%s", check_path("%s-%d.png", looks[l], i));
-            ran = check_near("command", run_command(variables[i][0], variables[i][1], model, paths[i], looks[l]), 0, 0, "exit status with %s=%s",
-                             variables[i][0], variables[i][1]) && ran;
+            ran = check_near("command", run_command(variables[i][0], variables[i][1], model, paths[i], looks[l]), 0, 0,
+                             "exit status with %s=%s", variables[i][0], variables[i][1]) &&
+                  ran;
         }
         check_that("same", same_files(paths[0], paths[1]), "one and two threads write the same file: %s", looks[l]);
         check_that("same", same_files(paths[0], paths[2]), "and none as well");
@@ -132,8 +139,10 @@ static void command_and_threads(void)
             uint8_t *gl = picture_read_rgba(paths[1], &w, &h), *es = picture_read_rgba(paths[3], &w, &h);
             size_t   count = (size_t)(w * h * 4);
             if (check_that("command", gl && es && w == 200 && h == 160, "the command's pictures can be read")) {
-                check_at_most("same", differing(gl, drawing.picture, count, 0), 0, "bytes that differ between command and library");
-                check_at_most("GLES", differing(gl, es, count, 1), 0, "values that differ by more than a level with LIMNER_GL=es");
+                check_at_most("same", differing(gl, drawing.picture, count, 0), 0,
+                              "bytes that differ between command and library");
+                check_at_most("GLES", differing(gl, es, count, 1), 0,
+                              "values that differ by more than a level with LIMNER_GL=es");
             }
             free(gl);
             free(es);
@@ -143,11 +152,12 @@ static void command_and_threads(void)
     shape_release(&s);
 }
 
-/* Every technique of every kind, in its own example, in both dialects: it compiles and gives the same picture and maps. */
+/* Every technique of every kind, in its own example, in both dialects: it compiles and gives the same picture and
+ * maps. */
 static void judge_example(const char *kind, const char *name, const char *rule, const shape *s)
 {
-    char look[2048];
-    shot gl, es;
+    char      look[2048];
+    shot      gl, es;
     shot_view other = view;
     other.es = true;
     snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"rules\":[%s]}", rule);
@@ -156,9 +166,11 @@ static void judge_example(const char *kind, const char *name, const char *rule, 
         size_t count = (size_t)(gl.width * gl.height);
         int    depth = 0;
         for (size_t i = 0; i < count; i++)
-            depth += isinf(gl.depth[i]) != isinf(es.depth[i]) || fabs((double)gl.depth[i] - (double)es.depth[i]) > 1e-5 * (double)gl.depth[i];
-        check_at_most("GLES", differing(gl.picture, es.picture, 4 * count, 1) + differing(gl.edge, es.edge, 4 * count, 1) + depth, 0,
-                      "values that differ between 330 and 300 es: %s %s", kind, name);
+            depth += isinf(gl.depth[i]) != isinf(es.depth[i]) ||
+                     fabs((double)gl.depth[i] - (double)es.depth[i]) > 1e-5 * (double)gl.depth[i];
+        check_at_most(
+            "GLES", differing(gl.picture, es.picture, 4 * count, 1) + differing(gl.edge, es.edge, 4 * count, 1) + depth,
+            0, "values that differ between 330 and 300 es: %s %s", kind, name);
     }
     shot_release(&gl);
     shot_release(&es);
@@ -170,21 +182,24 @@ static void both_dialects(void)
     lmn_error error = {0};
     size_t    done = 0;
     shape     s = {0};
-    if (!check_that("GLES", lmn_look_reference_json(&text, NULL, &error) == LMN_OK, "the reference is there (%s)", error.message))
+    if (!check_that("GLES", lmn_look_reference_json(&text, NULL, &error) == LMN_OK, "the reference is there (%s)",
+                    error.message))
         return;
     scene_of(&s);
     json_t *reference = json_loads(text, 0, NULL), *kind, *technique;
     size_t  i, k;
     json_array_foreach(json_object_get(reference, "kinds"), i, kind)
-        json_array_foreach(json_object_get(kind, "techniques"), k, technique) {
-            const char *example = json_string_value(json_object_get(technique, "example"));
-            char       *dumped = example ? strdup(example) : json_dumps(json_object_get(technique, "example"), 0);
-            if (!dumped)
-                continue;
-            judge_example(json_string_value(json_object_get(kind, "name")), json_string_value(json_object_get(technique, "name")), dumped, &s);
-            free(dumped);
-            done++;
-        }
+        json_array_foreach(json_object_get(kind, "techniques"), k, technique)
+    {
+        const char *example = json_string_value(json_object_get(technique, "example"));
+        char       *dumped = example ? strdup(example) : json_dumps(json_object_get(technique, "example"), 0);
+        if (!dumped)
+            continue;
+        judge_example(json_string_value(json_object_get(kind, "name")),
+                      json_string_value(json_object_get(technique, "name")), dumped, &s);
+        free(dumped);
+        done++;
+    }
     check_at_least("GLES", (double)done, 20, "techniques tried in both dialects");
     json_decref(reference);
     lmn_text_free(text);
@@ -194,8 +209,8 @@ static void both_dialects(void)
 /* More samples a pixel change neither the geometry nor the tones of flat areas. */
 static void supersampled(void)
 {
-    shape s = {0};
-    shot  one, many;
+    shape     s = {0};
+    shot      one, many;
     shot_view fine = view;
     fine.samples = 16;
     scene_of(&s);
@@ -215,7 +230,8 @@ static void supersampled(void)
             }
         check_at_least("samples", flat, 10000, "pixels in flat areas");
         check_at_most("samples", wrong, 0, "of them that 16 samples change");
-        check_at_most("samples", differing(one.edge, many.edge, (size_t)(view.width * view.height * 4), 0), 0, "the edge map stays single-sampled");
+        check_at_most("samples", differing(one.edge, many.edge, (size_t)(view.width * view.height * 4), 0), 0,
+                      "the edge map stays single-sampled");
     }
     shot_release(&one);
     shot_release(&many);
@@ -225,7 +241,11 @@ static void supersampled(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"twice", twice}, {"after", one_after_another}, {"command", command_and_threads}, {"dialects", both_dialects}, {"samples", supersampled},
+        {"twice", twice},
+        {"after", one_after_another},
+        {"command", command_and_threads},
+        {"dialects", both_dialects},
+        {"samples", supersampled},
     };
     int status = check_main(argc, argv, "same", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,4 +1,5 @@
-/* Halftone screens on surfaces: thresholds against given mip chains texel by texel, tones, line distances and widths over distance, files, motion. Seed 001, chapter 6. */
+/* Halftone screens on surfaces: thresholds against given mip chains texel by texel, tones, line distances and
+ * widths over distance, files, motion. Seed 001, chapter 6. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,16 +13,18 @@
 
 enum { TONES = 17, TILE = 128 };
 
-/* --- texel by texel ---------------------------------------------------------------------------------------------- */
+/* --- texel by texel ------------------------------------------------------------------------------------- */
 
-/* Tiles side by side, each of one tone: by the model's own brightness, which with `texture` 1 is all there is. A tile is `units` wide and high. */
+/* Tiles side by side, each of one tone: by the model's own brightness, which with `texture` 1 is all there is. A
+ * tile is `units` wide and high. */
 static void add_tones(halftone_scene *s, int count, int columns, double units, double first, double last)
 {
     for (int i = 0; i < count; i++) {
         double tone = first + (last - first) * i / (count - 1);
         char   name[16];
         snprintf(name, sizeof name, "t%d", i);
-        halftone_part *p = halftone_add_wall(s, name, (halftone_wall){i % columns * units, i / columns * units, 0, units, units, 1});
+        halftone_part *p =
+            halftone_add_wall(s, name, (halftone_wall){i % columns * units, i / columns * units, 0, units, units, 1});
         for (int k = 0; k < 3; k++)
             p->colour[k] = (float)pow(tone, 2.2);
     }
@@ -51,7 +54,8 @@ static double texel(const mip_chain *c, int x, int y)
 static bool chain_of(mip_chain *out, screen_procedure procedure)
 {
     lmn_error error;
-    return check_that("screen", screen_of_procedure(out, procedure, TILE, 8, &error) == LMN_OK, "a screen of %s", screen_procedure_names[procedure]);
+    return check_that("screen", screen_of_procedure(out, procedure, TILE, 8, &error) == LMN_OK, "a screen of %s",
+                      screen_procedure_names[procedure]);
 }
 
 static void binary_threshold(void)
@@ -77,10 +81,13 @@ static void binary_threshold(void)
                 }
         shot es = {0};
         if (s.picture && take_texels(&es, keys, true))
-            check_at_most("IM-08", shot_differing(&s, &es, 0), 0, "%s: values that OpenGL ES draws otherwise", screen_procedure_names[p]);
+            check_at_most("IM-08", shot_differing(&s, &es, 0), 0, "%s: values that OpenGL ES draws otherwise",
+                          screen_procedure_names[p]);
         shot_release(&es);
         check_at_most("IM-08", other, 0, "%s: pixels that are neither black nor white", screen_procedure_names[p]);
-        check_at_most("IM-08", wrong, 0, "%s: pixels that are not black where screen + tone <= 1 (%d on the border left out)", screen_procedure_names[p], on_edge);
+        check_at_most("IM-08", wrong, 0,
+                      "%s: pixels that are not black where screen + tone <= 1 (%d on the border left out)",
+                      screen_procedure_names[p], on_edge);
         shot_release(&s);
         mip_chain_release(&c);
     }
@@ -96,8 +103,11 @@ static void tones_are_told_apart(void)
     char           surface[256];
     int            distinct = 1, off = 0, last = -1;
     add_tones(&scene, 256, COLUMNS, 0.5, 0.5 / 256, 255.5 / 256);
-    snprintf(surface, sizeof surface, "screen\",\"coordinates\":\"uv\",\"scale\":8,%s,\"scheme\":\"binary\",\"screen\":\"blue-noise\"", tone_keys);
-    if (chain_of(&c, PROCEDURE_BLUE_NOISE) && halftone_shot(&s, &scene, "many.gltf", halftone_look(surface), NULL, &view)) {
+    snprintf(surface, sizeof surface,
+             "screen\",\"coordinates\":\"uv\",\"scale\":8,%s,\"scheme\":\"binary\",\"screen\":\"blue-noise\"",
+             tone_keys);
+    if (chain_of(&c, PROCEDURE_BLUE_NOISE) &&
+        halftone_shot(&s, &scene, "many.gltf", halftone_look(surface), NULL, &view)) {
         for (int i = 0; i < 256; i++) {
             int inked = 0, wanted = 0;
             for (int k = 0; k < SIDE * SIDE; k++) {
@@ -125,7 +135,8 @@ static void smooth_threshold(void)
             shot      s;
             char      keys[160];
             double    worst = 0, off = 0;
-            snprintf(keys, sizeof keys, "\"scheme\":\"smooth\",\"gain\":4,\"centred\":%s,\"screen\":\"%s\"", centred ? "true" : "false", screen_procedure_names[p]);
+            snprintf(keys, sizeof keys, "\"scheme\":\"smooth\",\"gain\":4,\"centred\":%s,\"screen\":\"%s\"",
+                     centred ? "true" : "false", screen_procedure_names[p]);
             if (!chain_of(&c, (screen_procedure)p))
                 return;
             if (take_texels(&s, keys, false)) {
@@ -137,17 +148,22 @@ static void smooth_threshold(void)
                             worst = fmax(worst, fabs(halftone_ink(&s, x, y) - ink));
                     }
                 for (int i = 2; i <= (centred ? 14 : 12); i++)
-                    off = fmax(off, fabs(halftone_mean(&s, i * TILE, 0, TILE, TILE) - (1 - i / 16.0) + (centred ? 0 : 0.125)));
+                    off = fmax(
+                        off, fabs(halftone_mean(&s, i * TILE, 0, TILE, TILE) - (1 - i / 16.0) + (centred ? 0 : 0.125)));
             }
-            check_at_most("IM-09", worst * 255, 1.5, "%s%s: levels between the picture, which is rounded, and the formula", screen_procedure_names[p], centred ? ", centred" : "");
-            check_at_most("IM-09", off, p == PROCEDURE_ORDERED ? 0.02 : 0.01, "%s%s: of 11 or 13 tones between the mean ink and %s", screen_procedure_names[p], centred ? ", centred" : "",
-                          centred ? "1 - tone" : "1 - tone - 1/(2 gain)");
+            check_at_most("IM-09", worst * 255, 1.5,
+                          "%s%s: levels between the picture, which is rounded, and the formula",
+                          screen_procedure_names[p], centred ? ", centred" : "");
+            check_at_most("IM-09", off, p == PROCEDURE_ORDERED ? 0.02 : 0.01,
+                          "%s%s: of 11 or 13 tones between the mean ink and %s", screen_procedure_names[p],
+                          centred ? ", centred" : "", centred ? "1 - tone" : "1 - tone - 1/(2 gain)");
             shot_release(&s);
             mip_chain_release(&c);
         }
 }
 
-/* Between levels: the same formula on the chain as it is sampled by the rates of change, at places that fit nothing. */
+/* Between levels: the same formula on the chain as it is sampled by the rates of change, at places that fit
+ * nothing. */
 static void between_levels(void)
 {
     static const double zooms[] = {117.3, 93.7, 61.1, 40.9, 23.3};
@@ -160,9 +176,12 @@ static void between_levels(void)
             char           surface[256];
             double         worst = 0, sum = 0;
             halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 160 / zooms[z], 160 / zooms[z], 1});
-            snprintf(surface, sizeof surface, "screen\",\"coordinates\":\"uv\",\"scale\":8,\"scheme\":\"smooth\",\"gain\":2,\"uneven\":0,\"shadow\":0.3,\"light\":0.3,\"screen\":\"%s\"",
+            snprintf(surface, sizeof surface,
+                     "screen\",\"coordinates\":\"uv\",\"scale\":8,\"scheme\":\"smooth\",\"gain\":2,\"uneven\":0,"
+                     "\"shadow\":0.3,\"light\":0.3,\"screen\":\"%s\"",
                      screen_procedure_names[p]);
-            if (chain_of(&c, (screen_procedure)p) && halftone_shot(&s, &scene, "levels.gltf", halftone_look(surface), NULL, &view)) {
+            if (chain_of(&c, (screen_procedure)p) &&
+                halftone_shot(&s, &scene, "levels.gltf", halftone_look(surface), NULL, &view)) {
                 double level = log2(TILE / zooms[z]);
                 c.nearest = p == PROCEDURE_ORDERED || p == PROCEDURE_BLUE_NOISE;
                 for (int y = 2; y < 158; y++)
@@ -173,7 +192,9 @@ static void between_levels(void)
                         sum += off / (156 * 156);
                     }
                 /* Which texel is the nearest is up to rounding at borders. */
-                check_at_most("IM-13", c.nearest ? sum : worst, c.nearest ? 0.01 : 0.03, "%s at level %.2f: share of ink off the chain sampled by rates of change (mean %.5f)", screen_procedure_names[p], level, sum);
+                check_at_most("IM-13", c.nearest ? sum : worst, c.nearest ? 0.01 : 0.03,
+                              "%s at level %.2f: share of ink off the chain sampled by rates of change (mean %.5f)",
+                              screen_procedure_names[p], level, sum);
                 shot_release(&s);
             }
             mip_chain_release(&c);
@@ -185,9 +206,13 @@ static void light_moves_ink_by_the_gain(void)
 {
     shot   before, after;
     double worst = 0;
-    char  surface[2][256];
-    snprintf(surface[0], sizeof surface[0], "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"gain\":4,\"uneven\":0,\"coordinates\":\"uv\",\"shadow\":0.5,\"light\":0.5");
-    snprintf(surface[1], sizeof surface[1], "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"gain\":4,\"uneven\":0,\"coordinates\":\"uv\",\"shadow\":0.52,\"light\":0.52");
+    char   surface[2][256];
+    snprintf(surface[0], sizeof surface[0],
+             "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"gain\":4,\"uneven\":0,\"coordinates\":\"uv\","
+             "\"shadow\":0.5,\"light\":0.5");
+    snprintf(surface[1], sizeof surface[1],
+             "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"gain\":4,\"uneven\":0,\"coordinates\":\"uv\","
+             "\"shadow\":0.52,\"light\":0.52");
     if (!halftone_far(&before, surface[0], 1, 160, 0.5))
         return;
     if (halftone_far(&after, surface[1], 1, 160, 0.5)) {
@@ -212,7 +237,8 @@ static void lines_swell(void)
         int inked = 0, lines = 0;
         for (int x = i * TILE; x < (i + 1) * TILE; x++)
             for (int y = 0; y < TILE; y++) {
-                bool here = s.picture[4 * (y * s.width + x)] == 0, above = s.picture[4 * ((y + TILE - 1) % TILE * s.width + x)] == 0;
+                bool here = s.picture[4 * (y * s.width + x)] == 0,
+                     above = s.picture[4 * ((y + TILE - 1) % TILE * s.width + x)] == 0;
                 inked += here;
                 lines += here && !above;
             }
@@ -224,7 +250,7 @@ static void lines_swell(void)
     shot_release(&s);
 }
 
-/* --- the sharp scheme -------------------------------------------------------------------------------------------- */
+/* --- the sharp scheme ----------------------------------------------------------------------------------- */
 
 /* Seventeen tones at a zoom that fits nothing: mean over whole tiles. */
 static void tones_of(const char *name, double pixels, double limit, double darkest)
@@ -248,18 +274,19 @@ static void tones_of(const char *name, double pixels, double limit, double darke
             }
         }
         check_note("%s at %.4g px a unit:%s", name, pixels, line);
-        check_at_most("IM-14", worst, limit, "%s: share of ink off on a ramp of 17 tones (worst where %.3f is wanted)", name, at);
+        check_at_most("IM-14", worst, limit, "%s: share of ink off on a ramp of 17 tones (worst where %.3f is wanted)",
+                      name, at);
         shot_release(&s);
     }
     halftone_release(&scene);
 }
 
-/* Where a texel is a pixel the tone is right; between levels and sizes of the screen it is not yet, since mixed values are no longer evenly spread: what is allowed
- * here is what was measured. */
+/* Where a texel is a pixel the tone is right; between levels and sizes of the screen it is not yet, since mixed
+ * values are no longer evenly spread: what is allowed here is what was measured. */
 static void tone_of_screens(void)
 {
     static const char *const names[] = {"blue-noise", "dots", "lines", "ordered"};
-    static const double between[] = {0.01, 0.11, 0.05, 0.01};
+    static const double      between[] = {0.01, 0.11, 0.05, 0.01};
     for (int i = 0; i < 4; i++) {
         shot   s;
         char   keys[64];
@@ -270,7 +297,8 @@ static void tone_of_screens(void)
                 worst = fmax(worst, fabs(halftone_mean(&s, k * TILE, 0, TILE, TILE) - (1 - k / 16.0)));
             shot_release(&s);
         }
-        check_at_most("IM-14", worst, i == 1 || i == 2 ? 0.06 : 0.01, "%s, a texel a pixel: share of ink off on a ramp of 17 tones", names[i]);
+        check_at_most("IM-14", worst, i == 1 || i == 2 ? 0.06 : 0.01,
+                      "%s, a texel a pixel: share of ink off on a ramp of 17 tones", names[i]);
         tones_of(names[i], 128, between[i], 1);
         tones_of(names[i], 173.3, between[i], 1);
     }
@@ -291,19 +319,25 @@ static void edges_stay_sharp(void)
         double         sum = 0, thinnest = 1e9;
         int            edges = 0, soft = 0;
         halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 3.2, 3.2, 1});
-        snprintf(surface, sizeof surface, "screen\",\"screen\":\"lines\",\"scale\":%g,\"shadow\":0.5,\"light\":0.5,\"uneven\":0", scales[i]);
+        snprintf(surface, sizeof surface,
+                 "screen\",\"screen\":\"lines\",\"scale\":%g,\"shadow\":0.5,\"light\":0.5,\"uneven\":0", scales[i]);
         if (halftone_shot(&s, &scene, "edges.gltf", halftone_look(surface), NULL, &view)) {
             for (int x = 0; x < 320; x += 3)
                 for (int y = 1; y < 319; y++) {
                     if (!(halftone_ink(&s, x, y - 1) < 0.1 && halftone_ink(&s, x, y) >= 0.1))
                         continue;
-                    double low = y - 1 + (0.1 - halftone_ink(&s, x, y - 1)) / (halftone_ink(&s, x, y) - halftone_ink(&s, x, y - 1));
-                    int    k = y;
+                    double low =
+                        y - 1 +
+                        (0.1 - halftone_ink(&s, x, y - 1)) / (halftone_ink(&s, x, y) - halftone_ink(&s, x, y - 1));
+                    int k = y;
                     while (k < 319 && halftone_ink(&s, x, k) < 0.9)
                         k++;
                     if (k >= 319)
                         continue;
-                    double high = k - 1 + (0.9 - halftone_ink(&s, x, k - 1)) / (halftone_ink(&s, x, k) - halftone_ink(&s, x, k - 1)), width = high - low;
+                    double high = k - 1 +
+                                  (0.9 - halftone_ink(&s, x, k - 1)) /
+                                      (halftone_ink(&s, x, k) - halftone_ink(&s, x, k - 1)),
+                           width = high - low;
                     sum += width;
                     soft += width > 2;
                     thinnest = fmin(thinnest, width);
@@ -312,14 +346,15 @@ static void edges_stay_sharp(void)
             check_at_least("sharp", edges, 100, "edges at %g px a line", scales[i]);
             check_at_least("sharp", thinnest, 0.75, "px from 10 to 90 %%, sharpest");
             /* Between two levels, new lines come out of a flat place, whose grey is what keeps the tone. */
-            check_at_most("sharp", soft / fmax(edges, 1), 0.35, "share of edges that take more than 2 px from 10 to 90 %% (mean %.3f)", sum / fmax(edges, 1));
+            check_at_most("sharp", soft / fmax(edges, 1), 0.35,
+                          "share of edges that take more than 2 px from 10 to 90 %% (mean %.3f)", sum / fmax(edges, 1));
             shot_release(&s);
         }
         halftone_release(&scene);
     }
 }
 
-/* --- over distance ----------------------------------------------------------------------------------------------- */
+/* --- over distance -------------------------------------------------------------------------------------- */
 
 static double pixel_contrast(const shot *s)
 {
@@ -340,7 +375,10 @@ static void averaged_screens_grey_out(void)
         char   surface[256];
         shot   s;
         double got[2] = {0, 0};
-        snprintf(surface, sizeof surface, "screen\",\"screen\":\"parallel\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"width\":1.2,\"detail\":\"%s\"", ways[i]);
+        snprintf(surface, sizeof surface,
+                 "screen\",\"screen\":\"parallel\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,"
+                 "\"width\":1.2,\"detail\":\"%s\"",
+                 ways[i]);
         for (int k = 0; k < 2; k++)
             if (halftone_far(&s, surface, k ? 6 : 2, 128, 0.25)) {
                 got[k] = pixel_contrast(&s);
@@ -385,8 +423,9 @@ static lines_seen lines_in(const shot *s, int x, int y, int width, int height)
 
 static void hatch_map_over_distance(void)
 {
-    const char *look = "screen\",\"screen\":\"hatch-map\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"scale\":8";
-    double      low = 1e9, high = 0, step = 0, swell = 0, off = 0, thin = 1e9, wide = 0, before = 0, strength = 0;
+    const char *look =
+        "screen\",\"screen\":\"hatch-map\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"scale\":8";
+    double low = 1e9, high = 0, step = 0, swell = 0, off = 0, thin = 1e9, wide = 0, before = 0, strength = 0;
     for (int i = 0; i <= 48; i++) {
         shot s;
         if (!halftone_far(&s, look, i / 8.0, 256, 0.09765625))
@@ -405,7 +444,8 @@ static void hatch_map_over_distance(void)
         before = seen.mean;
         strength = seen.contrast;
     }
-    /* Every second line fades from one level to the next; half way it no longer counts. So 8 px is the mean of 8 / sqrt 2 and 8 sqrt 2. */
+    /* Every second line fades from one level to the next; half way it no longer counts. So 8 px is the mean of 8 /
+     * sqrt 2 and 8 sqrt 2. */
     check_at_least("IM-02", low, 5.5, "px between lines over 1:64, least");
     check_at_most("IM-02", high, 11.7, "px between lines over 1:64, most");
     check_at_least("IM-02", thin, 1, "px of line width, least");
@@ -418,20 +458,30 @@ static void hatch_map_over_distance(void)
 /* The ground to the horizon with lines into the depth: along each row of pixels. */
 static void hatch_map_in_the_depth(void)
 {
-    halftone_scene scene = {0};
-    shot           s;
-    const shot_view view = {.width = 256, .height = 192, .eye = {0, 1.5, 0}, .target = {0, 0.2, -4}, .up = {0, 1, 0}, .fov_deg = 40, .without_maps = true};
+    halftone_scene  scene = {0};
+    shot            s;
+    const shot_view view = {.width = 256,
+                            .height = 192,
+                            .eye = {0, 1.5, 0},
+                            .target = {0, 0.2, -4},
+                            .up = {0, 1, 0},
+                            .fov_deg = 40,
+                            .without_maps = true};
     halftone_add_floor(&scene, "floor", (halftone_floor){-1, -64, 60, 0.5, true});
     double off = 0, step = 0, before = -1, low = 1e9, high = 0;
     int    rows = 0;
-    if (halftone_shot(&s, &scene, "floor.gltf", halftone_look("screen\",\"screen\":\"hatch-map\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"scale\":8"), NULL, &view)) {
+    if (halftone_shot(&s, &scene, "floor.gltf",
+                      halftone_look("screen\",\"screen\":\"hatch-map\",\"coordinates\":\"uv\",\"scheme\":\"multiply\","
+                                    "\"uneven\":0,\"scale\":8"),
+                      NULL, &view)) {
         for (int y = 191; y > 0; y--) {
             dvec origin, way;
             shot_ray(&s, 128, y + 0.5, &origin, &way);
             double t = way.y < 0 ? -origin.y / way.y : -1, z = origin.z + t * way.z;
             if (t < 0 || z < -60 || z > -1.5)
                 continue;
-            dvec a = shot_project(&s, dvec_of(0, 0, z)), b = shot_project(&s, dvec_of(1, 0, z)), c = shot_project(&s, dvec_of(0, 0, z * 1.001));
+            dvec a = shot_project(&s, dvec_of(0, 0, z)), b = shot_project(&s, dvec_of(1, 0, z)),
+                 c = shot_project(&s, dvec_of(0, 0, z * 1.001));
             double across = b.x - a.x, into = fabs(c.y - a.y) / fabs(0.001 * z); /* px a unit */
             double level = log2(1024 * 0.5 / sqrt(across * into));
             if (level > 6.5 || across / into > 4)
@@ -473,7 +523,10 @@ static void strokes_over_distance(void)
     for (int p = 0; p < 2; p++) {
         char   surface[256];
         double first = 0, worst = 0, thin = 1e9, wide = 0, least = 1;
-        snprintf(surface, sizeof surface, "screen\",\"screen\":\"parallel\",\"coordinates\":\"%s\",\"scheme\":\"multiply\",\"uneven\":0,\"width\":1,\"scale\":12", places[p]);
+        snprintf(surface, sizeof surface,
+                 "screen\",\"screen\":\"parallel\",\"coordinates\":\"%s\",\"scheme\":\"multiply\",\"uneven\":0,"
+                 "\"width\":1,\"scale\":12",
+                 places[p]);
         for (int k = 0; k <= 6; k++) {
             shot   s;
             double within;
@@ -481,7 +534,8 @@ static void strokes_over_distance(void)
                 return;
             double ink = halftone_mean(&s, 0, 0, 256, 256), width = halftone_width(&s, &within);
             shot_release(&s);
-            check_note("%s, 1:%d: ink %.4f, width %.3f px, %.3f of columns within 1 +- 0.5", places[p], 1 << k, ink, width, within);
+            check_note("%s, 1:%d: ink %.4f, width %.3f px, %.3f of columns within 1 +- 0.5", places[p], 1 << k, ink,
+                       width, within);
             first = k ? first : ink;
             worst = fmax(worst, fabs(ink / first - 1));
             thin = fmin(thin, width);
@@ -497,7 +551,8 @@ static void strokes_over_distance(void)
 /* The same wall once as far: where there is ink far away there is a stroke near by, and most strokes go as a whole. */
 static void far_strokes_are_near_ones(void)
 {
-    const char *surface = "screen\",\"screen\":\"random\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"width\":1.5,\"scale\":10";
+    const char *surface = "screen\",\"screen\":\"random\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,"
+                          "\"width\":1.5,\"scale\":10";
     for (int k = 1; k <= 4; k++) {
         shot far, near;
         int  inked = 0, alone = 0;
@@ -515,7 +570,8 @@ static void far_strokes_are_near_ones(void)
                 alone += most < 0.4;
             }
         check_at_least("IM-13", inked, 100, "inked pixels at 1:%d", 1 << k);
-        check_at_most("IM-13", (double)alone / fmax(inked, 1), 0.005, "share of them where the next finer level has no stroke");
+        check_at_most("IM-13", (double)alone / fmax(inked, 1), 0.005,
+                      "share of them where the next finer level has no stroke");
         shot_release(&far);
         shot_release(&near);
     }
@@ -524,15 +580,17 @@ static void far_strokes_are_near_ones(void)
 static void supersampled_periods(void)
 {
     static const int samples[] = {1, 4, 16};
-    double periods[3] = {0}, inks[3] = {0};
+    double           periods[3] = {0}, inks[3] = {0};
     for (int i = 0; i < 3; i++) {
         halftone_scene scene = {0};
         shot           s;
         shot_view      view = halftone_view(64, 192, 30);
         view.samples = samples[i];
         halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 3, 7, 0.05});
-        if (halftone_shot(&s, &scene, "samples.gltf", halftone_look("screen\",\"screen\":\"hatch-map\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"scale\":8"), NULL,
-                          &view)) {
+        if (halftone_shot(&s, &scene, "samples.gltf",
+                          halftone_look("screen\",\"screen\":\"hatch-map\",\"coordinates\":\"uv\",\"scheme\":"
+                                        "\"multiply\",\"uneven\":0,\"scale\":8"),
+                          NULL, &view)) {
             lines_seen seen = lines_in(&s, 0, 0, 64, 192);
             periods[i] = seen.period;
             inks[i] = seen.mean;
@@ -540,7 +598,8 @@ static void supersampled_periods(void)
         }
         halftone_release(&scene);
     }
-    check_note("periods %.3f %.3f %.3f, ink %.4f %.4f %.4f", periods[0], periods[1], periods[2], inks[0], inks[1], inks[2]);
+    check_note("periods %.3f %.3f %.3f, ink %.4f %.4f %.4f", periods[0], periods[1], periods[2], inks[0], inks[1],
+               inks[2]);
     check_at_least("IM-06", periods[0], 4, "px between lines");
     for (int i = 1; i < 3; i++) {
         check_near("IM-06", periods[i], periods[0], 0.02 * periods[0], "px between lines with %d samples", samples[i]);
@@ -563,7 +622,11 @@ static void colour_times_ink(void)
         p->colour[1] = 0.5f;
         p->colour[2] = 0.4f;
         snprintf(light, sizeof light, "\"light_direction\":\"%s\",\"fill\":0", lights[i]);
-        if (halftone_shot(&s, &scene, "tinted.gltf", halftone_look_with("screen\",\"screen\":\"cross\",\"scheme\":\"multiply\",\"paper_tint\":1,\"uneven\":0", light, ""), NULL, &view)) {
+        if (halftone_shot(
+                &s, &scene, "tinted.gltf",
+                halftone_look_with(
+                    "screen\",\"screen\":\"cross\",\"scheme\":\"multiply\",\"paper_tint\":1,\"uneven\":0", light, ""),
+                NULL, &view)) {
             for (int k = 0; k < 128 * 128; k++) {
                 const uint8_t *at = &s.picture[4 * k];
                 double         share = i ? 0.25 : 1, cover = 1 - picture_linear(at[0]) / (0.9 * share);
@@ -586,15 +649,20 @@ static void colour_times_ink(void)
     }
 }
 
-/* --- painted screens and files ----------------------------------------------------------------------------------- */
+/* --- painted screens and files -------------------------------------------------------------------------- */
 
-/* Three layers: lines of grey 0, 85 and 170 on white, each in its own place; the first and darkest is an L that shows which way is up. */
+/* Three layers: lines of grey 0, 85 and 170 on white, each in its own place; the first and darkest is an L that
+ * shows which way is up. */
 static void painted(uint8_t *rgba, int side)
 {
     memset(rgba, 255, (size_t)side * (size_t)side * 4);
     for (int y = 0; y < side; y++)
         for (int x = 0; x < side; x++) {
-            int value = x >= 8 && x < 24 ? 0 : y >= side - 24 && y < side - 8 ? 0 : y >= 8 && y < 24 ? 85 : x >= side - 40 && x < side - 24 ? 170 : 255;
+            int value = x >= 8 && x < 24                  ? 0
+                        : y >= side - 24 && y < side - 8  ? 0
+                        : y >= 8 && y < 24                ? 85
+                        : x >= side - 40 && x < side - 24 ? 170
+                                                          : 255;
             memset(&rgba[4 * (y * side + x)], value, 3);
         }
 }
@@ -623,7 +691,9 @@ static void painted_screen(void)
         shot_view      view = halftone_view(128, 128, 128);
         int            wrong = 0, seen = 0;
         halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
-        snprintf(surface, sizeof surface, "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"binary\",\"equalised\":false,\"uneven\":0,\"scale\":8,\"shadow\":%g,\"light\":%g",
+        snprintf(surface, sizeof surface,
+                 "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"binary\",\"equalised\":false,"
+                 "\"uneven\":0,\"scale\":8,\"shadow\":%g,\"light\":%g",
                  path, tones[i], tones[i]);
         if (halftone_shot(&s, &scene, "painted.gltf", halftone_look(surface), NULL, &view)) {
             for (int y = 2; y < 126; y++)
@@ -638,7 +708,9 @@ static void painted_screen(void)
                     wrong += wanted != (s.picture[4 * (y * 128 + x)] < 128);
                 }
             check_at_least("IM-12", seen, 500, "texels of the layers that are there at tone %g", tones[i]);
-            check_at_most("IM-12", wrong, 0, "texels inside fields that are not as painted: rows on top are on top, light layers go first");
+            check_at_most(
+                "IM-12", wrong, 0,
+                "texels inside fields that are not as painted: rows on top are on top, light layers go first");
             shot_release(&s);
         }
         halftone_release(&scene);
@@ -656,8 +728,10 @@ static void screens_look_like_drawings(void)
     shot_view      view = halftone_view(128, 128, 128);
     halftone_part *p = halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
     snprintf(p->picture, sizeof p->picture, "plain.png");
-    snprintf(surface, sizeof surface, "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"uneven\":0,\"scale\":8,\"shadow\":0.1,\"light\":0.1", path);
-    bool ok = halftone_shot(&plain, &scene, "plain.gltf", halftone_look("textured\",\"light\":0") , NULL, &view);
+    snprintf(surface, sizeof surface,
+             "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"uneven\":0,\"scale\":8,\"shadow\":0.1,\"light\":0.1",
+             path);
+    bool ok = halftone_shot(&plain, &scene, "plain.gltf", halftone_look("textured\",\"light\":0"), NULL, &view);
     (void)ok;
     if (halftone_shot(&drawn, &scene, "plain.gltf", halftone_look(surface), NULL, &view) && plain.picture) {
         double a = 0, b = 0, ab = 0, aa = 0, bb = 0, n = 128 * 128;
@@ -669,7 +743,8 @@ static void screens_look_like_drawings(void)
             aa += u * u;
             bb += v * v;
         }
-        check_at_least("IM-10", (ab - a * b / n) / sqrt(fmax((aa - a * a / n) * (bb - b * b / n), 1e-9)), 0.8, "correlation between the screen as a texture and the drawing");
+        check_at_least("IM-10", (ab - a * b / n) / sqrt(fmax((aa - a * a / n) * (bb - b * b / n), 1e-9)), 0.8,
+                       "correlation between the screen as a texture and the drawing");
         shot_release(&drawn);
     }
     shot_release(&plain);
@@ -690,7 +765,8 @@ static void strokes_beside_pictures(void)
     memset(rgba, 255, sizeof rgba);
     for (int i = 0; i < 8 * 52; i++)
         memset(&rgba[4 * ((128 - 32 - 4 + i / 52) * 128 + 13 + i % 52)], 0, 3);
-    if (!write_text("brick.stx", "# a stroke\n0.1 0.25 0.5 0.25 1 1 0\n") || !picture_write_rgba(check_path("brick.png"), rgba, 128, 128))
+    if (!write_text("brick.stx", "# a stroke\n0.1 0.25 0.5 0.25 1 1 0\n") ||
+        !picture_write_rgba(check_path("brick.png"), rgba, 128, 128))
         return;
     for (int i = 0; i < 3; i++) {
         halftone_scene scene = {0};
@@ -698,24 +774,28 @@ static void strokes_beside_pictures(void)
         shot_view      view = halftone_view(128, 128, 128);
         halftone_part *p = halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
         snprintf(p->picture, sizeof p->picture, i == 2 ? "brick.stx" : "brick.png");
-        double low = 0, elsewhere = 0;
-        const char *look = halftone_look("screen\",\"screen\":\"material\",\"coordinates\":\"uv\",\"uneven\":0,\"width\":4,\"scale\":140,\"shadow\":0,\"light\":0,\"equalised\":false");
+        double      low = 0, elsewhere = 0;
+        const char *look = halftone_look("screen\",\"screen\":\"material\",\"coordinates\":\"uv\",\"uneven\":0,"
+                                         "\"width\":4,\"scale\":140,\"shadow\":0,\"light\":0,\"equalised\":false");
         if (halftone_shot(&s, &scene, files[i], look, NULL, &view)) {
             low = halftone_mean(&s, 20, 128 - 32 - 2, 35, 4);
-            elsewhere = (halftone_mean(&s, 0, 0, 128, 128) * 128 * 128 - halftone_mean(&s, 8, 128 - 42, 64, 20) * 64 * 20) / (128 * 128 - 64 * 20);
+            elsewhere =
+                (halftone_mean(&s, 0, 0, 128, 128) * 128 * 128 - halftone_mean(&s, 8, 128 - 42, 64, 20) * 64 * 20) /
+                (128 * 128 - 64 * 20);
             shot_release(&s);
         }
         check_at_least("EX-25", low, 0.5, "%s: ink where the stroke is (v counts from the bottom)", files[i]);
         check_at_most("EX-25", elsewhere, 0.01, "%s: ink elsewhere", files[i]);
         if (i < 2 && halftone_shot(&picture, &scene, files[i], halftone_look("textured\",\"light\":0"), NULL, &view)) {
-            check_at_least("EX-25", halftone_mean(&picture, 20, 128 - 34, 35, 4), 0.9, "and the picture has it at the same place");
+            check_at_least("EX-25", halftone_mean(&picture, 20, 128 - 34, 35, 4), 0.9,
+                           "and the picture has it at the same place");
             shot_release(&picture);
         }
         halftone_release(&scene);
     }
 }
 
-/* --- in one picture with others ---------------------------------------------------------------------------------- */
+/* --- in one picture with others ------------------------------------------------------------------------- */
 
 static void nothing_shines_through(void)
 {
@@ -723,11 +803,12 @@ static void nothing_shines_through(void)
     shot           a, b;
     shot_view      view = halftone_view(160, 160, 40), alone = view;
     alone.select = "front";
-    int            wrong = 0, inked = 0;
-    const char    *look = halftone_look("screen\",\"screen\":\"cross\",\"shadow\":0.4,\"light\":0.4,\"uneven\":0");
+    int         wrong = 0, inked = 0;
+    const char *look = halftone_look("screen\",\"screen\":\"cross\",\"shadow\":0.4,\"light\":0.4,\"uneven\":0");
     halftone_add_wall(&both, "back", (halftone_wall){0.01, 0.013, -1.37, 3.95, 3.95, 1});
     halftone_add_wall(&both, "front", (halftone_wall){1, 1, 1, 2, 2, 1});
-    if (halftone_shot(&a, &both, "both.gltf", look, NULL, &view) && halftone_shot(&b, &both, "both.gltf", look, NULL, &alone)) {
+    if (halftone_shot(&a, &both, "both.gltf", look, NULL, &view) &&
+        halftone_shot(&b, &both, "both.gltf", look, NULL, &alone)) {
         for (int y = 42; y < 118; y++)
             for (int x = 42; x < 118; x++) {
                 wrong += abs(a.picture[4 * (y * 160 + x)] - b.picture[4 * (y * 160 + x)]) > 0;
@@ -741,11 +822,15 @@ static void nothing_shines_through(void)
     halftone_release(&both);
 }
 
-/* Half of the parts photographic, half drawn; two walls that cut through each other, so that each is in front somewhere. */
+/* Half of the parts photographic, half drawn; two walls that cut through each other, so that each is in front
+ * somewhere. */
 static void place_slope(double s, double t, const void *user, halftone_corner *out)
 {
     double lean = *(const double *)user;
-    *out = (halftone_corner){.at = {(float)(4 * s), (float)(4 * t), (float)(lean * (4 * s - 2))}, .normal = {(float)-lean, 0, 1}, .uv = {(float)s, (float)t}, .unique = {(float)s, (float)t}};
+    *out = (halftone_corner){.at = {(float)(4 * s), (float)(4 * t), (float)(lean * (4 * s - 2))},
+                             .normal = {(float)-lean, 0, 1},
+                             .uv = {(float)s, (float)t},
+                             .unique = {(float)s, (float)t}};
 }
 
 static void styles_in_one_picture(void)
@@ -758,8 +843,10 @@ static void styles_in_one_picture(void)
     halftone_part *photo = halftone_add(&scene, "photo", 1, 1, place_slope, &up);
     photo->colour[1] = photo->colour[2] = 0.02f;
     halftone_add(&scene, "drawn", 1, 1, place_slope, &down);
-    const char *look = "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"photo\",\"surface\":{\"technique\":\"textured\",\"light\":0}},"
-                       "{\"select\":\"drawn\",\"surface\":{\"technique\":\"screen\",\"ink\":\"#000000\",\"paper\":\"#ffffff\",\"shadow\":0.5,\"light\":0.5}}]}";
+    const char *look = "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":"
+                       "\"photo\",\"surface\":{\"technique\":\"textured\",\"light\":0}},"
+                       "{\"select\":\"drawn\",\"surface\":{\"technique\":\"screen\",\"ink\":\"#000000\",\"paper\":\"#"
+                       "ffffff\",\"shadow\":0.5,\"light\":0.5}}]}";
     if (halftone_shot(&s, &scene, "mixed.gltf", look, NULL, &view)) {
         for (int y = 2; y < 158; y++)
             for (int x = 2; x < 158; x++) {
@@ -783,17 +870,25 @@ static void deferred_is_forward(void)
 {
     static const char *const places[] = {"axes", "triplanar", "screen"};
     static const char *const techniques[] = {"screen", "tonal-art-map", "dots"};
-    shape ball = {0};
+    shape                    ball = {0};
     shape_sphere(&ball, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
-    const shot_view view = {.width = 160, .height = 160, .eye = {1, 2, 8}, .up = {0, 1, 0}, .fov_deg = 18, .without_maps = true};
+    const shot_view view = {
+        .width = 160, .height = 160, .eye = {1, 2, 8}, .up = {0, 1, 0}, .fov_deg = 18, .without_maps = true};
     for (int t = 0; t < 3; t++)
         for (int i = 0; i < 3; i++) {
-            shot   a, b;
-            char   surface[200];
+            shot a, b;
+            char surface[200];
             snprintf(surface, sizeof surface, "%s\",\"coordinates\":\"%s\"", techniques[t], places[i]);
-            if (shot_of_shape(&a, &ball, "ball.glb", halftone_look_with(surface, "", ",\"layers\":{\"technique\":\"front\",\"shading\":\"forward\"}"), NULL, &view) &&
-                shot_of_shape(&b, &ball, "ball.glb", halftone_look_with(surface, "", ",\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"}"), NULL, &view)) {
-                check_at_most("IM-33", (double)shot_differing(&a, &b, 48) / (4 * 160 * 160), 0.01, "%s on %s: share of values that differ by more than 48", techniques[t], places[i]);
+            if (shot_of_shape(
+                    &a, &ball, "ball.glb",
+                    halftone_look_with(surface, "", ",\"layers\":{\"technique\":\"front\",\"shading\":\"forward\"}"),
+                    NULL, &view) &&
+                shot_of_shape(
+                    &b, &ball, "ball.glb",
+                    halftone_look_with(surface, "", ",\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"}"),
+                    NULL, &view)) {
+                check_at_most("IM-33", (double)shot_differing(&a, &b, 48) / (4 * 160 * 160), 0.01,
+                              "%s on %s: share of values that differ by more than 48", techniques[t], places[i]);
                 check_at_most("IM-33", halftone_difference(&a, &b), 0.005, "mean difference of light");
                 shot_release(&b);
             }
@@ -802,7 +897,7 @@ static void deferred_is_forward(void)
     shape_release(&ball);
 }
 
-/* --- what goes wrong --------------------------------------------------------------------------------------------- */
+/* --- what goes wrong ------------------------------------------------------------------------------------ */
 
 typedef struct bad_input {
     const char *what, *screen;
@@ -810,12 +905,14 @@ typedef struct bad_input {
     const char *says; /* in the message */
 } bad_input;
 
-#define LONG_NAME "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
+#define LONG_NAME                                                                                                      \
+    "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
 
 static int command_with(const char *screen, const char *model, const char *more, char *out, size_t room)
 {
     char arguments[4096];
-    snprintf(arguments, sizeof arguments, "draw %s -o %s --size 96x96 --quiet --look %s --set surface.screen=%s %s", model, check_path("bad.png"), check_path("screen.json"), screen, more);
+    snprintf(arguments, sizeof arguments, "draw %s -o %s --size 96x96 --quiet --look %s --set surface.screen=%s %s",
+             model, check_path("bad.png"), check_path("screen.json"), screen, more);
     return halftone_command(LIMNER_COMMAND, arguments, out, room);
 }
 
@@ -829,8 +926,11 @@ static void bad_inputs(void)
     snprintf(model, sizeof model, "%s", check_path("wall.gltf"));
     snprintf(folder, sizeof folder, "%s", check_path("x"));
     folder[strlen(folder) - 1] = '\0';
-    if (!halftone_write(model, &scene) || !write_text("screen.json", "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":{\"technique\":\"screen\",\"shadow\":0.3,\"light\":0.3}}]}") ||
-        !write_text("wrong.stx", "0 0 0.5 0.5 1 1 0\n0 0 banana 0.5 1 1 0\n") || !write_text("none.stx", "# nothing\n") || !write_text("short.stx", "0 0 1\n") ||
+    if (!halftone_write(model, &scene) ||
+        !write_text("screen.json", "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":{\"technique\":\"screen\","
+                                   "\"shadow\":0.3,\"light\":0.3}}]}") ||
+        !write_text("wrong.stx", "0 0 0.5 0.5 1 1 0\n0 0 banana 0.5 1 1 0\n") ||
+        !write_text("none.stx", "# nothing\n") || !write_text("short.stx", "0 0 1\n") ||
         !write_text("fake.png", "no picture at all"))
         return;
     picture_write_rgba(check_path("wide.png"), white, 30, 20);
@@ -864,7 +964,8 @@ static void bad_inputs(void)
             check_note("it says: %s", out);
         int      w, h;
         uint8_t *picture = picture_read_rgba(check_path("bad.png"), &w, &h);
-        check_that("bad input", (picture != NULL) == (cases[i].status == 0), "a picture is left exactly if all went well");
+        check_that("bad input", (picture != NULL) == (cases[i].status == 0),
+                   "a picture is left exactly if all went well");
         if (strcmp(cases[i].screen, "none.stx") == 0 && picture) {
             int dark = 0;
             for (int k = 0; k < w * h; k++)
@@ -879,10 +980,28 @@ static void bad_inputs(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"binary", binary_threshold}, {"tones", tones_are_told_apart}, {"smooth", smooth_threshold}, {"levels", between_levels}, {"gain", light_moves_ink_by_the_gain}, {"swell", lines_swell}, {"ramps", tone_of_screens}, {"edges", edges_stay_sharp},
-        {"average", averaged_screens_grey_out}, {"hatch-map", hatch_map_over_distance}, {"floor", hatch_map_in_the_depth}, {"distance", strokes_over_distance},
-        {"subset", far_strokes_are_near_ones}, {"samples", supersampled_periods}, {"multiply", colour_times_ink}, {"painted", painted_screen},
-        {"plain", screens_look_like_drawings}, {"material", strokes_beside_pictures}, {"hidden", nothing_shines_through}, {"mixed", styles_in_one_picture}, {"deferred", deferred_is_forward}, {"bad", bad_inputs},
+        {"binary", binary_threshold},
+        {"tones", tones_are_told_apart},
+        {"smooth", smooth_threshold},
+        {"levels", between_levels},
+        {"gain", light_moves_ink_by_the_gain},
+        {"swell", lines_swell},
+        {"ramps", tone_of_screens},
+        {"edges", edges_stay_sharp},
+        {"average", averaged_screens_grey_out},
+        {"hatch-map", hatch_map_over_distance},
+        {"floor", hatch_map_in_the_depth},
+        {"distance", strokes_over_distance},
+        {"subset", far_strokes_are_near_ones},
+        {"samples", supersampled_periods},
+        {"multiply", colour_times_ink},
+        {"painted", painted_screen},
+        {"plain", screens_look_like_drawings},
+        {"material", strokes_beside_pictures},
+        {"hidden", nothing_shines_through},
+        {"mixed", styles_in_one_picture},
+        {"deferred", deferred_is_forward},
+        {"bad", bad_inputs},
     };
     halftone_begin();
     int status = check_main(argc, argv, "screen", cases, sizeof cases / sizeof *cases);

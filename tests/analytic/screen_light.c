@@ -1,5 +1,5 @@
-/* What decides about strokes of a screen: indication, their own relief, the light at their middle, shadows; and hatching with edges in a mirror. Seed 001, sections 6.4 to
- * 6.6; seed 000, section 4.6. */
+/* What decides about strokes of a screen: indication, their own relief, the light at their middle, shadows; and
+ * hatching with edges in a mirror. Seed 001, sections 6.4 to 6.6; seed 000, section 4.6. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 enum { TONES = 17, TILE = 128, ACROSS = 8, STROKES = ACROSS * ACROSS };
 
-/* --- indication -------------------------------------------------------------------------------------------------- */
+/* --- indication ----------------------------------------------------------------------------------------- */
 
 /* Tiles of 128 px with tones from black to white by the model's own brightness; `indication` NULL: none. */
 static bool take_tones(shot *out, const char *screen, const char *indication, const char *more)
@@ -24,7 +24,10 @@ static bool take_tones(shot *out, const char *screen, const char *indication, co
         for (int k = 0; k < 3; k++)
             p->colour[k] = (float)pow(i / 16.0, 2.2);
     }
-    int length = snprintf(surface, sizeof surface, "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scale\":8,\"texture\":1,\"shadow\":1,\"light\":1,\"uneven\":0%s", screen, more);
+    int length = snprintf(surface, sizeof surface,
+                          "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scale\":8,\"texture\":1,\"shadow\":1,"
+                          "\"light\":1,\"uneven\":0%s",
+                          screen, more);
     if (indication)
         snprintf(surface + length, sizeof surface - (size_t)length, ",\"indication\":\"%s\"", indication);
     bool ok = halftone_shot(out, &s, "tones.gltf", halftone_look(surface), NULL, &view);
@@ -47,11 +50,12 @@ static const char *grey_picture(const char *name, int left, int right)
 static void indication_shifts_tone(void)
 {
     static const char *const screens[] = {"blue-noise", "lines", "cross"};
-    shot none, neutral, step;
+    shot                     none, neutral, step;
     for (int k = 0; k < 3; k++)
         if (take_tones(&none, screens[k], NULL, "")) {
             if (take_tones(&neutral, screens[k], grey_picture("neutral.png", 128, 128), "")) {
-                check_at_most("IM-15", shot_differing(&none, &neutral, 0), 0, "%s: values that a neutral indication changes", screens[k]);
+                check_at_most("IM-15", shot_differing(&none, &neutral, 0), 0,
+                              "%s: values that a neutral indication changes", screens[k]);
                 shot_release(&neutral);
             }
             shot_release(&none);
@@ -65,7 +69,8 @@ static void indication_shifts_tone(void)
                 double tone = i / 16.0 + (side ? 64 : -64) / 255.0, wanted = fmin(fmax(1 - tone, 0), 1);
                 worst = fmax(worst, fabs(halftone_mean(&step, i * TILE + 12 + side * 64, 12, 40, 104) - wanted));
             }
-        check_at_most("IM-15", worst, 0.025, "share of ink off what an indication of -0.25 on the left and +0.25 on the right asks for");
+        check_at_most("IM-15", worst, 0.025,
+                      "share of ink off what an indication of -0.25 on the left and +0.25 on the right asks for");
         shot_release(&step);
     }
     shot_release(&none);
@@ -99,7 +104,7 @@ static void indication_limits_tone(void)
     shot_release(&none);
 }
 
-/* --- relief ------------------------------------------------------------------------------------------------------ */
+/* --- relief --------------------------------------------------------------------------------------------- */
 
 static bool write_text(const char *name, const char *text)
 {
@@ -107,11 +112,16 @@ static bool write_text(const char *name, const char *text)
     return file && fputs(text, file) >= 0 && fclose(file) == 0;
 }
 
-/* The joints around one brick, in wide strokes: the left, right, lower and upper flank of the vertical and the horizontal joint. */
+/* The joints around one brick, in wide strokes: the left, right, lower and upper flank of the vertical and the
+ * horizontal joint. */
 static void strokes_have_flanks(void)
 {
     static const char *const lights[] = {"1,1,0.5", "-1,-1,0.5", "-1,1,0.5", "1,-1,0.5"};
-    static const int wanted[4][2] = {{1, 1}, {-1, -1}, {-1, 1}, {1, -1}}; /* ink on the right, on the upper flank: those that turn away from the light */
+    static const int         wanted[4][2] = {
+                {1, 1},
+                {-1, -1},
+                {-1, 1},
+                {1, -1}}; /* ink on the right, on the upper flank: those that turn away from the light */
     if (!write_text("joints.stx", "0.1 0.5 0.4 0.5 0.6 1 0\n0.7 0.1 0.7 0.9 0.6 1 0\n"))
         return;
     for (int relief = 0; relief < 2; relief++)
@@ -123,14 +133,17 @@ static void strokes_have_flanks(void)
             halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
             snprintf(light, sizeof light, "\"fill\":0,\"light_direction\":\"%s\"", lights[i]);
             snprintf(surface, sizeof surface,
-                     "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"uneven\":0,\"equalised\":false,\"width\":20,\"scale\":200,\"relief\":%d,\"shadow\":0,\"light\":1",
+                     "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"uneven\":0,\"equalised\":false,\"width\":20,"
+                     "\"scale\":200,\"relief\":%d,\"shadow\":0,\"light\":1",
                      check_path("joints.stx"), relief ? -2 : 2);
             if (halftone_shot(&s, &scene, "joints.gltf", halftone_look_with(surface, light, ""), NULL, &view)) {
                 double sign = relief ? -1 : 1;
                 double left = halftone_mean(&s, 112 - 7, 40, 6, 80), right = halftone_mean(&s, 112 + 1, 40, 6, 80);
                 double upper = halftone_mean(&s, 24, 80 - 7, 32, 6), lower = halftone_mean(&s, 24, 80 + 1, 32, 6);
-                check_note("relief %s, light from %s: ink left %.3f right %.3f upper %.3f lower %.3f", relief ? "-2" : "2", lights[i], left, right, upper, lower);
-                check_at_least("IM-17", sign * wanted[i][0] * (right - left), 0.3, "ink of the flank of the upright joint that turns away more than of the other");
+                check_note("relief %s, light from %s: ink left %.3f right %.3f upper %.3f lower %.3f",
+                           relief ? "-2" : "2", lights[i], left, right, upper, lower);
+                check_at_least("IM-17", sign * wanted[i][0] * (right - left), 0.3,
+                               "ink of the flank of the upright joint that turns away more than of the other");
                 check_at_least("IM-17", sign * wanted[i][1] * (upper - lower), 0.3, "the same for the level joint");
                 shot_release(&s);
             }
@@ -138,7 +151,7 @@ static void strokes_have_flanks(void)
         }
 }
 
-/* --- whole strokes ----------------------------------------------------------------------------------------------- */
+/* --- whole strokes -------------------------------------------------------------------------------------- */
 
 typedef struct known_stroke {
     double u, v, value; /* its middle; level strokes, a tenth long */
@@ -155,7 +168,8 @@ static double light_at(double x, double y, const double light[3])
 typedef enum priorities { ANY, LAMP, TUBE } priorities;
 static const double lamp[3] = {0.5, 0.45, 0.12};
 
-/* One stroke in each cell of 8 x 8, of different priorities: of all sizes, or such that each is near its limit in the light of the lamp or around the tube. */
+/* One stroke in each cell of 8 x 8, of different priorities: of all sizes, or such that each is near its limit in
+ * the light of the lamp or around the tube. */
 static bool write_strokes(const char *name, priorities near)
 {
     FILE    *file = fopen(check_path("%s", name), "wb");
@@ -166,9 +180,11 @@ static bool write_strokes(const char *name, priorities near)
         state = state * 1664525u + 1013904223u;
         double any = (state >> 8) / 16777216.0, u = (i % ACROSS + 0.5) / ACROSS, v = (i / ACROSS + 0.5) / ACROSS;
         double light = near == LAMP ? light_at(u, v, lamp) : fmax(sin(6.283185307 * u), 0);
-        double priority = near == ANY ? 0.15 + 0.7 * any : fmin(fmax(light + (any < 0.5 ? -0.012 : 0.012) * (1 + any), 0.05), 0.95);
+        double priority =
+            near == ANY ? 0.15 + 0.7 * any : fmin(fmax(light + (any < 0.5 ? -0.012 : 0.012) * (1 + any), 0.05), 0.95);
         known[i] = (known_stroke){(i % ACROSS + 0.5) / ACROSS, (i / ACROSS + 0.5) / ACROSS, 1 - priority};
-        fprintf(file, "%.6f %.6f %.6f %.6f %.6f 1 0\n", known[i].u - 0.05, known[i].v, known[i].u + 0.05, known[i].v, priority);
+        fprintf(file, "%.6f %.6f %.6f %.6f %.6f 1 0\n", known[i].u - 0.05, known[i].v, known[i].u + 0.05, known[i].v,
+                priority);
     }
     return fclose(file) == 0;
 }
@@ -178,8 +194,10 @@ static const char *whole_keys(const char *scheme, bool whole, double scale)
 {
     static char surface[1400];
     snprintf(surface, sizeof surface,
-             "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"%s\",\"gain\":1,\"centred\":false,\"uneven\":0,\"equalised\":false,\"width\":8,\"scale\":%g,\"whole\":%s,"
-             "\"shadow\":0,\"light\":1", check_path("known.stx"), scheme, scale, whole ? "true" : "false");
+             "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"%s\",\"gain\":1,\"centred\":false,"
+             "\"uneven\":0,\"equalised\":false,\"width\":8,\"scale\":%g,\"whole\":%s,"
+             "\"shadow\":0,\"light\":1",
+             check_path("known.stx"), scheme, scale, whole ? "true" : "false");
     return surface;
 }
 
@@ -205,9 +223,12 @@ static void whole_or_not_at_all(void)
         shot_view      view = halftone_view(512, 512, 512);
         int            cut = 0, wrong = 0, drawn = 0, clear = 0;
         halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
-        if (halftone_shot(&s, &scene, "lamp.gltf", halftone_look_with(whole_keys("binary", whole, 80), "\"lights\":\"file\"", ""), NULL, &view)) {
+        if (halftone_shot(&s, &scene, "lamp.gltf",
+                          halftone_look_with(whole_keys("binary", whole, 80), "\"lights\":\"file\"", ""), NULL,
+                          &view)) {
             for (int i = 0; i < STROKES; i++) {
-                double share = share_inked(&s, known[i].u * 512, known[i].v * 512, 0.03 * 512, 2), dark = 1 - light_at(known[i].u, known[i].v, scene.lights[0]);
+                double share = share_inked(&s, known[i].u * 512, known[i].v * 512, 0.03 * 512, 2),
+                       dark = 1 - light_at(known[i].u, known[i].v, scene.lights[0]);
                 cut += share > 0 && share < 1;
                 drawn += share == 1;
                 if (fabs(dark - known[i].value) > 0.008 && share != 0.5) {
@@ -218,16 +239,19 @@ static void whole_or_not_at_all(void)
             if (whole) {
                 check_at_most("IM-18", cut, 0, "of 64 strokes in a steep light drawn in part (whole=true)");
                 check_at_least("IM-18", drawn, 10, "drawn as a whole");
-                check_at_most("IM-18", wrong, 0, "of %d with a clear answer not as the light at their middle says", clear);
+                check_at_most("IM-18", wrong, 0, "of %d with a clear answer not as the light at their middle says",
+                              clear);
             } else
-                check_at_least("IM-18", cut / 64.0, 0.2, "share of 64 strokes in a steep light drawn in part (whole=false)");
+                check_at_least("IM-18", cut / 64.0, 0.2,
+                               "share of 64 strokes in a steep light drawn in part (whole=false)");
             shot_release(&s);
         }
         halftone_release(&scene);
     }
 }
 
-/* With gain 1 the ink of a stroke is the darkness at its middle minus its value: so the light map can be read off the picture. */
+/* With gain 1 the ink of a stroke is the darkness at its middle minus its value: so the light map can be read off
+ * the picture. */
 static void light_map_is_the_light(void)
 {
     double worst = 0;
@@ -239,9 +263,11 @@ static void light_map_is_the_light(void)
         shot           s;
         shot_view      view = halftone_view(512, 512, 512);
         halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
-        if (halftone_shot(&s, &scene, "lamp.gltf", halftone_look_with(whole_keys("smooth", true, 80), "\"lights\":\"file\"", ""), NULL, &view)) {
+        if (halftone_shot(&s, &scene, "lamp.gltf",
+                          halftone_look_with(whole_keys("smooth", true, 80), "\"lights\":\"file\"", ""), NULL, &view)) {
             for (int i = 0; i < STROKES; i++) {
-                double dark = 1 - light_at(known[i].u, known[i].v, scene.lights[0]), value = floor(known[i].value * 255 + 0.5) / 255;
+                double dark = 1 - light_at(known[i].u, known[i].v, scene.lights[0]),
+                       value = floor(known[i].value * 255 + 0.5) / 255;
                 for (int dx = -15; dx <= 15; dx += 3) {
                     double ink = halftone_ink(&s, (int)(known[i].u * 512) + dx, 511 - (int)(known[i].v * 512));
                     if (ink < 0.03 || dark - value < 0.03)
@@ -255,7 +281,9 @@ static void light_map_is_the_light(void)
         halftone_release(&scene);
     }
     check_at_least("IM-19", count, 200, "places of strokes whose light was read off, for two places of the lamp");
-    check_at_most("IM-19", worst * 255, 2.5, "levels between the light that they had and the light at their middle (1, and what pictures and screens round)");
+    check_at_most("IM-19", worst * 255, 2.5,
+                  "levels between the light that they had and the light at their middle (1, and what pictures and "
+                  "screens round)");
 }
 
 static void add_tile(halftone_scene *s, int x, int y)
@@ -266,10 +294,11 @@ static void add_tile(halftone_scene *s, int x, int y)
 /* A third of the picture each: the same strokes nine times, each lit where it is. */
 static void tiles_are_lit_apart(void)
 {
-    halftone_scene whole = {.lights = {{0.5, 0.45, 0.15}}, .light_count = 1}, split = {.lights = {{0.5, 0.45, 0.15}}, .light_count = 1};
-    shot           a, b;
-    shot_view      view = halftone_view(768, 768, 768);
-    int            cut = 0, wrong = 0, clear = 0, differ = 0, distinct = 0;
+    halftone_scene whole = {.lights = {{0.5, 0.45, 0.15}}, .light_count = 1},
+                   split = {.lights = {{0.5, 0.45, 0.15}}, .light_count = 1};
+    shot      a, b;
+    shot_view view = halftone_view(768, 768, 768);
+    int       cut = 0, wrong = 0, clear = 0, differ = 0, distinct = 0;
     if (!write_strokes("known.stx", ANY))
         return;
     halftone_add_wall(&whole, "wall", (halftone_wall){0, 0, 0, 1, 1, 3})->second = true;
@@ -283,7 +312,8 @@ static void tiles_are_lit_apart(void)
         for (int i = 0; i < STROKES; i++) {
             int drawn = 0;
             for (int tile = 0; tile < 9; tile++) {
-                double u = (tile % 3 + known[i].u) / 3, v = (tile / 3 + known[i].v) / 3, dark = 1 - light_at(u, v, whole.lights[0]);
+                double u = (tile % 3 + known[i].u) / 3, v = (tile / 3 + known[i].v) / 3,
+                       dark = 1 - light_at(u, v, whole.lights[0]);
                 double share = share_inked(&a, u * 768, v * 768, 0.025 * 256, 1);
                 cut += share > 0 && share < 1;
                 drawn += share > 0.5;
@@ -302,7 +332,8 @@ static void tiles_are_lit_apart(void)
         check_at_most("IM-20", cut, 0, "of 576 strokes on nine tiles drawn in part");
         check_at_most("IM-20", wrong, 0, "of %d with a clear answer not as the light at their own place says", clear);
         check_at_least("IM-20", distinct, 20, "of 64 strokes that are on some tiles and not on others");
-        check_at_most("IM-20", differ / (768.0 * 768), 0.001, "share of pixels that differ from nine parts with light maps of their own");
+        check_at_most("IM-20", differ / (768.0 * 768), 0.001,
+                      "share of pixels that differ from nine parts with light maps of their own");
         shot_release(&b);
     }
     shot_release(&a);
@@ -319,12 +350,22 @@ static void whole_on_a_cylinder(void)
     for (int whole = 0; whole < 2; whole++) {
         halftone_scene scene = {0};
         shot           s;
-        shot_view      view = {.width = 400, .height = 400, .eye = {0, 0.5, 8}, .target = {0, 0.5, 0}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 8, .without_maps = true};
+        shot_view      view = {.width = 400,
+                               .height = 400,
+                               .eye = {0, 0.5, 8},
+                               .target = {0, 0.5, 0},
+                               .up = {0, 1, 0},
+                               .orthographic = true,
+                               .fov_deg = 8,
+                               .without_maps = true};
         halftone_add_tube(&scene, "tube", (halftone_tube){0.5, 1, 1, 1})->second = true;
         int cut = 0, seen = 0;
-        if (halftone_shot(&s, &scene, "tube.gltf", halftone_look_with(whole_keys("binary", whole, 110), "\"fill\":0,\"light_direction\":\"1,0,0\"", ""), NULL, &view)) {
+        if (halftone_shot(
+                &s, &scene, "tube.gltf",
+                halftone_look_with(whole_keys("binary", whole, 110), "\"fill\":0,\"light_direction\":\"1,0,0\"", ""),
+                NULL, &view)) {
             for (int i = 0; i < STROKES; i++) {
-                int inked = 0, count = 0;
+                int    inked = 0, count = 0;
                 double angle = 6.283185307 * known[i].u;
                 if (cos(angle) < 0.5)
                     continue;
@@ -346,23 +387,26 @@ static void whole_on_a_cylinder(void)
     check_at_most("IM-18", lone[1], 0, "share of them drawn in part (whole=true)");
 }
 
-/* --- shadows ----------------------------------------------------------------------------------------------------- */
+/* --- shadows -------------------------------------------------------------------------------------------- */
 
 static void shadows_of(const char *shading)
 {
-    shot lit, shadowed;
+    shot           lit, shadowed;
     halftone_scene scene = {0};
     halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 4, 4, 1});
     halftone_add_wall(&scene, "lid", (halftone_wall){1, 1, 1, 1, 1, 1});
-    shot_view   view = halftone_view(256, 256, 64);
-    char        later[100];
+    shot_view view = halftone_view(256, 256, 64);
+    char      later[100];
     snprintf(later, sizeof later, ",\"layers\":{\"technique\":\"front\",\"shading\":\"%s\"}", shading);
     const char *keys = "screen\",\"screen\":\"cross\",\"scheme\":\"binary\",\"uneven\":0,\"shadow\":0.1,\"light\":0.95";
-    if (!halftone_shot(&lit, &scene, "lid.gltf", halftone_look_with(keys, "\"fill\":0,\"light_direction\":\"-1,0,1\"", later), NULL, &view)) {
+    if (!halftone_shot(&lit, &scene, "lid.gltf",
+                       halftone_look_with(keys, "\"fill\":0,\"light_direction\":\"-1,0,1\"", later), NULL, &view)) {
         halftone_release(&scene);
         return;
     }
-    if (halftone_shot(&shadowed, &scene, "lid.gltf", halftone_look_with(keys, "\"fill\":0,\"shadows\":true,\"light_direction\":\"-1,0,1\"", later), NULL, &view)) {
+    if (halftone_shot(&shadowed, &scene, "lid.gltf",
+                      halftone_look_with(keys, "\"fill\":0,\"shadows\":true,\"light_direction\":\"-1,0,1\"", later),
+                      NULL, &view)) {
         int other = 0, lost = 0;
         for (int i = 0; i < 256 * 256; i++) {
             other += shadowed.picture[4 * i] != 0 && shadowed.picture[4 * i] != 255;
@@ -373,7 +417,8 @@ static void shadows_of(const char *shading)
         check_at_least("IM-34", after - before, 0.2, "%s: more ink in the shadow (%.3f without)", shading, before);
         check_at_most("IM-34", other, 0, "pixels that are neither ink nor paper");
         check_at_most("IM-34", lost, 0, "inked pixels that shadows make paper");
-        check_near("IM-34", halftone_mean(&shadowed, 4, 4, 56, 248), halftone_mean(&lit, 4, 4, 56, 248), 0.002, "ink elsewhere stays");
+        check_near("IM-34", halftone_mean(&shadowed, 4, 4, 56, 248), halftone_mean(&lit, 4, 4, 56, 248), 0.002,
+                   "ink elsewhere stays");
         shot_release(&shadowed);
     }
     shot_release(&lit);
@@ -386,7 +431,7 @@ static void shadows_are_denser_strokes(void)
     shadows_of("forward");
 }
 
-/* --- hatching with edges, in a mirror too --------------------------------------------------------------------------- */
+/* --- hatching with edges, in a mirror too --------------------------------------------------------------- */
 
 typedef struct sheet {
     double at[3], right[3], up[3], normal[3];
@@ -406,12 +451,16 @@ static void place_sheet(double s, double t, const void *user, halftone_corner *o
 static void lamps_have_no_shadows(void)
 {
     for (int wanted = 0; wanted < 2; wanted++) {
-        shot           s;
-        halftone_scene scene = {.lights = {{0.5, 0.5, 0.4}}, .light_count = 1};
+        shot            s;
+        halftone_scene  scene = {.lights = {{0.5, 0.5, 0.4}}, .light_count = 1};
         const shot_view view = halftone_view(64, 64, 64);
         halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
-        if (halftone_shot(&s, &scene, "lamp.gltf", halftone_look_with("hatch\"", wanted ? "\"lights\":\"file\",\"shadows\":true" : "\"lights\":\"file\"", ""), NULL, &view))
-            check_near("P30", shot_has_warning(&s, "unused"), wanted, 0, "a warning about shadows of a lamp, %s", wanted ? "asked for" : "not asked for");
+        if (halftone_shot(&s, &scene, "lamp.gltf",
+                          halftone_look_with(
+                              "hatch\"", wanted ? "\"lights\":\"file\",\"shadows\":true" : "\"lights\":\"file\"", ""),
+                          NULL, &view))
+            check_near("P30", shot_has_warning(&s, "unused"), wanted, 0, "a warning about shadows of a lamp, %s",
+                       wanted ? "asked for" : "not asked for");
         shot_release(&s);
         halftone_release(&scene);
     }
@@ -427,17 +476,29 @@ static void mirrored_hatching_has_edges(void)
         halftone_add(&scene, "sheet", 1, 1, place_sheet, &upright);
         char look[1400];
         snprintf(look, sizeof look,
-                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"fill\":0,\"light_direction\":\"0,1,1\"},\"rules\":[{\"select\":\"glass\",\"surface\":"
-                 "{\"technique\":\"mirror\",\"tint\":\"#ffffff\",\"reflectivity\":1}},{\"select\":\"sheet\",\"surface\":{\"technique\":\"%s\",\"ink\":\"#0000ff\",\"paper\":\"#ffffff\","
-                 "\"shadow\":0.3,\"light\":0.7},\"lines\":{\"operator\":\"discontinuity\",\"width\":2,\"colour\":\"#ff0000\"}}]}", forms[f]);
-        const shot_view view = {.width = 240, .height = 240, .eye = {0, 2, 9}, .target = {0, -0.3, 0}, .up = {0, 1, 0}, .fov_deg = 26, .without_maps = true};
-        shot s;
-        int  edge[2] = {0}, ink[2] = {0};
+                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"fill\":0,\"light_"
+                 "direction\":\"0,1,1\"},\"rules\":[{\"select\":\"glass\",\"surface\":"
+                 "{\"technique\":\"mirror\",\"tint\":\"#ffffff\",\"reflectivity\":1}},{\"select\":\"sheet\","
+                 "\"surface\":{\"technique\":\"%s\",\"ink\":\"#0000ff\",\"paper\":\"#ffffff\","
+                 "\"shadow\":0.3,\"light\":0.7},\"lines\":{\"operator\":\"discontinuity\",\"width\":2,\"colour\":\"#"
+                 "ff0000\"}}]}",
+                 forms[f]);
+        const shot_view view = {.width = 240,
+                                .height = 240,
+                                .eye = {0, 2, 9},
+                                .target = {0, -0.3, 0},
+                                .up = {0, 1, 0},
+                                .fov_deg = 26,
+                                .without_maps = true};
+        shot            s;
+        int             edge[2] = {0}, ink[2] = {0};
         if (halftone_shot(&s, &scene, "mirror.gltf", look, NULL, &view)) {
             for (int k = 0; k < 2; k++) {
                 /* The sheet itself from y = -0.4 to 1.4, its image from -1.6 to -3.4. */
-                dvec low = shot_project(&s, dvec_of(0, k ? -3.4 : -0.4, 0)), high = shot_project(&s, dvec_of(0, k ? -1.6 : 1.4, 0));
-                dvec left = shot_project(&s, dvec_of(-1, k ? -2 : 0, 0)), right = shot_project(&s, dvec_of(1, k ? -2 : 0, 0));
+                dvec low = shot_project(&s, dvec_of(0, k ? -3.4 : -0.4, 0)),
+                     high = shot_project(&s, dvec_of(0, k ? -1.6 : 1.4, 0));
+                dvec left = shot_project(&s, dvec_of(-1, k ? -2 : 0, 0)),
+                     right = shot_project(&s, dvec_of(1, k ? -2 : 0, 0));
                 for (int y = (int)high.y - 3; y < (int)low.y + 3 && y < 240; y++)
                     for (int x = (int)left.x - 4; x < (int)right.x + 4; x++) {
                         const uint8_t *p = &s.picture[4 * (y * 240 + x)];
@@ -448,8 +509,10 @@ static void mirrored_hatching_has_edges(void)
             shot_release(&s);
         }
         for (int k = 0; k < 2; k++) {
-            check_at_least("E13", edge[k], 100, "%s: pixels of edges %s", forms[f], k ? "in the mirror" : "on the part itself");
-            check_at_least("E13", ink[k], 200, "%s: pixels of strokes %s", forms[f], k ? "in the mirror" : "on the part itself");
+            check_at_least("E13", edge[k], 100, "%s: pixels of edges %s", forms[f],
+                           k ? "in the mirror" : "on the part itself");
+            check_at_least("E13", ink[k], 200, "%s: pixels of strokes %s", forms[f],
+                           k ? "in the mirror" : "on the part itself");
         }
         halftone_release(&scene);
     }
@@ -458,10 +521,11 @@ static void mirrored_hatching_has_edges(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"lamps", lamps_have_no_shadows},
-        {"indication", indication_shifts_tone}, {"limit", indication_limits_tone}, {"relief", strokes_have_flanks}, {"whole", whole_or_not_at_all},
-        {"light-map", light_map_is_the_light}, {"tiles", tiles_are_lit_apart}, {"cylinder", whole_on_a_cylinder}, {"shadows", shadows_are_denser_strokes},
-        {"mirror", mirrored_hatching_has_edges},
+        {"lamps", lamps_have_no_shadows},        {"indication", indication_shifts_tone},
+        {"limit", indication_limits_tone},       {"relief", strokes_have_flanks},
+        {"whole", whole_or_not_at_all},          {"light-map", light_map_is_the_light},
+        {"tiles", tiles_are_lit_apart},          {"cylinder", whole_on_a_cylinder},
+        {"shadows", shadows_are_denser_strokes}, {"mirror", mirrored_hatching_has_edges},
     };
     halftone_begin();
     int status = check_main(argc, argv, "screen_light", cases, sizeof cases / sizeof *cases);

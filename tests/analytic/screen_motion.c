@@ -1,4 +1,5 @@
-/* Halftones in time and in motion: frames that follow each other, unevenness, wavering; approaching, turning, light that moves; a slow panel. Seed 001, sections 6.8 and 9.2. */
+/* Halftones in time and in motion: frames that follow each other, unevenness, wavering; approaching, turning, light
+ * that moves; a slow panel. Seed 001, sections 6.8 and 9.2. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include "picture.h"
 #include "shape.h"
 
-/* --- time -------------------------------------------------------------------------------------------------------- */
+/* --- time ----------------------------------------------------------------------------------------------- */
 
 enum { TIMED = 256 };
 
@@ -26,7 +27,8 @@ static bool take_time(shot *out, const char *surface, double time)
 
 static void frames_follow_each_other(void)
 {
-    const char *surface = "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"uneven\":0,\"shadow\":0.5,\"light\":0.5,\"frames\":4,\"change\":2";
+    const char *surface = "screen\",\"screen\":\"cross\",\"scheme\":\"smooth\",\"uneven\":0,\"shadow\":0.5,\"light\":0."
+                          "5,\"frames\":4,\"change\":2";
     shot        before, now, first;
     double      step = 0, whole = 0, mean = 0, spread = 0;
     if (!take_time(&first, surface, 0))
@@ -41,7 +43,8 @@ static void frames_follow_each_other(void)
         step = fmax(step, halftone_difference(&before, &now));
         whole = i == 10 ? halftone_difference(&first, &now) : whole;
         if (i == 40)
-            check_at_most("IM-28", halftone_difference(&first, &now), 0.001, "difference after all frames: they begin again");
+            check_at_most("IM-28", halftone_difference(&first, &now), 0.001,
+                          "difference after all frames: they begin again");
         mean = halftone_mean(&now, 0, 0, TIMED, TIMED);
         spread = fmax(spread, fabs(mean - halftone_mean(&first, 0, 0, TIMED, TIMED)));
         shot_release(&before);
@@ -63,8 +66,10 @@ static void unevenness_lives(void)
     if (take_time(&rough, surface, 0.3) && take_time(&later, surface, 1.9)) {
         check_at_least("IM-29", halftone_difference(&even, &rough), 0.01, "mean change by unevenness");
         check_at_least("IM-29", halftone_difference(&later, &rough), 0.01, "mean change over time");
-        check_near("IM-29", halftone_mean(&rough, 0, 0, TIMED, TIMED), halftone_mean(&even, 0, 0, TIMED, TIMED), 0.06, "mean ink stays");
-        check_near("IM-29", halftone_mean(&later, 0, 0, TIMED, TIMED), halftone_mean(&even, 0, 0, TIMED, TIMED), 0.06, "mean ink stays, later");
+        check_near("IM-29", halftone_mean(&rough, 0, 0, TIMED, TIMED), halftone_mean(&even, 0, 0, TIMED, TIMED), 0.06,
+                   "mean ink stays");
+        check_near("IM-29", halftone_mean(&later, 0, 0, TIMED, TIMED), halftone_mean(&even, 0, 0, TIMED, TIMED), 0.06,
+                   "mean ink stays, later");
         shot_release(&later);
     }
     shot_release(&rough);
@@ -97,9 +102,12 @@ static void wobble_has_its_size(void)
         char   surface[256];
         double most = 0, square = 0;
         int    count = 0;
-        if (!take_time(&straight, "screen\",\"screen\":\"lines\",\"uneven\":0,\"shadow\":0.8,\"light\":0.8,\"scale\":40", 0))
+        if (!take_time(&straight,
+                       "screen\",\"screen\":\"lines\",\"uneven\":0,\"shadow\":0.8,\"light\":0.8,\"scale\":40", 0))
             return;
-        snprintf(surface, sizeof surface, "screen\",\"screen\":\"lines\",\"uneven\":0,\"shadow\":0.8,\"light\":0.8,\"scale\":40,\"wobble\":%g", amounts[i]);
+        snprintf(surface, sizeof surface,
+                 "screen\",\"screen\":\"lines\",\"uneven\":0,\"shadow\":0.8,\"light\":0.8,\"scale\":40,\"wobble\":%g",
+                 amounts[i]);
         if (take_time(&wavy, surface, 0)) {
             for (int x = 0; x < TIMED; x++) {
                 double a[16], b[16];
@@ -125,9 +133,10 @@ static void wobble_has_its_size(void)
     }
 }
 
-/* --- motion ------------------------------------------------------------------------------------------------------ */
+/* --- motion --------------------------------------------------------------------------------------------- */
 
-/* Blocks of each picture of an approach are compared with the same places of the surface in the next one; a facing wall, so that blocks stay rectangles. */
+/* Blocks of each picture of an approach are compared with the same places of the surface in the next one; a facing
+ * wall, so that blocks stay rectangles. */
 static void approaching(const char *technique, const char *keys)
 {
     enum { SIDE = 112, BLOCK = 16, STEPS = 71 };
@@ -156,7 +165,8 @@ static void approaching(const char *technique, const char *keys)
         before = now;
     }
     shot_release(&before);
-    check_at_most("coherence", worst, strcmp(technique, "screen") == 0 ? 0.12 : 0.08, "%s (%s): change of a block's ink in a step of 1 %% nearer (step %d)", technique, keys, at);
+    check_at_most("coherence", worst, strcmp(technique, "screen") == 0 ? 0.12 : 0.08,
+                  "%s (%s): change of a block's ink in a step of 1 %% nearer (step %d)", technique, keys, at);
     check_at_most("coherence", whole, 0.04, "change of the ink of the picture");
     halftone_release(&scene);
 }
@@ -182,7 +192,7 @@ static double largest_block_change(const shot *a, const shot *b)
 static void turning(void)
 {
     static const char *const techniques[] = {"screen", "tonal-art-map", "dots"};
-    shape ball = {0};
+    shape                    ball = {0};
     shape_sphere(&ball, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
     for (int t = 0; t < 3; t++) {
         double lit = 0, turned = 0;
@@ -192,8 +202,13 @@ static void turning(void)
             snprintf(surface, sizeof surface, "%s\",\"uneven\":0%s", techniques[t], t == 1 ? "" : "");
             bool ok = true;
             for (int k = 0; k < 3 && ok; k++) {
-                double a = (10 * i + (k == 1)) * 0.0174533, b = (k == 2 ? 0.5 : 0) * 0.0174533 + i * 0.3;
-                shot_view view = {.width = 160, .height = 160, .eye = {8 * sin(b), 1, 8 * cos(b)}, .up = {0, 1, 0}, .fov_deg = 16, .without_maps = true};
+                double    a = (10 * i + (k == 1)) * 0.0174533, b = (k == 2 ? 0.5 : 0) * 0.0174533 + i * 0.3;
+                shot_view view = {.width = 160,
+                                  .height = 160,
+                                  .eye = {8 * sin(b), 1, 8 * cos(b)},
+                                  .up = {0, 1, 0},
+                                  .fov_deg = 16,
+                                  .without_maps = true};
                 snprintf(light, sizeof light, "\"fill\":0,\"light_direction\":\"%g,0.5,%g\"", sin(a), cos(a));
                 ok = shot_of_shape(&s[k], &ball, "turning.glb", halftone_look_with(surface, light, ""), NULL, &view);
             }
@@ -204,13 +219,17 @@ static void turning(void)
             for (int k = 0; k < 3; k++)
                 shot_release(&s[k]);
         }
-        check_at_most("coherence", lit, 0.06, "%s: change of a block's ink when light turns by a degree", techniques[t]);
-        check_at_most("coherence", turned, 0.12, "%s: change of a block's ink when the ball turns by half a degree (uncompensated)", techniques[t]);
+        check_at_most("coherence", lit, 0.06, "%s: change of a block's ink when light turns by a degree",
+                      techniques[t]);
+        check_at_most("coherence", turned, 0.12,
+                      "%s: change of a block's ink when the ball turns by half a degree (uncompensated)",
+                      techniques[t]);
     }
     shape_release(&ball);
 }
 
-/* A panel whose pixels rise in 12 ms and fall in 25 ms at 60 frames a second shows a wall that moves by half a pixel a frame. */
+/* A panel whose pixels rise in 12 ms and fall in 25 ms at 60 frames a second shows a wall that moves by half a
+ * pixel a frame. */
 static void slow_panel(void)
 {
     enum { SIDE = 96, FRAMES = 24 };
@@ -222,7 +241,10 @@ static void slow_panel(void)
         shot_view view = halftone_view(SIDE, SIDE, 60);
         view.eye.x += i * 0.5 / 60;
         view.target.x += i * 0.5 / 60;
-        if (!halftone_shot(&s, &scene, "panel.gltf", halftone_look("screen\",\"screen\":\"lines\",\"angle\":60,\"uneven\":0,\"shadow\":0.6,\"light\":0.6"), NULL, &view))
+        if (!halftone_shot(
+                &s, &scene, "panel.gltf",
+                halftone_look("screen\",\"screen\":\"lines\",\"angle\":60,\"uneven\":0,\"shadow\":0.6,\"light\":0.6"),
+                NULL, &view))
             break;
         double sum = 0, shown = 0;
         for (int k = 0; k < SIDE * SIDE; k++) {
@@ -244,8 +266,12 @@ static void slow_panel(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"frames", frames_follow_each_other}, {"uneven", unevenness_lives}, {"wobble", wobble_has_its_size},
-                                       {"approach", approach}, {"turning", turning}, {"panel", slow_panel}};
+    static const check_case cases[] = {{"frames", frames_follow_each_other},
+                                       {"uneven", unevenness_lives},
+                                       {"wobble", wobble_has_its_size},
+                                       {"approach", approach},
+                                       {"turning", turning},
+                                       {"panel", slow_panel}};
     halftone_begin();
     int status = check_main(argc, argv, "screen_motion", cases, sizeof cases / sizeof *cases);
     shot_end();

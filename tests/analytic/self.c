@@ -1,4 +1,5 @@
-/* The references among themselves: each is held against something simpler, so that a wrong reference is not taken for truth. */
+/* The references among themselves: each is held against something simpler, so that a wrong reference is not taken
+ * for truth. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,10 +18,10 @@ static shot_view iso(int size)
 
 static double volume_of(const shape *s)
 {
-    tracer *t = tracer_create(s);
-    size_t  count;
+    tracer               *t = tracer_create(s);
+    size_t                count;
     const trace_triangle *f = tracer_triangles(t, &count);
-    double volume = 0;
+    double                volume = 0;
     for (size_t i = 0; i < count; i++)
         volume += dvec_dot(f[i].p[0], dvec_cross(f[i].p[1], f[i].p[2])) / 6;
     tracer_destroy(t);
@@ -30,7 +31,7 @@ static double volume_of(const shape *s)
 static void shapes_are_solid(void)
 {
     const double edges[] = {0, 1, 2, 3}, heights[] = {0.5, 1.5, 1};
-    shape s = {0};
+    shape        s = {0};
     shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     check_near("self", volume_of(&s), 8, 1e-9, "volume of the box");
     shape_release(&s);
@@ -50,8 +51,8 @@ static void shapes_are_solid(void)
 
 static void caster_sees_a_sphere(void)
 {
-    shape s = {0};
-    shot  view;
+    shape     s = {0};
+    shot      view;
     shot_view how = iso(96);
     shape_sphere(&s, "sphere", dvec_of(0, 0, 0), 1, 256, 512, true);
     tracer   *t = tracer_create(&s);
@@ -88,11 +89,11 @@ static void caster_equals_brute_force(void)
     shape_torus(&s, "torus", 1, 0.4, 40, 20);
     shape_box(&s, "box", dvec_of(-0.5, -0.5, -0.5), dvec_of(0.5, 0.6, 0.5));
     shape_place(&s, dvec_of(1, 2, 3), 33, dvec_of(0.3, 0.2, 0.1));
-    tracer *t = tracer_create(&s);
-    shot    view;
-    shot_view how = iso(48);
-    int     differ = 0;
-    size_t  count;
+    tracer               *t = tracer_create(&s);
+    shot                  view;
+    shot_view             how = iso(48);
+    int                   differ = 0;
+    size_t                count;
     const trace_triangle *f = tracer_triangles(t, &count);
     shot_blank(&view, &how, 5, 9);
     for (int i = 0; i < 48 * 48; i++) {
@@ -105,7 +106,8 @@ static void caster_equals_brute_force(void)
             dvec   p = dvec_add(origin, dvec_scale(direction, at));
             bool   inside = true;
             for (int c = 0; c < 3; c++)
-                inside = inside && dvec_dot(f[k].flat, dvec_cross(dvec_sub(f[k].p[(c + 1) % 3], f[k].p[c]), dvec_sub(p, f[k].p[c]))) >= 0;
+                inside = inside && dvec_dot(f[k].flat, dvec_cross(dvec_sub(f[k].p[(c + 1) % 3], f[k].p[c]),
+                                                                  dvec_sub(p, f[k].p[c]))) >= 0;
             if (inside && at > 0 && at < best)
                 best = at;
         }
@@ -121,7 +123,7 @@ static void caster_equals_brute_force(void)
 static feature_lines lines_of(const shape *s, const shot_view *how, shot *view)
 {
     feature_lines lines;
-    tracer *t = tracer_create(s);
+    tracer       *t = tracer_create(s);
     shot_blank(view, how, 1, 20);
     feature_find(&lines, s, t, view, 45);
     tracer_destroy(t);
@@ -130,14 +132,14 @@ static feature_lines lines_of(const shape *s, const shot_view *how, shot *view)
 
 static void cube_has_nine_edges(void)
 {
-    shape s = {0};
-    shot  view;
+    shape     s = {0};
+    shot      view;
     shot_view how = iso(256);
     shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     for (int parallel = 0; parallel < 2; parallel++) {
         how.orthographic = parallel;
         feature_lines f = lines_of(&s, &how, &view);
-        double length = 0;
+        double        length = 0;
         for (size_t i = 0; i < f.edge_count; i++) {
             dvec a = shot_project(&view, f.edges[i].a), b = shot_project(&view, f.edges[i].b);
             length += f.edges[i].kind == FEATURE_SILHOUETTE ? hypot(a.x - b.x, a.y - b.y) : 0;
@@ -145,7 +147,8 @@ static void cube_has_nine_edges(void)
         size_t silhouettes = 0;
         for (size_t i = 0; i < f.sample_count; i++)
             silhouettes += f.samples[i].kind == FEATURE_SILHOUETTE;
-        check_near("self", (double)f.visible_edges, 9, 0, "visible edges of a cube (%s)", parallel ? "parallel" : "central");
+        check_near("self", (double)f.visible_edges, 9, 0, "visible edges of a cube (%s)",
+                   parallel ? "parallel" : "central");
         check_near("self", 0.2 * (double)silhouettes, length, 0.01 * length, "length of its outline by samples");
         feature_release(&f);
         shot_release(&view);
@@ -153,24 +156,25 @@ static void cube_has_nine_edges(void)
     shape_release(&s);
 }
 
-/* A small box pokes half out of a big one's top: a square of four intersection lines, two of which lie behind the small box. */
+/* A small box pokes half out of a big one's top: a square of four intersection lines, two of which lie behind the
+ * small box. */
 static void boxes_cut_in_four_lines(void)
 {
     for (int joined = 0; joined < 2; joined++) {
-        shape s = {0}, one = {0};
-        shot  view;
+        shape     s = {0}, one = {0};
+        shot      view;
         shot_view how = iso(256);
         shape_box(&s, "big", dvec_of(-1, -1, -1), dvec_of(1, 0, 1));
         shape_box(&s, "small", dvec_of(-0.3, -0.4, -0.3), dvec_of(0.3, 0.4, 0.3));
         shape_join(&one, "both", &s);
         feature_lines f = lines_of(joined ? &one : &s, &how, &view);
-        double length = 0, visible = 0;
+        double        length = 0, visible = 0;
         for (size_t i = 0; i < f.edge_count; i++)
             if (f.edges[i].kind == FEATURE_INTERSECTION)
                 length += dvec_length(dvec_sub(f.edges[i].a, f.edges[i].b));
         for (size_t i = 0; i < f.sample_count; i++)
             visible += f.samples[i].kind == FEATURE_INTERSECTION;
-        dvec corner[3] = {{0.3, 0, -0.3}, {0.3, 0, 0.3}, {-0.3, 0, 0.3}};
+        dvec   corner[3] = {{0.3, 0, -0.3}, {0.3, 0, 0.3}, {-0.3, 0, 0.3}};
         double wanted = 0;
         for (int i = 0; i < 2; i++) {
             dvec a = shot_project(&view, corner[i]), b = shot_project(&view, corner[i + 1]);
@@ -188,8 +192,8 @@ static void boxes_cut_in_four_lines(void)
 /* A drawn map made from the samples themselves scores full; moved by four pixels or without ink it must not. */
 static void score_can_fail(void)
 {
-    shape s = {0};
-    shot  view;
+    shape     s = {0};
+    shot      view;
     shot_view how = iso(256);
     shape_torus(&s, "torus", 1, 0.4, 96, 48);
     feature_lines f = lines_of(&s, &how, &view);
@@ -216,16 +220,16 @@ static void score_can_fail(void)
     shape_release(&s);
 }
 
-/* --- stacks ------------------------------------------------------------------------------------------------------ */
+/* --- stacks --------------------------------------------------------------------------------------------- */
 
 /* Rays through a ball leave it where the closed form says, on its far side. */
 static void stacks_of_a_sphere(void)
 {
-    shape s = {0};
-    shot  view;
+    shape     s = {0};
+    shot      view;
     stack_map map;
-    double worst = 0;
-    int    wrong = 0, through = 0;
+    double    worst = 0;
+    int       wrong = 0, through = 0;
     for (int parallel = 0; parallel < 2; parallel++) {
         shot_view how = iso(96);
         how.orthographic = parallel;
@@ -236,7 +240,8 @@ static void stacks_of_a_sphere(void)
         for (int i = 0; i < 96 * 96; i++) {
             dvec origin, direction;
             shot_ray(&view, i % 96 + 0.5, i / 96 + 0.5, &origin, &direction);
-            double a = dvec_dot(direction, direction), b = dvec_dot(origin, direction), root = b * b - a * (dvec_dot(origin, origin) - 1);
+            double a = dvec_dot(direction, direction), b = dvec_dot(origin, direction),
+                   root = b * b - a * (dvec_dot(origin, origin) - 1);
             if (root < 0.02)
                 continue;
             const stack_hit *hit = stack_at(&map, i);
@@ -262,13 +267,13 @@ static void stacks_of_a_sphere(void)
 static void stacks_equal_brute_force(void)
 {
     for (int kind = 0; kind < SCENE_KINDS; kind++) {
-        shape s = {0};
-        shot  view;
+        shape     s = {0};
+        shot      view;
         shot_view how = iso(40);
-        int    differ = 0, uneven = 0;
-        size_t count, most = 0;
+        int       differ = 0, uneven = 0;
+        size_t    count, most = 0;
         scene_make(&s, (scene_kind)kind, 3);
-        tracer *t = tracer_create(&s);
+        tracer               *t = tracer_create(&s);
         const trace_triangle *f = tracer_triangles(t, &count);
         shot_blank(&view, &how, 1, 20);
         for (int i = 0; i < 40 * 40; i++) {
@@ -283,7 +288,8 @@ static void stacks_equal_brute_force(void)
                 dvec   p = dvec_add(origin, dvec_scale(direction, at));
                 bool   inside = at > 0;
                 for (int c = 0; c < 3; c++)
-                    inside = inside && dvec_dot(f[k].flat, dvec_cross(dvec_sub(f[k].p[(c + 1) % 3], f[k].p[c]), dvec_sub(p, f[k].p[c]))) >= 0;
+                    inside = inside && dvec_dot(f[k].flat, dvec_cross(dvec_sub(f[k].p[(c + 1) % 3], f[k].p[c]),
+                                                                      dvec_sub(p, f[k].p[c]))) >= 0;
                 found += inside;
                 sum += inside ? at : 0;
             }
@@ -307,7 +313,12 @@ static void stacks_equal_brute_force(void)
 static size_t middle_stack(const shape *s, stack_hit out[STACK_MAX])
 {
     shot      view;
-    shot_view how = {.width = 64, .height = 64, .eye = {0.13, 0.07, 9}, .target = {0.13, 0.07, 0}, .up = {0, 1, 0}, .orthographic = true};
+    shot_view how = {.width = 64,
+                     .height = 64,
+                     .eye = {0.13, 0.07, 9},
+                     .target = {0.13, 0.07, 0},
+                     .up = {0, 1, 0},
+                     .orthographic = true};
     tracer   *t = tracer_create(s);
     shot_blank(&view, &how, 1, 20);
     size_t count = stack_trace(t, &view, 32.3, 31.6, out);
@@ -319,23 +330,28 @@ static size_t middle_stack(const shape *s, stack_hit out[STACK_MAX])
 /* What coincides: sorted by part, then front before back; once when part and facing are the same. */
 static void stacks_of_coincident_faces(void)
 {
-    shape s = {0};
+    shape     s = {0};
     stack_hit hit[STACK_MAX];
     shape_box(&s, "behind", dvec_of(-1, -1, -1), dvec_of(1, 1, 0));
     shape_box(&s, "before", dvec_of(-1, -1, 0), dvec_of(1, 1, 1));
     bool four = middle_stack(&s, hit) == 4;
-    check_that("self", four && hit[0].id == 2 && hit[1].id == 1 && hit[1].front && hit[2].id == 2 && !hit[2].front && hit[3].id == 1,
+    check_that("self",
+               four && hit[0].id == 2 && hit[1].id == 1 && hit[1].front && hit[2].id == 2 && !hit[2].front &&
+                   hit[3].id == 1,
                "two boxes that share a face are four surfaces, the shared ones by part");
     check_that("self", four && !hit[1].tied && hit[2].tied && !hit[3].tied, "and only the shared ones are tied");
     shape_release(&s);
     shape_box(&s, "once", dvec_of(-1, -1, -1), dvec_of(1, 1, 0));
     scene_copy(&s, 0, "again");
-    check_that("self", middle_stack(&s, hit) == 4 && hit[0].id == 1 && hit[1].id == 2 && hit[2].id == 1 && hit[3].id == 2,
+    check_that("self",
+               middle_stack(&s, hit) == 4 && hit[0].id == 1 && hit[1].id == 2 && hit[2].id == 1 && hit[3].id == 2,
                "a part twice at one place counts twice");
     shape_release(&s);
     shape_quad(&s, "sheet", 1, 0);
     scene_double(&s, true);
-    check_that("self", middle_stack(&s, hit) == 2 && hit[0].front && !hit[1].front && hit[0].normal.z > 0 && hit[1].normal.z < 0,
+    check_that("self",
+               middle_stack(&s, hit) == 2 && hit[0].front && !hit[1].front && hit[0].normal.z > 0 &&
+                   hit[1].normal.z < 0,
                "a sheet with two sides is two surfaces, the front first");
     shape_release(&s);
     shape_quad(&s, "sheet", 1, 0);
@@ -350,8 +366,8 @@ static void stacks_of_coincident_faces(void)
 /* Layers made from the stacks score full, and one changed value in them does not go unseen. */
 static void stacks_score_can_fail(void)
 {
-    shape s = {0};
-    shot  view;
+    shape     s = {0};
+    shot      view;
     shot_view how = iso(64);
     stack_map map;
     scene_make(&s, SCENE_CLOSED, 5);
@@ -367,7 +383,7 @@ static void stacks_score_can_fail(void)
         l->normal = check_alloc(64 * 64, sizeof *l->normal);
         l->id = check_alloc(64 * 64, sizeof *l->id);
         for (int i = 0; i < 64 * 64; i++) {
-            bool full = stack_count(&map, i) > k;
+            bool             full = stack_count(&map, i) > k;
             const stack_hit *hit = full ? stack_at(&map, i) + k : NULL;
             l->depth[i] = full ? (float)hit->depth : INFINITY;
             l->id[i] = full ? hit->id : 0;
@@ -405,11 +421,12 @@ static void stacks_score_can_fail(void)
     shape_release(&s);
 }
 
-/* --- operators on made-up maps ----------------------------------------------------------------------------------- */
+/* --- operators on made-up maps -------------------------------------------------------------------------- */
 
 static twin_map blank_map(void)
 {
-    twin_map m = {.width = 16, .height = 16, .normal = check_alloc(256, sizeof(dvec)), .depth = check_alloc(256, sizeof(double))};
+    twin_map m = {
+        .width = 16, .height = 16, .normal = check_alloc(256, sizeof(dvec)), .depth = check_alloc(256, sizeof(double))};
     for (int i = 0; i < 256; i++)
         m.normal[i] = dvec_of(0, 0, 1);
     return m;
@@ -428,15 +445,19 @@ static twin_map step_map(double step, double degrees)
 
 static void tables_of_the_operators(void)
 {
-    static const double steps[][3] = {{1 / 255.0, 0.992, 0.996}, {0.01, 0.980, 0.990}, {0.05, 0.904, 0.951}, {0.1, 0.815, 0.903},
-                                      {0.3, 0.522, 0.723},       {0.5, 0.316, 0.563},  {1.0, 0.0625, 0.25}};
+    static const double steps[][3] = {{1 / 255.0, 0.992, 0.996}, {0.01, 0.980, 0.990}, {0.05, 0.904, 0.951},
+                                      {0.1, 0.815, 0.903},       {0.3, 0.522, 0.723},  {0.5, 0.316, 0.563},
+                                      {1.0, 0.0625, 0.25}};
     static const double angles[][2] = {{10, 0.992}, {20, 0.970}, {30, 0.933}, {45, 0.854}, {60, 0.75}, {90, 0.5}};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         twin_map m = step_map(steps[i][0], 0);
-        check_near("E06", twin_four_tap(&m, 8, 8, 1, true).profile, steps[i][1], 6e-4, "I_Z of a step of %.4g", steps[i][0]);
+        check_near("E06", twin_four_tap(&m, 8, 8, 1, true).profile, steps[i][1], 6e-4, "I_Z of a step of %.4g",
+                   steps[i][0]);
         check_near("E06", twin_four_tap(&m, 8, 8, 1, false).profile, steps[i][2], 6e-4, "I_Z without squares");
-        check_near("P4", twin_pencil(&m, 8, 8, 1).profile, 1 - 0.5 * steps[i][0], 1e-12, "equation 3 gives 1 - step / 2");
-        check_near("P4", twin_pencil(&m, 8, 8, 4).profile, 1 - 2 * steps[i][0], 1e-12, "the shader's weights give 1 - 2 step");
+        check_near("P4", twin_pencil(&m, 8, 8, 1).profile, 1 - 0.5 * steps[i][0], 1e-12,
+                   "equation 3 gives 1 - step / 2");
+        check_near("P4", twin_pencil(&m, 8, 8, 4).profile, 1 - 2 * steps[i][0], 1e-12,
+                   "the shader's weights give 1 - 2 step");
         check_near("E24", twin_saito(&m, 8, 8).profile, 1 - 0.5 * steps[i][0], 1e-12, "I0 of an axis-aligned step");
         check_near("E24", twin_saito(&m, 8, 8).inner, 1 - steps[i][0], 1e-12, "I1 of an axis-aligned step");
         twin_map_release(&m);
@@ -445,7 +466,8 @@ static void tables_of_the_operators(void)
         twin_map m = step_map(0, angles[i][0]);
         double   n = 1 - (1 - twin_denormal(&m, 7, 8, 0, false).inner) / 4;
         check_near("OI-06", n, angles[i][1], 6e-4, "squared length at a crease of %g degrees", angles[i][0]);
-        check_near("P3", twin_four_tap(&m, 8, 8, 1, true).inner, cos(angles[i][0] * pi / 180), 1e-12, "I_N of that crease");
+        check_near("P3", twin_four_tap(&m, 8, 8, 1, true).inner, cos(angles[i][0] * pi / 180), 1e-12,
+                   "I_N of that crease");
         twin_map_release(&m);
     }
 }
@@ -477,11 +499,18 @@ static void few_taps_equal_many(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"shapes", shapes_are_solid},      {"sphere", caster_sees_a_sphere}, {"brute", caster_equals_brute_force},
-        {"cube", cube_has_nine_edges},     {"boxes", boxes_cut_in_four_lines}, {"score", score_can_fail},
-        {"stacks", stacks_of_a_sphere},    {"all", stacks_equal_brute_force}, {"coincident", stacks_of_coincident_faces},
+        {"shapes", shapes_are_solid},
+        {"sphere", caster_sees_a_sphere},
+        {"brute", caster_equals_brute_force},
+        {"cube", cube_has_nine_edges},
+        {"boxes", boxes_cut_in_four_lines},
+        {"score", score_can_fail},
+        {"stacks", stacks_of_a_sphere},
+        {"all", stacks_equal_brute_force},
+        {"coincident", stacks_of_coincident_faces},
         {"layers", stacks_score_can_fail},
-        {"tables", tables_of_the_operators}, {"taps", few_taps_equal_many},
+        {"tables", tables_of_the_operators},
+        {"taps", few_taps_equal_many},
     };
     return check_main(argc, argv, "self", cases, sizeof cases / sizeof *cases);
 }

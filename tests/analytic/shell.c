@@ -1,4 +1,5 @@
-/* Shells: a rim of the line's width outside what is seen, and nothing else. The reference is the distance of every pixel from the body, counted pixel by pixel. */
+/* Shells: a rim of the line's width outside what is seen, and nothing else. The reference is the distance of every
+ * pixel from the body, counted pixel by pixel. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,8 +16,8 @@ static const double widths[] = {1, 2, 3, 5, 8};
 static const char *look_of(double width)
 {
     static char texts[4][200];
-    static int next;
-    char lines[80], *text = texts[next++ % 4];
+    static int  next;
+    char        lines[80], *text = texts[next++ % 4];
     snprintf(lines, sizeof lines, "{\"operator\":\"shell\",\"colour\":\"#000000\",\"width\":%g}", width);
     snprintf(text, sizeof texts[0], "%s", shot_line_look(lines));
     return text;
@@ -42,9 +43,11 @@ static double distance_to_nearer(const shot *s, int x, int y, int reach, double 
     return nearest;
 }
 
-/* What one picture shows. Distances are between middles of pixels: a line of width w has those up to w, give or take half a pixel at either side. */
+/* What one picture shows. Distances are between middles of pixels: a line of width w has those up to w, give or
+ * take half a pixel at either side. */
 typedef struct tally {
-    int ink, inside, far, missing, whole; /* inside: on the body; far: beyond the width; missing: of `whole` pixels that must be inked */
+    int ink, inside, far, missing,
+        whole; /* inside: on the body; far: beyond the width; missing: of `whole` pixels that must be inked */
 } tally;
 
 /* `step`: what is nearer by less belongs to one surface. */
@@ -53,7 +56,7 @@ static tally count_rim(const shot *s, double width, double step)
     tally t = {0};
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++) {
-            bool inked = is_inked(s, x, y), empty = s->id[y * s->width + x] == 0;
+            bool   inked = is_inked(s, x, y), empty = s->id[y * s->width + x] == 0;
             double d = distance_to_nearer(s, x, y, (int)width + 3, step);
             t.ink += inked;
             t.inside += inked && !empty;
@@ -88,13 +91,17 @@ static void smooth_rims(void)
         const char *name;
         void (*make)(shape *);
         dvec eye;
-    } rows[] = {{"sphere", sphere_scene, {3, 4, 5}}, {"sphere aside", sphere_scene, {-6, 1, 2}}, {"ring", ring_scene, {0.3, 8, 0.2}}, {"ring below", ring_scene, {0.5, -7, 0.7}}};
+    } rows[] = {{"sphere", sphere_scene, {3, 4, 5}},
+                {"sphere aside", sphere_scene, {-6, 1, 2}},
+                {"ring", ring_scene, {0.3, 8, 0.2}},
+                {"ring below", ring_scene, {0.5, -7, 0.7}}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         shape s = {0};
         rows[i].make(&s);
         double before = 0;
         for (size_t w = 0; w < sizeof widths / sizeof *widths; w++) {
-            shot_view view = {.width = SIDE, .height = SIDE, .eye = rows[i].eye, .up = {0.3, 0.2, 1}, .orthographic = w % 2};
+            shot_view view = {
+                .width = SIDE, .height = SIDE, .eye = rows[i].eye, .up = {0.3, 0.2, 1}, .orthographic = w % 2};
             shot t;
             if (shot_of_shape(&t, &s, "smooth.glb", look_of(widths[w]), NULL, &view)) {
                 tally n = count_rim(&t, widths[w], 1e9);
@@ -111,7 +118,8 @@ static void smooth_rims(void)
     }
 }
 
-/* A ring across the page hides pieces of itself, and a ball in front of a wall does: rims are on what lies behind, beside what is in front. */
+/* A ring across the page hides pieces of itself, and a ball in front of a wall does: rims are on what lies behind,
+ * beside what is in front. */
 static void rims_before_surfaces(void)
 {
     for (int i = 0; i < 2; i++) {
@@ -123,11 +131,16 @@ static void rims_before_surfaces(void)
             shape_quad(&s, "wall", 2, -1.5);
         }
         for (size_t w = 0; w < sizeof widths / sizeof *widths; w++) {
-            shot_view view = {.width = SIDE, .height = SIDE, .eye = {i ? 1 : 0, i ? 1 : 2.6, 6}, .up = {0, 1, 0}, .orthographic = w % 2};
-            shot t;
+            shot_view view = {.width = SIDE,
+                              .height = SIDE,
+                              .eye = {i ? 1 : 0, i ? 1 : 2.6, 6},
+                              .up = {0, 1, 0},
+                              .orthographic = w % 2};
+            shot      t;
             if (shot_of_shape(&t, &s, "before.glb", look_of(widths[w]), NULL, &view)) {
                 tally n = count_rim(&t, widths[w], 0.1);
-                check_at_least("2.5.4", n.inside, 30 * widths[w], "%s, width %g: ink on what is behind", i ? "ball" : "ring", widths[w]);
+                check_at_least("2.5.4", n.inside, 30 * widths[w], "%s, width %g: ink on what is behind",
+                               i ? "ball" : "ring", widths[w]);
                 check_at_most("2.5.4", n.far, 0, "of which far from all that is in front");
             }
             shot_release(&t);
@@ -150,7 +163,7 @@ static void cubes(void)
     shape s = {0};
     cube_scene(&s);
     for (size_t w = 0; w < sizeof widths / sizeof *widths; w++) {
-        shot t;
+        shot      t;
         shot_view view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 7}, .up = {0, 1, 0}};
         if (shot_of_shape(&t, &s, "cube.glb", look_of(widths[w]), NULL, &view)) {
             tally n = count_rim(&t, widths[w], 1e9);
@@ -161,7 +174,11 @@ static void cubes(void)
         }
         shot_release(&t);
         for (int k = 0; k < 6; k++) { /* from everywhere */
-            view = (shot_view){.width = SIDE, .height = SIDE, .eye = {5 * cos(k), 1 + k, 5 * sin(k)}, .up = {0, 1, 0}, .orthographic = k % 2};
+            view = (shot_view){.width = SIDE,
+                               .height = SIDE,
+                               .eye = {5 * cos(k), 1 + k, 5 * sin(k)},
+                               .up = {0, 1, 0},
+                               .orthographic = k % 2};
             if (shot_of_shape(&t, &s, "cube.glb", look_of(widths[w]), NULL, &view)) {
                 tally n = count_rim(&t, widths[w], 1e9);
                 check_at_most("2.5.4", n.inside, 0, "cube, view %d, width %g: ink on flat faces", k, widths[w]);
@@ -174,7 +191,8 @@ static void cubes(void)
     shape_release(&s);
 }
 
-/* A sheet of two coincident sides: the far one lies as deep as the near one. Seen from aside and with a wide angle, too. */
+/* A sheet of two coincident sides: the far one lies as deep as the near one. Seen from aside and with a wide angle,
+ * too. */
 static void sheets(void)
 {
     shape s = {0};
@@ -182,8 +200,13 @@ static void sheets(void)
     shape_quad(&s, "far", 1, 0);
     shape_place(&s, dvec_of(0, 1, 0), 180, dvec_of(0, 0, 0));
     for (int k = 0; k < 8; k++) {
-        shot_view view = {.width = SIDE, .height = SIDE, .eye = {0.7 * k, 0.1 * k * k, 6}, .up = {0, 1, 0}, .orthographic = k % 2, .fov_deg = 30 + 8 * k};
-        shot t;
+        shot_view view = {.width = SIDE,
+                          .height = SIDE,
+                          .eye = {0.7 * k, 0.1 * k * k, 6},
+                          .up = {0, 1, 0},
+                          .orthographic = k % 2,
+                          .fov_deg = 30 + 8 * k};
+        shot      t;
         if (shot_of_shape(&t, &s, "sheet.glb", look_of(6), NULL, &view)) {
             tally n = count_rim(&t, 6, 1e9);
             check_at_most("2.5.4", n.inside, 0, "sheet, view %d: ink on it", k);
@@ -201,7 +224,7 @@ static void mirrored(void)
     shape_place(&s, dvec_of(0, 1, 0), 0, dvec_of(0, 0, 0));
     s.parts[0].matrix[0] = -1;
     shot_view view = {.width = SIDE, .height = SIDE, .eye = {3, 4, 5}, .up = {0, 1, 0}};
-    shot t;
+    shot      t;
     if (shot_of_shape(&t, &s, "mirrored.glb", look_of(4), NULL, &view)) {
         tally n = count_rim(&t, 4, 1e9);
         check_at_most("2.5.4", n.inside, 0, "mirrored sphere: ink on the body");
@@ -215,15 +238,16 @@ static void mirrored(void)
 /* Half behind a plate of another rule that has no lines, half in front of another. */
 static void figures(void)
 {
-    static const char look[] =
-        "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"}},"
-        "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"shell\",\"colour\":\"#000000\",\"width\":8}}]}";
-    shape s = {0};
+    static const char look[] = "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{"
+                               "\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"}},"
+                               "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
+                               "\"lines\":{\"operator\":\"shell\",\"colour\":\"#000000\",\"width\":8}}]}";
+    shape             s = {0};
     shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 64, 128, true);
     shape_box(&s, "plate", dvec_of(-2, -2, 1.2), dvec_of(0, 2, 1.3));
     shape_box(&s, "back", dvec_of(-0.2, -2, -1.5), dvec_of(2, 2, -1.3));
     shot_view view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true};
-    shot t;
+    shot      t;
     if (shot_of_shape(&t, &s, "figures.glb", look, NULL, &view)) {
         int left = (int)shot_project(&t, dvec_of(0, 0, 1.2)).x - 1, covered = 0;
         for (int y = 0; y < t.height; y++)
@@ -240,8 +264,8 @@ static void figures(void)
 static int occurrences(const char *path, const char *wanted)
 {
     static char line[1 << 16];
-    FILE *file = fopen(path, "r");
-    int count = 0;
+    FILE       *file = fopen(path, "r");
+    int         count = 0;
     while (file && fgets(line, sizeof line, file))
         count += strstr(line, wanted) != NULL;
     if (!file)
@@ -255,15 +279,17 @@ static void as_strokes(void)
 {
     static const char *const operators[] = {"shell", "discontinuity"};
     for (int i = 0; i < 2; i++) {
-        char look[200], command[2048], path[400];
+        char  look[200], command[2048], path[400];
         FILE *file = fopen(check_path("%s.json", operators[i]), "w");
-        snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":\"flat\",\"lines\":\"%s\"}]}", operators[i]);
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":\"flat\",\"lines\":\"%s\"}]}", operators[i]);
         if (file) {
             fputs(look, file);
             fclose(file);
         }
         snprintf(path, sizeof path, "%s", check_path("%s.svg", operators[i]));
-        snprintf(command, sizeof command, "%s draw %s/gearbox.stl -o %s --look %s --quiet", LIMNER_COMMAND, LIMNER_EXAMPLES, path, check_path("%s.json", operators[i]));
+        snprintf(command, sizeof command, "%s draw %s/gearbox.stl -o %s --look %s --quiet", LIMNER_COMMAND,
+                 LIMNER_EXAMPLES, path, check_path("%s.json", operators[i]));
         check_that("2.5.4", system(command) == 0, "%s as strokes", operators[i]);
         check_at_least("2.5.4", occurrences(path, "visible contour"), 1, "%s: groups of outlines", operators[i]);
         if (i == 0)
@@ -275,8 +301,10 @@ static void as_strokes(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"smooth", smooth_rims}, {"before", rims_before_surfaces}, {"cubes", cubes}, {"sheets", sheets}, {"mirrored", mirrored}, {"figures", figures}, {"strokes", as_strokes}};
-    int status = check_main(argc, argv, "shell", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {{"smooth", smooth_rims}, {"before", rims_before_surfaces}, {"cubes", cubes},
+                                       {"sheets", sheets},      {"mirrored", mirrored},           {"figures", figures},
+                                       {"strokes", as_strokes}};
+    int                     status = check_main(argc, argv, "shell", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

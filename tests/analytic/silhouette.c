@@ -1,5 +1,6 @@
-/* Which edges are lines, decided on the GPU, against all edges of the mesh in double precision: thousands of views, with and without perspective, of closed, open, turned,
- * stretched and mirrored parts. Each edge gets a block of two by two pixels whose corners are the corners of its quad, so that corners that do not agree show. */
+/* Which edges are lines, decided on the GPU, against all edges of the mesh in double precision: thousands of views,
+ * with and without perspective, of closed, open, turned, stretched and mirrored parts. Each edge gets a block of
+ * two by two pixels whose corners are the corners of its quad, so that corners that do not agree show. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,25 +13,26 @@
 
 enum { SIDE = 512, EDGES_MAX = SIDE / 2 * (SIDE / 2), VIEWS = 260, WANT_CONTOUR = 32, ALL = 127 };
 
-static const char vertex_stage[] =
-    "#include \"lines/stroke/decide.glsl\"\n"
-    "uniform int u_side;\n"
-    "out float v_line;\n"
-    "void main()\n"
-    "{\n"
-    "    int edge = gl_VertexID >> 2;\n"
-    "    vec2 corner = vec2(float(2 * (edge % (u_side / 2)) + 2 * (gl_VertexID & 1)), float(2 * (edge / (u_side / 2)) + (gl_VertexID & 2)));\n"
-    "    v_line = float(line_of_edge());\n"
-    "    gl_Position = vec4(2.0 * corner / float(u_side) - 1.0, 0.0, 1.0);\n"
-    "}\n";
-static const char fragment_stage[] = "in float v_line;\nlayout(location = 0) out vec4 out_0;\nvoid main() { out_0 = vec4(v_line, 1.0, 0.0, 1.0); }\n";
+static const char vertex_stage[] = "#include \"lines/stroke/decide.glsl\"\n"
+                                   "uniform int u_side;\n"
+                                   "out float v_line;\n"
+                                   "void main()\n"
+                                   "{\n"
+                                   "    int edge = gl_VertexID >> 2;\n"
+                                   "    vec2 corner = vec2(float(2 * (edge % (u_side / 2)) + 2 * (gl_VertexID & 1)), "
+                                   "float(2 * (edge / (u_side / 2)) + (gl_VertexID & 2)));\n"
+                                   "    v_line = float(line_of_edge());\n"
+                                   "    gl_Position = vec4(2.0 * corner / float(u_side) - 1.0, 0.0, 1.0);\n"
+                                   "}\n";
+static const char fragment_stage[] =
+    "in float v_line;\nlayout(location = 0) out vec4 out_0;\nvoid main() { out_0 = vec4(v_line, 1.0, 0.0, 1.0); }\n";
 
 /* An edge of the shape as the reference knows it. */
 typedef struct truth_edge {
     dvec   ends[2];
     dvec   normals[2]; /* not of unit length */
     int    faces;
-    double height;     /* how far the second face rises above the first, share of its reach; below 0: convex */
+    double height; /* how far the second face rises above the first, share of its reach; below 0: convex */
 } truth_edge;
 
 typedef struct truth_mesh {
@@ -52,24 +54,27 @@ static bool same_place(dvec a, dvec b)
 
 static int compare_places(dvec a, dvec b)
 {
-    return a.x != b.x ? (a.x < b.x ? -1 : 1) : a.y != b.y ? (a.y < b.y ? -1 : 1) : a.z != b.z ? (a.z < b.z ? -1 : 1) : 0;
+    return a.x != b.x   ? (a.x < b.x ? -1 : 1)
+           : a.y != b.y ? (a.y < b.y ? -1 : 1)
+           : a.z != b.z ? (a.z < b.z ? -1 : 1)
+                        : 0;
 }
 
 typedef struct half {
-    dvec     low, high, beyond, normal;
+    dvec low, high, beyond, normal;
 } half;
 
 static int compare_halves(const void *a, const void *b)
 {
     const half *p = a, *q = b;
-    int first = compare_places(p->low, q->low);
+    int         first = compare_places(p->low, q->low);
     return first ? first : compare_places(p->high, q->high);
 }
 
 /* All edges of a part with one or two faces. */
 static void truth_make(truth_mesh *out, const shape_part *p)
 {
-    half *halves = check_alloc(p->index_count, sizeof *halves);
+    half  *halves = check_alloc(p->index_count, sizeof *halves);
     size_t count = 0;
     for (uint32_t i = 0; i < p->index_count; i += 3) {
         dvec c[3] = {corner_of(p, i), corner_of(p, i + 1), corner_of(p, i + 2)};
@@ -87,13 +92,16 @@ static void truth_make(truth_mesh *out, const shape_part *p)
     for (uint32_t i = 0; i < p->index_count; i += 3)
         out->volume += dvec_dot(corner_of(p, i), dvec_cross(corner_of(p, i + 1), corner_of(p, i + 2)));
     for (size_t i = 0, next; i < count; i = next) {
-        for (next = i + 1; next < count && same_place(halves[next].low, halves[i].low) && same_place(halves[next].high, halves[i].high);)
+        for (next = i + 1; next < count && same_place(halves[next].low, halves[i].low) &&
+                           same_place(halves[next].high, halves[i].high);)
             next++;
-        truth_edge e = {.ends = {halves[i].low, halves[i].high}, .faces = (int)(next - i), .normals = {halves[i].normal}};
+        truth_edge e = {
+            .ends = {halves[i].low, halves[i].high}, .faces = (int)(next - i), .normals = {halves[i].normal}};
         if (e.faces == 2) {
             dvec reach = dvec_sub(halves[i + 1].beyond, halves[i].low);
             e.normals[1] = halves[i + 1].normal;
-            e.height = dvec_dot(reach, e.normals[0]) / sqrt(dvec_dot(reach, reach) * dvec_dot(e.normals[0], e.normals[0]));
+            e.height =
+                dvec_dot(reach, e.normals[0]) / sqrt(dvec_dot(reach, reach) * dvec_dot(e.normals[0], e.normals[0]));
         }
         out->closed = out->closed && e.faces == 2;
         out->edges[out->count++] = e;
@@ -116,7 +124,7 @@ static bool mesh_of(mesh *m, primitive *out, const shape_part *p)
     return p->index_count > 0;
 }
 
-/* --- the GPU -------------------------------------------------------------------------------------------------------- */
+/* --- the GPU -------------------------------------------------------------------------------------------- */
 
 static void write_stage(const char *name, const char *text)
 {
@@ -130,7 +138,7 @@ static void write_stage(const char *name, const char *text)
 static gpu *open_gpu(bool es)
 {
     lmn_error error = {0};
-    gpu *g = NULL;
+    gpu      *g = NULL;
     write_stage("decisions.vert", vertex_stage);
     write_stage("decisions.frag", fragment_stage);
     setenv("LIMNER_SHADER_DIR", check_path("."), 1);
@@ -152,7 +160,7 @@ static void ask(gpu *g, gpu_texture *picture, gpu_marks *marks, const double vie
     gpu_read(g, picture, out);
 }
 
-/* --- the comparison ------------------------------------------------------------------------------------------------- */
+/* --- the comparison ------------------------------------------------------------------------------------- */
 
 typedef struct tally {
     long edges, outlines, wrong, ties, torn, lost;
@@ -160,11 +168,13 @@ typedef struct tally {
 
 static double facing(dvec normal, dvec place, const double viewer[4])
 {
-    dvec to = dvec_of(viewer[0] - viewer[3] * place.x, viewer[1] - viewer[3] * place.y, viewer[2] - viewer[3] * place.z);
+    dvec to =
+        dvec_of(viewer[0] - viewer[3] * place.x, viewer[1] - viewer[3] * place.y, viewer[2] - viewer[3] * place.z);
     return dvec_dot(normal, to) / sqrt(dvec_dot(normal, normal) * fmax(dvec_dot(to, to), 1e-300));
 }
 
-/* Is an edge between a face that is seen from the front and one that is not: 1 yes, 0 no, −1 too close to tell in single precision. Both ends are asked: they must agree. */
+/* Is an edge between a face that is seen from the front and one that is not: 1 yes, 0 no, −1 too close to tell in
+ * single precision. Both ends are asked: they must agree. */
 static int is_outline(const truth_edge *e, const double viewer[4])
 {
     if (e->faces != 2)
@@ -188,7 +198,7 @@ typedef struct keyed {
 static int compare_keys(const void *a, const void *b)
 {
     const keyed *p = a, *q = b;
-    int first = compare_places(p->low, q->low);
+    int          first = compare_places(p->low, q->low);
     return first ? first : compare_places(p->high, q->high);
 }
 
@@ -210,12 +220,13 @@ static int find_record(const keyed *keys, size_t count, const truth_edge *e)
     return found ? found->number : -1;
 }
 
-static void compare(tally *t, const truth_mesh *truth, const keyed *keys, size_t record_count, const float *records, const float *picture, const double viewer[4])
+static void compare(tally *t, const truth_mesh *truth, const keyed *keys, size_t record_count, const float *records,
+                    const float *picture, const double viewer[4])
 {
     for (size_t i = 0; i < truth->count; i++) {
         const truth_edge *e = &truth->edges[i];
-        int outline = is_outline(e, viewer), record = find_record(keys, record_count, e);
-        bool concave = truth->closed && (truth->volume < 0 ? -e->height : e->height) >= -2e-6;
+        int               outline = is_outline(e, viewer), record = find_record(keys, record_count, e);
+        bool              concave = truth->closed && (truth->volume < 0 ? -e->height : e->height) >= -2e-6;
         t->edges++;
         t->ties += outline < 0;
         t->outlines += outline > 0;
@@ -223,9 +234,9 @@ static void compare(tally *t, const truth_mesh *truth, const keyed *keys, size_t
             t->lost += outline > 0 && !concave;
             continue;
         }
-        int x = 2 * (record % (SIDE / 2)), y = 2 * (record / (SIDE / 2));
+        int          x = 2 * (record % (SIDE / 2)), y = 2 * (record / (SIDE / 2));
         const float *low = &picture[4 * (y * SIDE + x)], *high = low + 4 * SIDE;
-        float line = low[0];
+        float        line = low[0];
         t->torn += low[4] != line || high[0] != line || high[4] != line || low[1] != 1;
         bool always = ((int)records[EDGE_RECORD_FLOATS * record + 3] & RECORD_BORDER) != 0;
         if (outline >= 0)
@@ -246,24 +257,27 @@ static void random_viewer(uint32_t *state, double out[4], bool parallel)
 
 static void check_part(gpu *g, gpu_texture *picture, const shape_part *p, const char *what)
 {
-    mesh m;
-    primitive only;
-    edge_mesh edges;
-    lmn_error error = {0};
+    mesh       m;
+    primitive  only;
+    edge_mesh  edges;
+    lmn_error  error = {0};
     truth_mesh truth;
     truth_make(&truth, p);
-    bool good = mesh_of(&m, &only, p) && edge_mesh_create(&edges, &m, NULL, 30 * 3.14159265358979 / 180, &error) == LMN_OK;
-    check_that("OE-06", good && edges.edge_count <= EDGES_MAX, "%s: %zu edges, %u records", what, truth.count, good ? edges.edge_count : 0);
+    bool good =
+        mesh_of(&m, &only, p) && edge_mesh_create(&edges, &m, NULL, 30 * 3.14159265358979 / 180, &error) == LMN_OK;
+    check_that("OE-06", good && edges.edge_count <= EDGES_MAX, "%s: %zu edges, %u records", what, truth.count,
+               good ? edges.edge_count : 0);
     float *records = good ? strokes_edge_records(&edges) : NULL, *read = check_alloc(SIDE * SIDE * 4, sizeof *read);
     if (records && edges.edge_count <= EDGES_MAX) {
         gpu_marks *marks = gpu_marks_create(g, EDGE_RECORD_VECTORS, records, edges.edge_count);
-        keyed *keys = sort_records(records, edges.edge_count);
-        tally t = {0};
-        uint32_t state = 77;
+        keyed     *keys = sort_records(records, edges.edge_count);
+        tally      t = {0};
+        uint32_t   state = 77;
         for (int i = 0; i < VIEWS; i++) {
             double viewer[4];
             random_viewer(&state, viewer, i % 2);
-            /* Where the eye is among the parts nothing is left out; that closed parts hide what is seen from behind is no question of outlines. */
+            /* Where the eye is among the parts nothing is left out; that closed parts hide what is seen from behind
+             * is no question of outlines. */
             ask(g, picture, marks, viewer, i % 3 == 0, read);
             compare(&t, &truth, keys, edges.edge_count, records, read, viewer);
         }
@@ -299,7 +313,7 @@ static void decisions_on(bool es)
     if (!g)
         return;
     gpu_texture *picture = gpu_target_acquire(g, SIDE, SIDE, GPU_RGBA32F);
-    shape s = {0};
+    shape        s = {0};
     shape_sphere(&s, "sphere", dvec_of(0.1, -0.2, 0), 1, 40, 80, false);
     check_part(g, picture, &s.parts[0], "sphere");
     shape_torus(&s, "ring", 0.8, 0.3, 72, 40);

@@ -1,4 +1,5 @@
-/* The field of uncertainty itself: that it is noise, how long its waves are, and that it stays on the model while the model moves. */
+/* The field of uncertainty itself: that it is noise, how long its waves are, and that it stays on the model while
+ * the model moves. */
 #include <limner/draw.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,18 +13,19 @@ static const double pi = 3.14159265358979323846;
 
 static const shot_view front = {.width = 400, .height = 400, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
 
-/* A look with this perturbation and nothing else of note; valid until the next call but three. The small amount keeps the rim in which
- * fields shrink out of the measurements. */
+/* A look with this perturbation and nothing else of note; valid until the next call but three. The small amount
+ * keeps the rim in which fields shrink out of the measurements. */
 static const char *look_of(const char *settings)
 {
     static char texts[4][640];
     static int  next;
     char       *text = texts[next];
     next = (next + 1) % 4;
-    snprintf(text, sizeof texts[0],
-             "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":\"discontinuity\","
-             "\"perturb\":{\"technique\":\"uncertainty\",%s%s}}]}",
-             strstr(settings, "\"amount\"") ? "" : "\"amount\":0.5,", settings);
+    snprintf(
+        text, sizeof texts[0],
+        "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":\"discontinuity\","
+        "\"perturb\":{\"technique\":\"uncertainty\",%s%s}}]}",
+        strstr(settings, "\"amount\"") ? "" : "\"amount\":0.5,", settings);
     return text;
 }
 
@@ -58,7 +60,7 @@ static double largest_difference(const shot *a, const shot *b)
     return worst;
 }
 
-/* --- noise --------------------------------------------------------------------------------------------------------- */
+/* --- noise ---------------------------------------------------------------------------------------------- */
 
 enum { RIM = 4 };
 
@@ -83,19 +85,22 @@ static field_numbers numbers_of(const shot *s, int channel)
         }
     n.mean = sum / (double)count;
     n.rms = sqrt(squares / (double)count);
-    /* A straight line meets waves of all directions at a slant: by a factor of sqrt 2 fewer changes than across each wave. */
+    /* A straight line meets waves of all directions at a slant: by a factor of sqrt 2 fewer changes than across
+     * each wave. */
     n.wave = 2 * sqrt(0.5) * 2 * (double)count / (double)(changes ? changes : 1);
     return n;
 }
 
-/* Correlation of a channel of one field with a channel of another, moved by (dx, dy); `turned`: the other upside down. */
+/* Correlation of a channel of one field with a channel of another, moved by (dx, dy); `turned`: the other upside
+ * down. */
 static double correlation(const shot *a, int channel_a, const shot *b, int channel_b, int dx, int dy, bool turned)
 {
     double ab = 0, aa = 0, bb = 0;
     for (int y = RIM; y < a->height - RIM - dy; y++)
         for (int x = RIM; x < a->width - RIM - dx; x++) {
             int    bx = x + dx, by = y + dy;
-            double va = at(a, x, y, channel_a), vb = turned ? at(b, b->width - 1 - bx, b->height - 1 - by, channel_b) : at(b, bx, by, channel_b);
+            double va = at(a, x, y, channel_a),
+                   vb = turned ? at(b, b->width - 1 - bx, b->height - 1 - by, channel_b) : at(b, bx, by, channel_b);
             ab += va * vb;
             aa += va * va;
             bb += vb * vb;
@@ -144,7 +149,8 @@ static void noise(void)
     }
 }
 
-static void compare(const char *what, const char *a, const char *b, const shot_view *view_a, const shot_view *view_b, bool alike)
+static void compare(const char *what, const char *a, const char *b, const shot_view *view_a, const shot_view *view_b,
+                    bool alike)
 {
     shot first, second;
     bool ok = wall_field(&first, a, view_a);
@@ -183,20 +189,22 @@ static void seeds_and_time(void)
 static void waves(void)
 {
     static const char *const locks[] = {"screen", "object"};
-    static const int scales[] = {24, 48, 96};
+    static const int         scales[] = {24, 48, 96};
     for (int l = 0; l < 2; l++) {
         double length[3] = {0};
         for (int k = 0; k < 3; k++)
             for (int seed = 0; seed < 3; seed++) {
                 char settings[128];
                 shot field;
-                snprintf(settings, sizeof settings, "\"lock\":\"%s\",\"octaves\":1,\"seed\":%d,\"scale\":%d", locks[l], seed, scales[k]);
+                snprintf(settings, sizeof settings, "\"lock\":\"%s\",\"octaves\":1,\"seed\":%d,\"scale\":%d", locks[l],
+                         seed, scales[k]);
                 if (wall_field(&field, settings, &front))
                     length[k] += (numbers_of(&field, 0).wave + numbers_of(&field, 1).wave) / 6;
                 shot_release(&field);
             }
         for (int k = 0; k < 3; k++)
-            check_near("S02", length[k] / scales[k], 1, 0.6, "%s, scale %d: length of the waves over the scale", locks[l], scales[k]);
+            check_near("S02", length[k] / scales[k], 1, 0.6, "%s, scale %d: length of the waves over the scale",
+                       locks[l], scales[k]);
         check_near("S02", length[1] / length[0], 2, 0.35, "  twice the scale, times the length");
         check_near("S02", length[2] / length[1], 2, 0.35, "  and again");
     }
@@ -215,10 +223,12 @@ static void tiles(void)
             for (int y = RIM; y < field.height - tile - RIM; y++)
                 for (int x = RIM; x < field.width - tile - RIM; x++)
                     for (int k = 0; k < 3; k++) {
-                        worst = fmax(worst, fmax(fabs(at(&field, x, y, k) - at(&field, x + tile, y, k)), fabs(at(&field, x, y, k) - at(&field, x, y + tile, k))));
+                        worst = fmax(worst, fmax(fabs(at(&field, x, y, k) - at(&field, x + tile, y, k)),
+                                                 fabs(at(&field, x, y, k) - at(&field, x, y + tile, k))));
                         half = fmax(half, fabs(at(&field, x, y, k) - at(&field, x + tile / 2, y, k)));
                     }
-            check_at_most("S02", worst, 1e-3, "tile %d, scale %d: difference of pixels a tile apart", tile, cases[c][1]);
+            check_at_most("S02", worst, 1e-3, "tile %d, scale %d: difference of pixels a tile apart", tile,
+                          cases[c][1]);
             check_at_least("S02", half, 0.3, "  and half a tile apart");
             field_numbers n = numbers_of(&field, 0);
             check_near("S02", n.wave / cases[c][1], 1, 0.6, "  length of the waves over the scale");
@@ -256,7 +266,9 @@ static void middle(void)
                 }
             shot_release(&field);
         }
-        check_at_least("S02", sqrt(squares[0]), 0.15, "%s: strength of the field in the middle of the model, over 16 seeds (elsewhere %.3f)", locks[l], sqrt(squares[1]));
+        check_at_least("S02", sqrt(squares[0]), 0.15,
+                       "%s: strength of the field in the middle of the model, over 16 seeds (elsewhere %.3f)", locks[l],
+                       sqrt(squares[1]));
     }
 }
 
@@ -281,7 +293,8 @@ static void turbulence(void)
                 }
                 bends[0] += largest_bend(&smooth) / 3;
                 bends[1] += largest_bend(&field) / 3;
-                check_at_least("S02", largest_difference(&field, &smooth), 0.3, "%s: turbulence differs from noise", locks[l]);
+                check_at_least("S02", largest_difference(&field, &smooth), 0.3, "%s: turbulence differs from noise",
+                               locks[l]);
             }
             shot_release(&field);
             shot_release(&smooth);
@@ -303,7 +316,8 @@ static void rim(void)
         shot   a, b;
         double worst = 0;
         snprintf(small, sizeof small, "\"lock\":\"%s\",\"scale\":200", locks[l]);
-        snprintf(large, sizeof large, "\"lock\":\"%s\",\"scale\":200,\"amount\":15,\"edges_xy\":0.5", locks[l]); /* 15·1.5 px at most */
+        snprintf(large, sizeof large, "\"lock\":\"%s\",\"scale\":200,\"amount\":15,\"edges_xy\":0.5",
+                 locks[l]); /* 15·1.5 px at most */
         bool ok = wall_field(&a, small, &front);
         if (wall_field(&b, large, &front) && ok) {
             for (int y = 2; y < 398; y++)
@@ -320,7 +334,7 @@ static void rim(void)
     }
 }
 
-/* --- on the model -------------------------------------------------------------------------------------------------- */
+/* --- on the model --------------------------------------------------------------------------------------- */
 
 /* The same waves at any distance. */
 static void distances(void)
@@ -342,13 +356,15 @@ static void distances(void)
             shot_release(&field);
         }
     for (int k = 0; k < STEPS; k++) {
-        check_note("distance %5.2f times: root of the mean square %.3f, waves of %.1f px", pow(2, k / 2.0), rms[k], length[k]);
+        check_note("distance %5.2f times: root of the mean square %.3f, waves of %.1f px", pow(2, k / 2.0), rms[k],
+                   length[k]);
         low_rms = fmin(low_rms, rms[k]);
         high_rms = fmax(high_rms, rms[k]);
         low_way = fmin(low_way, length[k]);
         high_way = fmax(high_way, length[k]);
     }
-    check_at_most("S12", high_rms / low_rms, 1.3, "strength of the field at distances 1 to 16 times: the greatest over the least");
+    check_at_most("S12", high_rms / low_rms, 1.3,
+                  "strength of the field at distances 1 to 16 times: the greatest over the least");
     check_at_most("S12", high_way / low_way, 1.7, "length of its waves on the page: the greatest over the least");
     check_near("S12", (high_way + low_way) / 2 / 40, 1, 0.6, "  over the scale");
 }
@@ -373,15 +389,20 @@ static void model(shape *s)
 static shot_view frame_view(int frame)
 {
     double angle = (30 + 1.2 * frame) * pi / 180, distance = 9 * pow(0.992, frame);
-    return (shot_view){.width = 480, .height = 360, .eye = {distance * sin(angle), 0.35 * distance, distance * cos(angle)}, .up = {0, 1, 0}};
+    return (shot_view){.width = 480,
+                       .height = 360,
+                       .eye = {distance * sin(angle), 0.35 * distance, distance * cos(angle)},
+                       .up = {0, 1, 0}};
 }
 
 typedef enum place_class { PLACE_AMID, PLACE_WITHIN, PLACE_BEHIND, PLACE_OUTSIDE, PLACE_CLASSES } place_class;
 
-static const char *const place_names[PLACE_CLASSES] = {"amid surfaces", "up to 6 px within silhouettes", "up to 6 px behind a nearer border",
+static const char *const place_names[PLACE_CLASSES] = {"amid surfaces", "up to 6 px within silhouettes",
+                                                       "up to 6 px behind a nearer border",
                                                        "up to 6 px outside silhouettes"};
 
-/* Gives the pixels within six pixels of a step from one pixel to a farther one their class: on the side of which of the two they are. */
+/* Gives the pixels within six pixels of a step from one pixel to a farther one their class: on the side of which of
+ * the two they are. */
 static void classify_around(const shot *s, uint8_t *classes, int near, int far)
 {
     for (int v = -6; v <= 6; v++)
@@ -389,7 +410,8 @@ static void classify_around(const shot *s, uint8_t *classes, int near, int far)
             int x = near % s->width + u, y = near / s->width + v, i = y * s->width + x;
             if (u * u + v * v > 36 || x < 0 || y < 0 || x >= s->width || y >= s->height)
                 continue;
-            bool behind = isfinite(s->depth[far]) && fabsf(s->depth[i] - s->depth[far]) < fabsf(s->depth[i] - s->depth[near]);
+            bool behind =
+                isfinite(s->depth[far]) && fabsf(s->depth[i] - s->depth[far]) < fabsf(s->depth[i] - s->depth[near]);
             uint8_t class = !isfinite(s->depth[i]) ? PLACE_OUTSIDE : behind ? PLACE_BEHIND : PLACE_WITHIN;
             classes[i] = class > classes[i] ? class : classes[i];
         }
@@ -411,7 +433,8 @@ static uint8_t *classes_of(const shot *s)
     return classes;
 }
 
-/* Where the surface at a pixel of one frame is in the next, in pixels with row 0 on top; false when it is hidden there. */
+/* Where the surface at a pixel of one frame is in the next, in pixels with row 0 on top; false when it is hidden
+ * there. */
 static bool followed(const shot *from, const shot *to, int x, int y, double *to_x, double *to_y)
 {
     double depth = (double)from->depth[y * from->width + x];
@@ -422,7 +445,8 @@ static bool followed(const shot *from, const shot *to, int x, int y, double *to_
     *to_x = place.x - 0.5;
     *to_y = place.y - 0.5;
     int px = (int)floor(place.x), py = (int)floor(place.y);
-    return px >= 1 && py >= 1 && px < to->width - 1 && py < to->height - 1 && fabs((double)to->depth[py * to->width + px] - eye_depth) < 0.01 * eye_depth;
+    return px >= 1 && py >= 1 && px < to->width - 1 && py < to->height - 1 &&
+           fabs((double)to->depth[py * to->width + px] - eye_depth) < 0.01 * eye_depth;
 }
 
 /* The nearest pixel within six that is on a surface and not behind a border; false when there is none. */
@@ -445,15 +469,17 @@ typedef struct drift {
     size_t count[PLACE_CLASSES], jumps[PLACE_CLASSES];
 } drift;
 
-/* How much the field changes on surfaces that move from one picture to the next. `fields` are where the field is taken from. */
-static void add_drift(drift *d, const shot *from, const shot *to, const uint8_t *classes, const shot *field_from, const shot *field_to)
+/* How much the field changes on surfaces that move from one picture to the next. `fields` are where the field is
+ * taken from. */
+static void add_drift(drift *d, const shot *from, const shot *to, const uint8_t *classes, const shot *field_from,
+                      const shot *field_to)
 {
     sketch_maps next = sketch_maps_of(field_to);
     for (int y = 8; y < from->height - 8; y += 2)
         for (int x = 8; x < from->width - 8; x++) {
-            int         i = y * from->width + x, sx = x, sy = y;
+            int i = y * from->width + x, sx = x, sy = y;
             place_class class = (place_class)classes[i];
-            double      to_x, to_y;
+            double to_x, to_y;
             if (class == PLACE_AMID && !isfinite(from->depth[i]))
                 continue;
             /* Outside of a border and behind it the nearer surface has the say. */
@@ -463,8 +489,9 @@ static void add_drift(drift *d, const shot *from, const shot *to, const uint8_t 
                 continue;
             to_x += x - sx;
             to_y += y - sy;
-            double change = hypot(sketch_field(&next, to_x, from->height - 1 - to_y, 0) - (double)field_from->uncertainty[i][0],
-                                  sketch_field(&next, to_x, from->height - 1 - to_y, 1) - (double)field_from->uncertainty[i][1]);
+            double change =
+                hypot(sketch_field(&next, to_x, from->height - 1 - to_y, 0) - (double)field_from->uncertainty[i][0],
+                      sketch_field(&next, to_x, from->height - 1 - to_y, 1) - (double)field_from->uncertainty[i][1]);
             d->sum[class] += change;
             d->worst[class] = fmax(d->worst[class], change);
             d->jumps[class] += change > 0.25;
@@ -479,7 +506,9 @@ static bool amid(const shot *s, int x, int y, int radius, bool flat)
     for (int v = -radius; v <= radius; v++)
         for (int u = -radius; u <= radius; u++) {
             int i = (y + v) * s->width + x + u;
-            if (s->id[i] != s->id[own] || (flat && fabsf(s->normal[i][0] - s->normal[own][0]) + fabsf(s->normal[i][1] - s->normal[own][1]) > 0.01f))
+            if (s->id[i] != s->id[own] ||
+                (flat &&
+                 fabsf(s->normal[i][0] - s->normal[own][0]) + fabsf(s->normal[i][1] - s->normal[own][1]) > 0.01f))
                 return false;
         }
     return true;
@@ -488,10 +517,12 @@ static bool amid(const shot *s, int x, int y, int radius, bool flat)
 /* What is moved in a model of two boxes. */
 typedef enum moved { MOVED_NOTHING, MOVED_PART, TURNED_PART, TURNED_ALL, MOVED_KINDS } moved;
 
-/* Two boxes below one node; the second's node is animated. What moves goes to the right; what turns, turns by a quarter about Z. */
+/* Two boxes below one node; the second's node is animated. What moves goes to the right; what turns, turns by a
+ * quarter about Z. */
 static bool write_moving(const char *name, double right, moved what)
 {
-    static const uint16_t faces[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+    static const uint16_t    faces[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                                          2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
     static const char *const turns[2] = {"0,0,0,1", "0,0,0.70710678,0.70710678"};
     float corners[2][24], key[4] = {0, what == MOVED_PART || what == TURNED_PART ? (float)right : 0, 0, 0};
     for (int part = 0; part < 2; part++)
@@ -501,66 +532,82 @@ static bool write_moving(const char *name, double right, moved what)
             corners[part][3 * k + 2] = k & 4 ? 0.5f : -0.5f;
         }
     FILE *bytes = fopen(check_path("moving.bin"), "wb");
-    bool  ok = bytes && fwrite(corners, sizeof corners, 1, bytes) && fwrite(faces, sizeof faces, 1, bytes) && fwrite(key, sizeof key, 1, bytes);
+    bool  ok = bytes && fwrite(corners, sizeof corners, 1, bytes) && fwrite(faces, sizeof faces, 1, bytes) &&
+              fwrite(key, sizeof key, 1, bytes);
     ok = bytes && fclose(bytes) == 0 && ok;
     FILE *text = fopen(check_path("%s", name), "w");
     if (!text)
         return false;
-    fprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[2]}],\"nodes\":[{\"name\":\"still\",\"mesh\":0},{\"name\":\"moving\",\"mesh\":1,"
-          "\"translation\":[%.9g,0,0],\"rotation\":[%s]},{\"name\":\"all\",\"children\":[0,1],\"rotation\":[%s]}],",
-          (double)key[1], turns[what == TURNED_PART], turns[what == TURNED_ALL]);
-    fputs("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]},{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":2}]}],"
-          "\"buffers\":[{\"uri\":\"moving.bin\",\"byteLength\":280}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":96},"
-          "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":192,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":264,\"byteLength\":4},"
+    fprintf(text,
+            "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[2]}],\"nodes\":[{\"name\":\"still\","
+            "\"mesh\":0},{\"name\":\"moving\",\"mesh\":1,"
+            "\"translation\":[%.9g,0,0],\"rotation\":[%s]},{\"name\":\"all\",\"children\":[0,1],\"rotation\":[%s]}],",
+            (double)key[1], turns[what == TURNED_PART], turns[what == TURNED_ALL]);
+    fputs("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]},{\"primitives\":[{"
+          "\"attributes\":{\"POSITION\":1},\"indices\":2}]}],"
+          "\"buffers\":[{\"uri\":\"moving.bin\",\"byteLength\":280}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,"
+          "\"byteLength\":96},"
+          "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":192,\"byteLength\":72},{"
+          "\"buffer\":0,\"byteOffset\":264,\"byteLength\":4},"
           "{\"buffer\":0,\"byteOffset\":268,\"byteLength\":12}],\"accessors\":["
-          "{\"bufferView\":0,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-1.4,-0.8,-0.5],\"max\":[-0.4,0.8,0.5]},"
-          "{\"bufferView\":1,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-0.2,-0.8,-0.5],\"max\":[0.8,0.8,0.5]},"
+          "{\"bufferView\":0,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-1.4,-0.8,-0.5],\"max\":[-0."
+          "4,0.8,0.5]},"
+          "{\"bufferView\":1,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-0.2,-0.8,-0.5],\"max\":[0."
+          "8,0.8,0.5]},"
           "{\"bufferView\":2,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"},"
           "{\"bufferView\":3,\"componentType\":5126,\"count\":1,\"type\":\"SCALAR\",\"min\":[0],\"max\":[0]},"
           "{\"bufferView\":4,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}],"
-          "\"animations\":[{\"samplers\":[{\"input\":3,\"output\":4}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}}]}]}", text);
+          "\"animations\":[{\"samplers\":[{\"input\":3,\"output\":4}],\"channels\":[{\"sampler\":0,\"target\":{"
+          "\"node\":1,\"path\":\"translation\"}}]}]}",
+          text);
     return fclose(text) == 0 && ok;
 }
 
 /* How the field at places of both parts changes between two drawings; `right` is in pixels. */
 static void compare_moved(const shot *before, const shot *after, moved what, int right)
 {
-    static const char *const names[2][MOVED_KINDS] = {{"", "rests", "rests", "is turned with all"}, {"", "is moved", "is moved and turned", "is turned with all"}};
-    double sum[2] = {0}, worst[2] = {0};
-    int    count[2] = {0};
+    static const char *const names[2][MOVED_KINDS] = {{"", "rests", "rests", "is turned with all"},
+                                                      {"", "is moved", "is moved and turned", "is turned with all"}};
+    double                   sum[2] = {0}, worst[2] = {0};
+    int                      count[2] = {0};
     for (int y = 8; y < 312; y++)
         for (int x = 8; x < 312; x++) {
             /* Where the place is afterwards: a quarter about the middle of the page turns right into up. */
             int  id = before->id[y * 320 + x];
             bool own = id == 2 && what != TURNED_ALL, turned = what == TURNED_ALL || (own && what == TURNED_PART);
             int  to_x = (turned ? y : x) + (own ? right : 0), to_y = turned ? 319 - x : y;
-            if (!id || to_x >= 312 || !amid(before, x, y, 16, false) || !amid(after, to_x, to_y, 16, false) || after->id[to_y * 320 + to_x] != id)
+            if (!id || to_x >= 312 || !amid(before, x, y, 16, false) || !amid(after, to_x, to_y, 16, false) ||
+                after->id[to_y * 320 + to_x] != id)
                 continue;
-            double change = hypot(at(before, x, y, 0) - at(after, to_x, to_y, 0), at(before, x, y, 1) - at(after, to_x, to_y, 1));
+            double change =
+                hypot(at(before, x, y, 0) - at(after, to_x, to_y, 0), at(before, x, y, 1) - at(after, to_x, to_y, 1));
             sum[id - 1] += change;
             worst[id - 1] = fmax(worst[id - 1], change);
             count[id - 1]++;
         }
     for (int k = 0; k < 2; k++) {
         check_at_least("S12", count[k], 500, "pixels of the part that %s", names[k][what]);
-        check_at_most("S12", count[k] ? sum[k] / count[k] : 9, 0.05, "  mean change of the field on it, greatest %.3f", worst[k]);
+        check_at_most("S12", count[k] ? sum[k] / count[k] : 9, 0.05, "  mean change of the field on it, greatest %.3f",
+                      worst[k]);
     }
 }
 
-/* A part, or all, is moved or turned by a quarter before a still view: the field goes with it, and stays where it is on what rests. */
+/* A part, or all, is moved or turned by a quarter before a still view: the field goes with it, and stays where it
+ * is on what rests. */
 static void moved_part(void)
 {
-    char rest[560];
+    char      rest[560];
     shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true};
-    double pixel = 2 * 12 * tan(15 * pi / 180) / 320;
-    shot   before;
-    bool   ok = check_that("S12", write_moving("rest.gltf", 0, MOVED_NOTHING), "a model is written");
+    double    pixel = 2 * 12 * tan(15 * pi / 180) / 320;
+    shot      before;
+    bool      ok = check_that("S12", write_moving("rest.gltf", 0, MOVED_NOTHING), "a model is written");
     snprintf(rest, sizeof rest, "%s", check_path("rest.gltf"));
     ok = ok && shot_take(&before, rest, look_of("\"lock\":\"object\""), NULL, &view) && before.uncertainty;
     for (int what = MOVED_PART; what < MOVED_KINDS && ok; what++) {
         shot after;
         ok = write_moving("moved.gltf", 40 * pixel, (moved)what) &&
-             shot_take(&after, check_path("moved.gltf"), look_of("\"lock\":\"object\""), NULL, &view) && after.uncertainty;
+             shot_take(&after, check_path("moved.gltf"), look_of("\"lock\":\"object\""), NULL, &view) &&
+             after.uncertainty;
         if (ok)
             compare_moved(&before, &after, (moved)what, 40);
         shot_release(&after);
@@ -574,22 +621,24 @@ static double mean_drift(const drift *d, place_class class)
     return d->count[class] ? d->sum[class] / (double)d->count[class] : INFINITY;
 }
 
-/* The field of a turning, approaching model, frame by frame, for one that stays on the model, one on the page and one that is new in
- * each frame. */
+/* The field of a turning, approaching model, frame by frame, for one that stays on the model, one on the page and
+ * one that is new in each frame. */
 static void coherence(void)
 {
     enum { FRAMES = 60 };
     /* Waves of a tenth of the picture, as the look "sketch" has them on a page. */
-    static const char *const settings[3] = {"\"amount\":4,\"scale\":40,\"lock\":\"object\"", "\"amount\":4,\"scale\":40,\"lock\":\"screen\"",
+    static const char *const settings[3] = {"\"amount\":4,\"scale\":40,\"lock\":\"object\"",
+                                            "\"amount\":4,\"scale\":40,\"lock\":\"screen\"",
                                             "\"amount\":4,\"scale\":40,\"lock\":\"screen\""};
-    /* Round silhouettes slide over the surface as fast as it moves on the page: outside of them nothing can be tied to a place of it. And
-     * whoever approaches must see waves fade in and out, or they would not keep their length on the page. */
-    static const double limits[PLACE_CLASSES] = {0.25, 0.4, 0.8, 0.8};
+    /* Round silhouettes slide over the surface as fast as it moves on the page: outside of them nothing can be tied
+     * to a place of it. And whoever approaches must see waves fade in and out, or they would not keep their length
+     * on the page. */
+    static const double      limits[PLACE_CLASSES] = {0.25, 0.4, 0.8, 0.8};
     static const char *const names[3] = {"on the model", "on the page", "new each frame"};
-    shape s = {0};
-    shot  before[3] = {{0}};
-    drift drifts[3] = {{{0}}};
-    bool  ok = true;
+    shape                    s = {0};
+    shot                     before[3] = {{0}};
+    drift                    drifts[3] = {{{0}}};
+    bool                     ok = true;
     model(&s);
     for (int frame = 0; frame < FRAMES && ok; frame++) {
         shot now[3] = {{0}};
@@ -612,12 +661,16 @@ static void coherence(void)
     check_that("S11", ok, "%d frames are drawn", FRAMES);
     for (int c = 0; c < PLACE_CLASSES && ok; c++) {
         for (int k = 0; k < 3; k++)
-            check_note("%-33s %-15s mean change %.4f, greatest %.3f, above 0.25: %.5f of %zu", place_names[c], names[k], mean_drift(&drifts[k], (place_class)c),
-                       drifts[k].worst[c], (double)drifts[k].jumps[c] / (double)drifts[k].count[c], drifts[k].count[c]);
-        check_at_most("S12", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[1], (place_class)c), limits[c], "%s: change a frame, on the model over on the page",
-                      place_names[c]);
-        check_at_most("S11", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[2], (place_class)c), 0.1, "  on the model over new each frame");
-        check_at_most("S11", (double)drifts[0].jumps[c] / (double)drifts[1].jumps[c], 0.4, "  places whose lines jump by a quarter of the amount from a frame to the next, over those on the page");
+            check_note("%-33s %-15s mean change %.4f, greatest %.3f, above 0.25: %.5f of %zu", place_names[c], names[k],
+                       mean_drift(&drifts[k], (place_class)c), drifts[k].worst[c],
+                       (double)drifts[k].jumps[c] / (double)drifts[k].count[c], drifts[k].count[c]);
+        check_at_most("S12", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[1], (place_class)c), limits[c],
+                      "%s: change a frame, on the model over on the page", place_names[c]);
+        check_at_most("S11", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[2], (place_class)c), 0.1,
+                      "  on the model over new each frame");
+        check_at_most(
+            "S11", (double)drifts[0].jumps[c] / (double)drifts[1].jumps[c], 0.4,
+            "  places whose lines jump by a quarter of the amount from a frame to the next, over those on the page");
     }
     double all[3] = {0};
     for (int k = 0; k < 3; k++) {
@@ -632,17 +685,20 @@ static void coherence(void)
 
 static void standstill(void)
 {
-    static const char *const settings[] = {"\"lock\":\"object\",\"amount\":6", "\"lock\":\"screen\",\"amount\":6,\"rough\":2,\"repeat\":2",
-                                           "\"lock\":\"object\",\"amount\":6,\"outward\":\"enlarged\",\"pressure\":0.5"};
+    static const char *const settings[] = {
+        "\"lock\":\"object\",\"amount\":6", "\"lock\":\"screen\",\"amount\":6,\"rough\":2,\"repeat\":2",
+        "\"lock\":\"object\",\"amount\":6,\"outward\":\"enlarged\",\"pressure\":0.5"};
     shape s = {0};
     model(&s);
     for (int k = 0; k < 3; k++) {
         shot      a, b, other;
         shot_view view = frame_view(7), between = frame_view(30);
         bool      ok = field_of(&a, &s, settings[k], &view);
-        ok = field_of(&other, &s, settings[k], &between) && ok; /* what was drawn in between must leave nothing behind */
+        ok =
+            field_of(&other, &s, settings[k], &between) && ok; /* what was drawn in between must leave nothing behind */
         if (field_of(&b, &s, settings[k], &view) && ok) {
-            check_that("C23", memcmp(a.picture, b.picture, (size_t)(a.width * a.height) * 4) == 0, "the same frame again has the same pixels, %s", settings[k]);
+            check_that("C23", memcmp(a.picture, b.picture, (size_t)(a.width * a.height) * 4) == 0,
+                       "the same frame again has the same pixels, %s", settings[k]);
             check_at_most("C23", largest_difference(&a, &b), 0, "  and the same field");
         }
         shot_release(&a);
@@ -656,13 +712,14 @@ static void standstill(void)
 static void panned(void)
 {
     static const int ways[] = {10, 7, 33};
-    shape s = {0};
+    shape            s = {0};
     model(&s);
     for (int k = 0; k < 3; k++) {
         shot      a, b;
-        shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true}, moved = view;
-        double    pixel = 2 * 12 * tan(15 * pi / 180) / 320, worst = 0, sum = 0;
-        int       count = 0, far = 0, wx = 0, wy = 0;
+        shot_view view = {.width = 320, .height = 320, .eye = {0, 0, 12}, .up = {0, 1, 0}, .orthographic = true},
+                  moved = view;
+        double pixel = 2 * 12 * tan(15 * pi / 180) / 320, worst = 0, sum = 0;
+        int    count = 0, far = 0, wx = 0, wy = 0;
         moved.eye.x -= ways[k] * pixel;
         moved.target.x -= ways[k] * pixel;
         bool ok = field_of(&a, &s, "\"lock\":\"object\"", &view);
@@ -670,7 +727,8 @@ static void panned(void)
             for (int y = 10; y < 310; y++)
                 for (int x = 10; x < 270; x++)
                     if (isfinite(a.depth[y * 320 + x])) {
-                        double change = hypot(at(&a, x, y, 0) - at(&b, x + ways[k], y, 0), at(&a, x, y, 1) - at(&b, x + ways[k], y, 1));
+                        double change = hypot(at(&a, x, y, 0) - at(&b, x + ways[k], y, 0),
+                                              at(&a, x, y, 1) - at(&b, x + ways[k], y, 1));
                         if (change > worst) {
                             worst = change;
                             wx = x;
@@ -681,7 +739,9 @@ static void panned(void)
                         count++;
                     }
             check_at_most("S12", sum / count, 0.02, "moved by %d px: mean change of the field on the model", ways[k]);
-            check_at_most("S12", (double)far / count, 0.003, "  share of places where it changes by more than 0.3 (the greatest, %.3f, at %d %d)", worst, wx, wy);
+            check_at_most("S12", (double)far / count, 0.003,
+                          "  share of places where it changes by more than 0.3 (the greatest, %.3f, at %d %d)", worst,
+                          wx, wy);
         }
         shot_release(&a);
         shot_release(&b);
@@ -689,17 +749,20 @@ static void panned(void)
     shape_release(&s);
 }
 
-/* Is the figure within 14 px? Farther outside no lookup of an ordinary drawing comes from, and the field may end anyhow. */
+/* Is the figure within 14 px? Farther outside no lookup of an ordinary drawing comes from, and the field may end
+ * anyhow. */
 static bool near_figure(const shot *s, int x, int y)
 {
     for (int v = -14; v <= 14; v++)
         for (int u = -14; u <= 14; u++)
-            if (u * u + v * v <= 196 && x + u >= 0 && y + v >= 0 && x + u < s->width && y + v < s->height && isfinite(s->depth[(y + v) * s->width + x + u]))
+            if (u * u + v * v <= 196 && x + u >= 0 && y + v >= 0 && x + u < s->width && y + v < s->height &&
+                isfinite(s->depth[(y + v) * s->width + x + u]))
                 return true;
     return false;
 }
 
-/* How much neighbouring pixels differ: the most, where, and how often by more than any smooth wave of this scale has it. */
+/* How much neighbouring pixels differ: the most, where, and how often by more than any smooth wave of this scale
+ * has it. */
 typedef struct steepness {
     double worst;
     int    x, y, jumps;
@@ -711,7 +774,8 @@ static steepness steepness_of(const shot *s)
     for (int y = RIM; y < s->height - RIM; y++)
         for (int x = RIM; x < s->width - RIM; x++)
             for (int c = 0; c < 2; c++) {
-                double step = fmax(fabs(at(s, x, y, c) - at(s, x + 1, y, c)), fabs(at(s, x, y, c) - at(s, x, y + 1, c)));
+                double step =
+                    fmax(fabs(at(s, x, y, c) - at(s, x + 1, y, c)), fabs(at(s, x, y, c) - at(s, x, y + 1, c)));
                 if (step < 0.2 && step <= r.worst)
                     continue;
                 if (!near_figure(s, x, y))
@@ -742,8 +806,10 @@ static void continuity(void)
         bool      ok = field_of(&smooth, &s, "\"lock\":\"object\"", &view);
         if (field_of(&enlarged, &s, "\"lock\":\"object\",\"outward\":\"enlarged\"", &view) && ok) {
             steepness a = steepness_of(&smooth), b = steepness_of(&enlarged);
-            check_at_most("S12", a.worst, 4 * 2 * pi / 60, "frame %d: greatest difference of neighbouring pixels (at %d, %d from the upper left), spread from surfaces", frame,
-                          a.x, a.y);
+            check_at_most("S12", a.worst, 4 * 2 * pi / 60,
+                          "frame %d: greatest difference of neighbouring pixels (at %d, %d from the upper left), "
+                          "spread from surfaces",
+                          frame, a.x, a.y);
             check_at_least("S13", b.worst / a.worst, 1.5, "  how much more it is with the enlarged model");
             check_note("enlarged: %.3f; pairs that differ by more than 0.2: %d and %d", b.worst, a.jumps, b.jumps);
             smooth_jumps += a.jumps;
@@ -753,11 +819,12 @@ static void continuity(void)
         shot_release(&enlarged);
     }
     check_at_least("S13", enlarged_jumps, 100, "jumps of the field of the enlarged model");
-    check_at_most("S13", (double)smooth_jumps / enlarged_jumps, 1 / 3.0, "  jumps of the field spread from surfaces over those");
+    check_at_most("S13", (double)smooth_jumps / enlarged_jumps, 1 / 3.0,
+                  "  jumps of the field spread from surfaces over those");
     shape_release(&s);
 }
 
-/* --- beside the model ---------------------------------------------------------------------------------------------- */
+/* --- beside the model ----------------------------------------------------------------------------------- */
 
 static void enlarged(void)
 {
@@ -767,10 +834,13 @@ static void enlarged(void)
             char      settings[96];
             shape     s = {0};
             shot      field;
-            shot_view view = {.width = 360, .height = 360, .eye = {0, 0.3 * distances[k], distances[k]}, .up = {0, 1, 0}};
-            int       width = wide ? 30 : 12, band = 0, empty = 0, beyond = 0, traces = 0, inner = 0, holes = 0;
+            shot_view view = {
+                .width = 360, .height = 360, .eye = {0, 0.3 * distances[k], distances[k]}, .up = {0, 1, 0}};
+            int width = wide ? 30 : 12, band = 0, empty = 0, beyond = 0, traces = 0, inner = 0, holes = 0;
             shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
-            snprintf(settings, sizeof settings, "\"lock\":\"object\",\"amount\":%d,\"scale\":24,\"outward\":\"enlarged\",\"enlarge\":%d", width, width);
+            snprintf(settings, sizeof settings,
+                     "\"lock\":\"object\",\"amount\":%d,\"scale\":24,\"outward\":\"enlarged\",\"enlarge\":%d", width,
+                     width);
             if (field_of(&field, &s, settings, &view)) {
                 dvec   middle = shot_project(&field, dvec_of(0, 0, 0));
                 double radius = 0;
@@ -787,8 +857,10 @@ static void enlarged(void)
                     beyond += far > width + 6;
                     traces += far > width + 6 && there;
                 }
-                check_at_most("S13", (double)empty / band, 0.02, "enlarged by %d px, distance %g: share of the band outside the silhouette (radius %.0f) without a field", width,
-                              distances[k], radius);
+                check_at_most("S13", (double)empty / band, 0.02,
+                              "enlarged by %d px, distance %g: share of the band outside the silhouette (radius %.0f) "
+                              "without a field",
+                              width, distances[k], radius);
                 check_at_most("S13", (double)holes / inner, 0.02, "  share of what is inside without one");
                 check_at_most("S13", (double)traces / beyond, 0.002, "  share of what is farther outside with one");
             }
@@ -821,7 +893,8 @@ static void outside(void)
                 count[far > 0]++;
                 missing += far > 0 && hypot(n, m) < 1e-4;
             }
-            check_near("S13", sqrt(sum[1] / count[1] / (sum[0] / count[0])), 0.9, 0.4, "scale %d: strength of the field up to %d px outside over that inside", cases[k][1],
+            check_near("S13", sqrt(sum[1] / count[1] / (sum[0] / count[0])), 0.9, 0.4,
+                       "scale %d: strength of the field up to %d px outside over that inside", cases[k][1],
                        cases[k][0]);
             check_at_most("S13", (double)missing / count[1], 0.01, "  share of the pixels there without a field");
         }
@@ -830,7 +903,7 @@ static void outside(void)
     }
 }
 
-/* --- of other properties ------------------------------------------------------------------------------------------- */
+/* --- of other properties -------------------------------------------------------------------------------- */
 
 static void by_normal(void)
 {
@@ -854,8 +927,10 @@ static void by_normal(void)
             }
         for (int k = 0; k < 3; k++)
             if (check_at_least("S12", count[k], 500, "by normal: pixels amid face %d of a box", k))
-                check_at_most("S12", high[k] - low[k], 0.01, "  difference of the field among them (about %.3f)", low[k]);
-        check_at_least("S12", fmax(fabs(low[0] - low[1]), fmax(fabs(low[1] - low[2]), fabs(low[0] - low[2]))), 0.05, "  difference of faces");
+                check_at_most("S12", high[k] - low[k], 0.01, "  difference of the field among them (about %.3f)",
+                              low[k]);
+        check_at_least("S12", fmax(fabs(low[0] - low[1]), fmax(fabs(low[1] - low[2]), fabs(low[0] - low[2]))), 0.05,
+                       "  difference of faces");
     }
     shot_release(&field);
     shape_release(&s);
@@ -884,7 +959,8 @@ static void by_curvature(void)
             }
         for (int k = 0; k < 2; k++)
             if (check_at_least("S12", count[k], 500, "by curvature: pixels amid the %s ball", k ? "small" : "large"))
-                check_at_most("S12", high[k] - low[k], 0.12, "  difference of the field among them (mean %.3f)", mean[k] / count[k]);
+                check_at_most("S12", high[k] - low[k], 0.12, "  difference of the field among them (mean %.3f)",
+                              mean[k] / count[k]);
         check_at_least("S12", fabs(mean[0] / count[0] - mean[1] / count[1]), 0.05, "  difference of the balls");
     }
     shot_release(&field);
@@ -894,9 +970,23 @@ static void by_curvature(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"noise", noise},         {"seeds", seeds_and_time},   {"waves", waves},           {"tiles", tiles},           {"middle", middle}, {"turbulence", turbulence},
-        {"rim", rim},             {"distances", distances},    {"coherence", coherence},   {"standstill", standstill}, {"panned", panned},         {"moved part", moved_part},
-        {"continuity", continuity}, {"enlarged", enlarged},    {"outside", outside},       {"normal", by_normal},      {"curvature", by_curvature},
+        {"noise", noise},
+        {"seeds", seeds_and_time},
+        {"waves", waves},
+        {"tiles", tiles},
+        {"middle", middle},
+        {"turbulence", turbulence},
+        {"rim", rim},
+        {"distances", distances},
+        {"coherence", coherence},
+        {"standstill", standstill},
+        {"panned", panned},
+        {"moved part", moved_part},
+        {"continuity", continuity},
+        {"enlarged", enlarged},
+        {"outside", outside},
+        {"normal", by_normal},
+        {"curvature", by_curvature},
     };
     int status = check_main(argc, argv, "sketch_field", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,4 +1,5 @@
-/* Perturbed layers against a CPU twin: one field moves all of them, so that they keep their order and their shared edges. */
+/* Perturbed layers against a CPU twin: one field moves all of them, so that they keep their order and their shared
+ * edges. */
 #include <limner/draw.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +10,11 @@
 #include "sketch_twin.h"
 
 #define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ece4d2\"},\"rules\":[" RULES "]}"
-#define INK "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#102080c0\"}"
-#define ALL_LAYERS "\"layers\":{\"technique\":\"peel\",\"count\":0}"
+#define INK         "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#102080c0\"}"
+#define ALL_LAYERS  "\"layers\":{\"technique\":\"peel\",\"count\":0}"
 
-static const uint8_t ground_bytes[3] = {0xec, 0xe4, 0xd2}, ink_bytes[3] = {0x10, 0x20, 0x80}, tint_bytes[3] = {0x20, 0x50, 0xc0}, red_bytes[3] = {255, 0x20, 0x10};
+static const uint8_t ground_bytes[3] = {0xec, 0xe4, 0xd2}, ink_bytes[3] = {0x10, 0x20, 0x80},
+                     tint_bytes[3] = {0x20, 0x50, 0xc0}, red_bytes[3] = {255, 0x20, 0x10};
 
 static const shot_view views[] = {
     {.width = 200, .height = 160, .eye = {4, 3, 5}, .up = {0, 1, 0}},
@@ -35,7 +37,11 @@ typedef struct stack_style {
 /* A layer's colour and depth at a pixel; alpha 0 where it has nothing. */
 static sketch_paint layer_at(const sketch_maps *m, const stack_style *style, int k, int x, int y, double *depth)
 {
-    sketch_style lines = {.amount = style->amount, .edges = style->edges, .ink = sketch_colour(ink_bytes, 0xc0 / 255.0), .repeat = style->repeat, .repeat_degree = 1};
+    sketch_style lines = {.amount = style->amount,
+                          .edges = style->edges,
+                          .ink = sketch_colour(ink_bytes, 0xc0 / 255.0),
+                          .repeat = style->repeat,
+                          .repeat_degree = 1};
     sketch_place s = sketch_moved(m, x, y, style->amount, style->shades);
     sketch_paint fill = {0, 0, 0, 0}, all = {0, 0, 0, 0};
     double       line_depth;
@@ -56,7 +62,8 @@ static sketch_paint layer_at(const sketch_maps *m, const stack_style *style, int
     return isfinite(*depth) ? sketch_over(all, fill) : (sketch_paint){0, 0, 0, 0};
 }
 
-/* Every pixel of a drawing whose layers' maps are at hand. `other`: the field that odd layers take instead of the drawing's own, or NULL. */
+/* Every pixel of a drawing whose layers' maps are at hand. `other`: the field that odd layers take instead of the
+ * drawing's own, or NULL. */
 static sketch_tally against_layers(const shot *s, const stack_style *style, const shot *other)
 {
     sketch_tally t = {0};
@@ -75,7 +82,7 @@ static sketch_tally against_layers(const shot *s, const stack_style *style, cons
     return t;
 }
 
-/* --- whole pictures ------------------------------------------------------------------------------------------------ */
+/* --- whole pictures ------------------------------------------------------------------------------------- */
 
 typedef struct layered_case {
     const char *compose, *perturb;
@@ -84,18 +91,27 @@ typedef struct layered_case {
 } layered_case;
 
 static const layered_case cases[] = {
-    {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2,\"once\":false}", "{\"technique\":\"uncertainty\",\"amount\":6}",
-     {6, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 1}, 0.995},
+    {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2,\"once\":false}",
+     "{\"technique\":\"uncertainty\",\"amount\":6}",
+     {6, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 1},
+     0.995},
     {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.3,\"once\":false,\"hidden_opacity\":0.5}",
-     "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"edges_xy\":0.7,\"edges_yx\":-0.4,\"shades_xx\":0.2,\"shades_xy\":1.1}",
-     {9, {1, 0.7, -0.4, 1}, {0.2, 1.1, 0, -0.75}, FILL_TINT, 0.3, 0.5}, 0.995},
-    {"{\"technique\":\"xray\",\"opacity\":0.4,\"once\":false}", "{\"technique\":\"uncertainty\",\"amount\":7,\"scale\":45}",
-     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_SHADE, 0.4, 1}, 0.995},
-    {"{\"technique\":\"wire\",\"once\":false}", "{\"technique\":\"uncertainty\",\"amount\":7,\"field\":\"turbulence\"}",
-     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_NONE, 0, 1}, 0.99},
+     "{\"technique\":\"uncertainty\",\"amount\":9,\"lock\":\"screen\",\"edges_xy\":0.7,\"edges_yx\":-0.4,\"shades_xx\":"
+     "0.2,\"shades_xy\":1.1}",
+     {9, {1, 0.7, -0.4, 1}, {0.2, 1.1, 0, -0.75}, FILL_TINT, 0.3, 0.5},
+     0.995},
+    {"{\"technique\":\"xray\",\"opacity\":0.4,\"once\":false}",
+     "{\"technique\":\"uncertainty\",\"amount\":7,\"scale\":45}",
+     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_SHADE, 0.4, 1},
+     0.995},
+    {"{\"technique\":\"wire\",\"once\":false}",
+     "{\"technique\":\"uncertainty\",\"amount\":7,\"field\":\"turbulence\"}",
+     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_NONE, 0, 1},
+     0.99},
     {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2,\"once\":false,\"hidden_opacity\":0.6}",
      "{\"technique\":\"uncertainty\",\"amount\":7,\"repeat\":3,\"repeat_colours\":[\"#ff2010\"]}",
-     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 0.6, 3}, 0.995},
+     {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 0.6, 3},
+     0.995},
 };
 
 enum { CASES = sizeof cases / sizeof *cases };
@@ -106,14 +122,17 @@ static const char *look_of(const layered_case *c, const char *producer, const ch
     static int  next;
     char       *text = texts[next];
     next = (next + 1) % 4;
-    snprintf(text, sizeof texts[0], LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"model_colour\":1}," INK
-                                         ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},\"compose\":%s,\"perturb\":%s}"),
-             producer, c->compose, perturb ? perturb : c->perturb);
+    snprintf(
+        text, sizeof texts[0],
+        LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"model_colour\":1}," INK
+             ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"producer\":\"%s\"},\"compose\":%s,\"perturb\":%s}"),
+        producer, c->compose, perturb ? perturb : c->perturb);
     return text;
 }
 
 /* Is a field tied to one seed the field of all layers? A drawing, and one of another seed for its field. */
-static bool take_pair(shot *drawn, shot *other, const layered_case *c, scene_kind kind, uint32_t seed, const char *producer, const shot_view *view)
+static bool take_pair(shot *drawn, shot *other, const layered_case *c, scene_kind kind, uint32_t seed,
+                      const char *producer, const shot_view *view)
 {
     shape     s = {0};
     shot_view reseeded = *view;
@@ -123,7 +142,8 @@ static bool take_pair(shot *drawn, shot *other, const layered_case *c, scene_kin
     bool ok = shot_of_shape(drawn, &s, "layers.glb", look_of(c, producer, NULL), NULL, view);
     ok = shot_of_shape(other, &s, "layers.glb", look_of(c, producer, NULL), NULL, &reseeded) && ok;
     shape_release(&s);
-    return ok && check_that("S10", drawn->uncertainty && other->uncertainty, "the drawings have their fields of uncertainty");
+    return ok &&
+           check_that("S10", drawn->uncertainty && other->uncertainty, "the drawings have their fields of uncertainty");
 }
 
 static void whole_pictures(void)
@@ -133,11 +153,14 @@ static void whole_pictures(void)
             char title[160];
             shot drawn, other;
             snprintf(title, sizeof title, "%.*s, view %d, %s", 40, cases[c].compose, v, v % 2 ? "lists" : "peeling");
-            if (take_pair(&drawn, &other, &cases[c], (scene_kind)((c + (size_t)v) % 3), 80 + (uint32_t)v, v % 2 ? "lists" : "peeling", &views[v])) {
-                sketch_tally t = against_layers(&drawn, &cases[c].style, NULL), apart = against_layers(&drawn, &cases[c].style, &other);
+            if (take_pair(&drawn, &other, &cases[c], (scene_kind)((c + (size_t)v) % 3), 80 + (uint32_t)v,
+                          v % 2 ? "lists" : "peeling", &views[v])) {
+                sketch_tally t = against_layers(&drawn, &cases[c].style, NULL),
+                             apart = against_layers(&drawn, &cases[c].style, &other);
                 check_at_least("S10", drawn.layer_count, 4, "layers");
                 sketch_check("C20", &t, &drawn, cases[c].share, title);
-                check_at_least("C21", apart.pixels - apart.right - (t.pixels - t.right), 500, "  more pixels that are wrong when every other layer is given another field");
+                check_at_least("C21", apart.pixels - apart.right - (t.pixels - t.right), 500,
+                               "  more pixels that are wrong when every other layer is given another field");
             }
             shot_release(&drawn);
             shot_release(&other);
@@ -147,13 +170,15 @@ static void whole_pictures(void)
 /* What is displaced far gets into parts of the page where the layer itself is not: none of them may be left out. */
 static void far_away(void)
 {
-    static const char *const producers[] = {"peeling", "lists"};
-    static const layered_case c = {"{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2,\"once\":false}",
-                                   "{\"technique\":\"uncertainty\",\"amount\":45,\"scale\":120,\"lock\":\"screen\"}",
-                                   {45, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 1}, 0.995};
+    static const char *const  producers[] = {"peeling", "lists"};
+    static const layered_case c = {
+        "{\"technique\":\"blueprint\",\"tint\":\"#2050c0\",\"tint_opacity\":0.2,\"once\":false}",
+        "{\"technique\":\"uncertainty\",\"amount\":45,\"scale\":120,\"lock\":\"screen\"}",
+        {45, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_TINT, 0.2, 1},
+        0.995};
     for (int p = 0; p < 2; p++) {
-        shape s = {0};
-        shot  drawn;
+        shape     s = {0};
+        shot      drawn;
         shot_view view = {.width = 400, .height = 360, .eye = {0, 0, 10}, .up = {0, 1, 0}, .orthographic = true};
         shape_quad(&s, "large", 1, -0.5);
         shape_place(&s, dvec_of(0, 0, 1), 20, dvec_of(-0.3, 0, 0));
@@ -175,10 +200,10 @@ static void far_away(void)
 static void pieces(void)
 {
     const char *change[] = {"layers.memory", "1", NULL};
-    shape     s = {0};
-    shot      whole, parts;
-    shot_view view = views[0];
-    int       differ = 0;
+    shape       s = {0};
+    shot        whole, parts;
+    shot_view   view = views[0];
+    int         differ = 0;
     view.width = view.height = 400;
     scene_make(&s, SCENE_CROSSING, 130);
     bool ok = shot_of_shape(&whole, &s, "pieces.glb", look_of(&cases[1], "lists", NULL), NULL, &view);
@@ -186,7 +211,8 @@ static void pieces(void)
         for (int i = 0; i < 400 * 400; i++)
             for (int k = 0; k < 4; k++)
                 differ += abs(whole.picture[4 * i + k] - parts.picture[4 * i + k]) > 1;
-        check_note("with 1 MiB the layers come from %s%s", parts.layer_producer, shot_has_warning(&parts, "layer-memory") ? ", with a warning" : "");
+        check_note("with 1 MiB the layers come from %s%s", parts.layer_producer,
+                   shot_has_warning(&parts, "layer-memory") ? ", with a warning" : "");
         check_at_most("S10", differ, 0, "values that differ when lists may take 1 MiB alone");
     }
     shot_release(&whole);
@@ -194,9 +220,10 @@ static void pieces(void)
     shape_release(&s);
 }
 
-/* --- order --------------------------------------------------------------------------------------------------------- */
+/* --- order ---------------------------------------------------------------------------------------------- */
 
-/* Pixels and layers at which a deeper layer gets before a nearer one, when each is as deep as the nearer of its two lookups. */
+/* Pixels and layers at which a deeper layer gets before a nearer one, when each is as deep as the nearer of its two
+ * lookups. */
 static int violations(const shot *s, const stack_style *style, const shot *other, int *pairs)
 {
     int count = 0;
@@ -221,12 +248,14 @@ static void order(void)
 {
     for (int kind = 0; kind < SCENE_KINDS; kind++)
         for (int v = 0; v < 3; v++) {
-            shot drawn, other;
-            int  pairs = 0, unused = 0;
+            shot                drawn, other;
+            int                 pairs = 0, unused = 0;
             const layered_case *c = &cases[v % 2];
             if (take_pair(&drawn, &other, c, (scene_kind)kind, 90 + (uint32_t)(3 * kind + v), "auto", &views[v])) {
-                int own = violations(&drawn, &c->style, NULL, &pairs), unshared = violations(&drawn, &c->style, &other, &unused);
-                check_at_most("C21", own, 0, "%s, view %d: of %d pairs of layers, those that change their order", scene_names[kind], v, pairs);
+                int own = violations(&drawn, &c->style, NULL, &pairs),
+                    unshared = violations(&drawn, &c->style, &other, &unused);
+                check_at_most("C21", own, 0, "%s, view %d: of %d pairs of layers, those that change their order",
+                              scene_names[kind], v, pairs);
                 check_at_least("C21", unshared, 100, "  and when every other layer is given another field");
             }
             shot_release(&drawn);
@@ -234,16 +263,21 @@ static void order(void)
         }
 }
 
-/* An exact opaque part amid perturbed layers: those whose nearer lookup lies before it are seen before it, no others. */
+/* An exact opaque part amid perturbed layers: those whose nearer lookup lies before it are seen before it, no
+ * others. */
 static void opaque_amid(void)
 {
     for (int v = 0; v < 3; v++) {
         const layered_case *c = &cases[v % 2];
-        char  look[1024];
-        shape s = {0};
-        shot  both, layers, core;
-        snprintf(look, sizeof look, LOOK("{\"select\":\"closed*\",\"surface\":\"flat\"," INK "," ALL_LAYERS ",\"compose\":%s,\"perturb\":%s},"
-                                         "{\"select\":\"core\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff2010\"}}"), c->compose, c->perturb);
+        char                look[1024];
+        shape               s = {0};
+        shot                both, layers, core;
+        snprintf(look, sizeof look,
+                 LOOK("{\"select\":\"closed*\",\"surface\":\"flat\"," INK "," ALL_LAYERS
+                      ",\"compose\":%s,\"perturb\":%s},"
+                      "{\"select\":\"core\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":\"flat\","
+                      "\"colour\":\"#ff2010\"}}"),
+                 c->compose, c->perturb);
         scene_make(&s, SCENE_CLOSED, 17 + (uint32_t)v);
         shape_sphere(&s, "core", dvec_of(0.1, 0, 0.05), 0.5, 24, 48, true);
         shot_view of_layers = views[v], of_core = views[v];
@@ -280,16 +314,20 @@ static void opaque_amid(void)
     }
 }
 
-/* --- shared edges -------------------------------------------------------------------------------------------------- */
+/* --- shared edges --------------------------------------------------------------------------------------- */
 
-#define WIRE(COLOUR, HIDDEN, COUNT, REST) \
-    LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"" COLOUR "\"}," \
-         "\"layers\":{\"technique\":\"peel\",\"count\":" #COUNT "},\"compose\":{\"technique\":\"xray\",\"opacity\":0,\"once\":false,\"hidden_colour\":\"" HIDDEN "\"}" REST "}")
+#define WIRE(COLOUR, HIDDEN, COUNT, REST)                                                                              \
+    LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"" COLOUR       \
+         "\"},"                                                                                                        \
+         "\"layers\":{\"technique\":\"peel\",\"count\":" #COUNT                                                        \
+         "},\"compose\":{\"technique\":\"xray\",\"opacity\":0,\"once\":false,\"hidden_colour\":\"" HIDDEN "\"}" REST   \
+         "}")
 #define WAVES ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":9,\"scale\":40}"
 
 static double ink_at(const shot *s, int x, int y)
 {
-    return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0 : (0xec - fmin(0xec, sketch_pixel(s, x, y)[0])) / 236.0;
+    return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0
+                                                             : (0xec - fmin(0xec, sketch_pixel(s, x, y)[0])) / 236.0;
 }
 
 /* How alike the ink of two drawings is when one is moved. */
@@ -309,11 +347,13 @@ static double likeness(const shot *a, const shot *b, int dx, int dy)
 /* The outline of a box belongs to its front and to its back: two layers. */
 static void shared_edges(void)
 {
-    static const char front[] = WIRE("#000000", "#000000", 1, WAVES), back[] = WIRE("none", "#000000", 2, WAVES), exact[] = WIRE("#000000", "#000000", 1, "");
+    static const char front[] = WIRE("#000000", "#000000", 1, WAVES), back[] = WIRE("none", "#000000", 2, WAVES),
+                      exact[] = WIRE("#000000", "#000000", 1, "");
     for (int v = 0; v < 2; v++) {
-        shot_view view = {.width = 240, .height = 220, .eye = {4, 3, 5}, .up = {0, 1, 0}, .orthographic = v}, reseeded = view;
-        shape     s = {0};
-        shot      a, b, unlike, still;
+        shot_view view = {.width = 240, .height = 220, .eye = {4, 3, 5}, .up = {0, 1, 0}, .orthographic = v},
+                  reseeded = view;
+        shape s = {0};
+        shot  a, b, unlike, still;
         reseeded.seed = 5;
         shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
         bool ok = shot_of_shape(&a, &s, "box.glb", front, NULL, &view);
@@ -333,9 +373,12 @@ static void shared_edges(void)
                         best_y = dy;
                     }
                 }
-            check_near("C22", hypot(best_x, best_y), 0, 0, "px between the places of an outline in two layers, where they are most alike");
-            check_at_least("C22", at_zero, 0.55, "  how alike they are there: the outline is some two thirds of the ink");
-            check_at_most("C22", other_best / at_zero, 0.7, "  the same with another field for the hidden layer, at its best, over that");
+            check_near("C22", hypot(best_x, best_y), 0, 0,
+                       "px between the places of an outline in two layers, where they are most alike");
+            check_at_least("C22", at_zero, 0.55,
+                           "  how alike they are there: the outline is some two thirds of the ink");
+            check_at_most("C22", other_best / at_zero, 0.7,
+                          "  the same with another field for the hidden layer, at its best, over that");
             check_at_most("C22", likeness(&a, &still, 0, 0), 0.6, "  with the exact drawing");
         }
         shot_release(&a);
@@ -346,26 +389,33 @@ static void shared_edges(void)
     }
 }
 
-/* An edge that repeats in the next layer is inked once, perturbed or not: with half-transparent ink it would be darker otherwise. */
+/* An edge that repeats in the next layer is inked once, perturbed or not: with half-transparent ink it would be
+ * darker otherwise. */
 static void inked_once(void)
 {
-    static const char *const perturbs[] = {"", ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8}", ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8,\"lock\":\"screen\"}"};
+    static const char *const perturbs[] = {
+        "", ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8}",
+        ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8,\"lock\":\"screen\"}"};
     int   dark[3] = {0}, twice[3] = {0};
     shape s = {0};
     shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     for (int k = 0; k < 6; k++) {
         char look[768];
         shot drawn;
-        snprintf(look, sizeof look, LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#00000080\"}," ALL_LAYERS
-                                         ",\"compose\":{\"technique\":\"xray\",\"opacity\":0,\"once\":%s}%s}"), k < 3 ? "true" : "false", perturbs[k % 3]);
+        snprintf(look, sizeof look,
+                 LOOK("{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#"
+                      "00000080\"}," ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0,\"once\":%s}%s}"),
+                 k < 3 ? "true" : "false", perturbs[k % 3]);
         if (shot_of_shape(&drawn, &s, "once.glb", look, NULL, &views[0]))
             for (int i = 0; i < drawn.width * drawn.height; i++)
                 *(k < 3 ? &dark[k] : &twice[k - 3]) += drawn.picture[4 * i] < 150; /* one layer of ink: 174 */
         shot_release(&drawn);
     }
     for (int k = 0; k < 3; k++) {
-        check_at_least("C22", twice[k], 150, "%s: pixels that are inked twice when repeated edges are kept", *perturbs[k] ? perturbs[k] + 11 : "exact");
-        check_at_most("C22", (double)dark[k] / twice[k], 0.2, "  share of them (and of crossings) that stay without repeated edges");
+        check_at_least("C22", twice[k], 150, "%s: pixels that are inked twice when repeated edges are kept",
+                       *perturbs[k] ? perturbs[k] + 11 : "exact");
+        check_at_most("C22", (double)dark[k] / twice[k], 0.2,
+                      "  share of them (and of crossings) that stay without repeated edges");
     }
     shape_release(&s);
 }
@@ -373,18 +423,22 @@ static void inked_once(void)
 /* A cut face's hatching is drawn once, with the lines, whatever moves the fill. */
 static void hatched(void)
 {
-    static const char *const composes[] = {"\"compose\":\"blueprint\"", "\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}"};
+    static const char *const composes[] = {"\"compose\":\"blueprint\"",
+                                           "\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}"};
     for (int c = 0; c < 2; c++) {
         int   dark[2] = {0};
         shape s = {0};
         shape_box(&s, "box", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
         for (int k = 0; k < 2; k++) {
-            char look[640];
-            shot drawn;
+            char      look[640];
+            shot      drawn;
             shot_view view = {.width = 240, .height = 240, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
-            snprintf(look, sizeof look, "{\"version\":1,\"name\":\"t\",\"scene\":{\"cut\":\"z\",\"cut_width\":2,\"cut_colour\":\"#000000\"},\"rules\":[{\"select\":\"*\","
-                     "\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}," ALL_LAYERS ",%s%s}]}", composes[c],
-                     k ? ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8}" : "");
+            snprintf(look, sizeof look,
+                     "{\"version\":1,\"name\":\"t\",\"scene\":{\"cut\":\"z\",\"cut_width\":2,\"cut_colour\":\"#"
+                     "000000\"},\"rules\":[{\"select\":\"*\","
+                     "\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":"
+                     "\"discontinuity\",\"colour\":\"#000000\"}," ALL_LAYERS ",%s%s}]}",
+                     composes[c], k ? ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":8}" : "");
             if (shot_of_shape(&drawn, &s, "hatched.glb", look, NULL, &view))
                 for (int y = 80; y < 160; y++)
                     for (int x = 80; x < 160; x++)
@@ -392,12 +446,13 @@ static void hatched(void)
             shot_release(&drawn);
         }
         check_at_least("S10", dark[0], 500, "pixels of hatching, exact, %s", composes[c]);
-        check_near("S10", dark[0] ? (double)dark[1] / dark[0] : 0, 1, 0.25, "  how many of them there are when perturbed");
+        check_near("S10", dark[0] ? (double)dark[1] / dark[0] : 0, 1, 0.25,
+                   "  how many of them there are when perturbed");
         shape_release(&s);
     }
 }
 
-/* --- alike --------------------------------------------------------------------------------------------------------- */
+/* --- alike ---------------------------------------------------------------------------------------------- */
 
 static void producers(void)
 {
@@ -413,14 +468,19 @@ static void producers(void)
             for (int i = 0; i < peeled.width * peeled.height; i++) {
                 int most = 0;
                 for (int k = 0; k < 4; k++)
-                    most = abs(peeled.picture[4 * i + k] - listed.picture[4 * i + k]) > most ? abs(peeled.picture[4 * i + k] - listed.picture[4 * i + k]) : most;
+                    most = abs(peeled.picture[4 * i + k] - listed.picture[4 * i + k]) > most
+                               ? abs(peeled.picture[4 * i + k] - listed.picture[4 * i + k])
+                               : most;
                 worst = most > worst ? most : worst;
                 differ += most > 1;
                 for (int k = 0; k < 3; k++)
                     field = fmax(field, fabs((double)peeled.uncertainty[i][k] - (double)listed.uncertainty[i][k]));
             }
-            check_that("S10", strcmp(peeled.layer_producer, "peeling") == 0 && strcmp(listed.layer_producer, "lists") == 0, "both producers are used");
-            check_at_most("S10", differ, 0, "  pixels that differ between them (most: %d levels), %.40s", worst, cases[c].compose);
+            check_that("S10",
+                       strcmp(peeled.layer_producer, "peeling") == 0 && strcmp(listed.layer_producer, "lists") == 0,
+                       "both producers are used");
+            check_at_most("S10", differ, 0, "  pixels that differ between them (most: %d levels), %.40s", worst,
+                          cases[c].compose);
             check_at_most("S10", field, 5e-4, "  their fields");
         }
         shot_release(&peeled);
@@ -439,15 +499,19 @@ static bool near_figure(const shot *s, int pixel)
 /* The field is that of what is seen: the same for the figure drawn opaque, for one layer and for all. */
 static void field_of_front(void)
 {
-    static const char *const rules[] = {"\"compose\":\"opaque\"", "\"layers\":{\"technique\":\"peel\",\"count\":1},\"compose\":\"blueprint\"", ALL_LAYERS ",\"compose\":\"blueprint\"",
-                                        ALL_LAYERS ",\"compose\":\"wire\""};
-    shape s = {0};
-    shot  drawn[4];
-    bool  ok = true;
+    static const char *const rules[] = {"\"compose\":\"opaque\"",
+                                        "\"layers\":{\"technique\":\"peel\",\"count\":1},\"compose\":\"blueprint\"",
+                                        ALL_LAYERS ",\"compose\":\"blueprint\"", ALL_LAYERS ",\"compose\":\"wire\""};
+    shape                    s = {0};
+    shot                     drawn[4];
+    bool                     ok = true;
     scene_make(&s, SCENE_CLOSED, 120);
     for (int k = 0; k < 4; k++) {
         char look[512];
-        snprintf(look, sizeof look, LOOK("{\"select\":\"*\",\"surface\":\"flat\"," INK ",%s,\"perturb\":{\"technique\":\"uncertainty\",\"amount\":6}}"), rules[k]);
+        snprintf(look, sizeof look,
+                 LOOK("{\"select\":\"*\",\"surface\":\"flat\"," INK
+                      ",%s,\"perturb\":{\"technique\":\"uncertainty\",\"amount\":6}}"),
+                 rules[k]);
         ok = shot_of_shape(&drawn[k], &s, "front.glb", look, NULL, &views[0]) && drawn[k].uncertainty && ok;
     }
     for (int k = 1; k < 4 && ok; k++) {
@@ -471,8 +535,9 @@ static void field_of_front(void)
 int main(int argc, char **argv)
 {
     static const check_case all[] = {
-        {"whole", whole_pictures}, {"far", far_away},         {"pieces", pieces},      {"order", order},         {"opaque", opaque_amid}, {"shared", shared_edges},
-        {"once", inked_once},      {"hatched", hatched},   {"producers", producers}, {"field", field_of_front},
+        {"whole", whole_pictures}, {"far", far_away},         {"pieces", pieces},   {"order", order},
+        {"opaque", opaque_amid},   {"shared", shared_edges},  {"once", inked_once}, {"hatched", hatched},
+        {"producers", producers},  {"field", field_of_front},
     };
     int status = check_main(argc, argv, "sketch_layers", all, sizeof all / sizeof *all);
     shot_end();

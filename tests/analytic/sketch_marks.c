@@ -1,5 +1,5 @@
-/* What perturbed drawings leave on the paper: how broad lines swell and thin under pressure, and that grains which stay bare hide what stands
- * behind. Rows S06, S08; the weight of lines. */
+/* What perturbed drawings leave on the paper: how broad lines swell and thin under pressure, and that grains which
+ * stay bare hide what stands behind. Rows S06, S08; the weight of lines. */
 #include <stdio.h>
 
 #include "../support/check.h"
@@ -17,7 +17,8 @@ static int width_at(const shot *s, int y, int from, int to)
     return dark;
 }
 
-/* The left side of a plate in lines of 8 px that stay where they are: with pressure their width varies, without it does not. */
+/* The left side of a plate in lines of 8 px that stay where they are: with pressure their width varies, without it
+ * does not. */
 static void broad(void)
 {
     static const char *const change[] = {"finish.ground", "#ffffff", NULL};
@@ -26,11 +27,14 @@ static void broad(void)
         shape s = {0};
         shot  drawn;
         shape_quad(&s, "plate", 1.6, 0);
-        const char *look = pressed
-            ? "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":"
-              "\"discontinuity\",\"colour\":\"#000000\",\"width\":8},\"perturb\":{\"technique\":\"uncertainty\",\"amount\":0.01,\"scale\":40,\"pressure\":0.8}}]}"
-            : "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":"
-              "\"discontinuity\",\"colour\":\"#000000\",\"width\":8},\"perturb\":{\"technique\":\"uncertainty\",\"amount\":0.01,\"scale\":40}}]}";
+        const char *look = pressed ? "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":{"
+                                     "\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":"
+                                     "\"discontinuity\",\"colour\":\"#000000\",\"width\":8},\"perturb\":{\"technique\":"
+                                     "\"uncertainty\",\"amount\":0.01,\"scale\":40,\"pressure\":0.8}}]}"
+                                   : "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":{"
+                                     "\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":"
+                                     "\"discontinuity\",\"colour\":\"#000000\",\"width\":8},\"perturb\":{\"technique\":"
+                                     "\"uncertainty\",\"amount\":0.01,\"scale\":40}}]}";
         if (shot_of_shape(&drawn, &s, "broad.glb", look, change, &front)) {
             int side = (int)shot_project(&drawn, dvec_of(-1.6, 0, 0)).x;
             for (int y = 100; y < 300; y++) {
@@ -56,9 +60,11 @@ static void broad(void)
 static void hidden(void)
 {
     static const char *const rules[2] = {
-        "{\"select\":\"behind\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},{\"select\":\"chalk\",\"surface\":{\"technique\":\"flat\",\"colour\":"
+        "{\"select\":\"behind\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}},{\"select\":\"chalk\","
+        "\"surface\":{\"technique\":\"flat\",\"colour\":"
         "\"#4060ff\"},\"perturb\":{\"technique\":\"uncertainty\",\"amount\":1,\"tooth\":0.6,\"rough\":1.5}}",
-        "{\"select\":\"chalk\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#4060ff\"},\"perturb\":{\"technique\":\"uncertainty\",\"amount\":1,\"tooth\":0.6,"
+        "{\"select\":\"chalk\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#4060ff\"},\"perturb\":{\"technique\":"
+        "\"uncertainty\",\"amount\":1,\"tooth\":0.6,"
         "\"rough\":1.5}},{\"select\":\"behind\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"}}"};
     static const char *const change[] = {"finish.ground", "#ffffff", NULL};
     for (int order = 0; order < 2; order++) {
@@ -87,7 +93,7 @@ static void hidden(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {{"broad", broad}, {"hidden", hidden}};
-    int status = check_main(argc, argv, "sketch_marks", cases, sizeof cases / sizeof *cases);
+    int                     status = check_main(argc, argv, "sketch_marks", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

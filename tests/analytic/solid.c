@@ -1,4 +1,5 @@
-/* Drawings of solids against their surfaces by rays: silhouette, depth, every layer, whose surface it is, its normal. */
+/* Drawings of solids against their surfaces by rays: silhouette, depth, every layer, whose surface it is, its
+ * normal. */
 #include <limner/limner.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,10 +16,12 @@ static const shot_view views[] = {
 };
 
 #define FLAT "\"surface\":{\"technique\":\"flat\",\"model_colour\":1}"
-#define LOOK(RULE) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\"," RULE "}]}"
+#define LOOK(RULE)                                                                                                     \
+    "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\"," RULE "}]}"
 
 static const char look_front[] = LOOK(FLAT);
-static const char look_all[] = LOOK(FLAT ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}");
+static const char look_all[] =
+    LOOK(FLAT ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}");
 
 /* Ways to find the layers; the first is the engine's own choice. */
 typedef struct way {
@@ -52,10 +55,11 @@ static bool draw(shot *out, const csg *c, bool front, const way *w, const shot_v
     const char *changes[] = {w->key, w->value, NULL};
     char        path[512];
     snprintf(path, sizeof path, "%s", check_path("solid.csg"));
-    return is_there(w, front) && csg_write(c, path) && shot_take(out, path, front ? look_front : look_all, changes, view);
+    return is_there(w, front) && csg_write(c, path) &&
+           shot_take(out, path, front ? look_front : look_all, changes, view);
 }
 
-/* --- one drawing ----------------------------------------------------------------------------------------------------- */
+/* --- one drawing ---------------------------------------------------------------------------------------- */
 
 /* Layers of the drawing alone: from outside they face the viewer and away in turn, and their number is even. */
 static void check_facing(const char *title, const csg_map *m, const shot *s)
@@ -85,11 +89,12 @@ static void check_score(const char *title, const csg_map *m, csg_rays *r, const 
     for (int k = 1, at = 0; k < CSG_VERDICTS; k++)
         if (c.wrong[k])
             at += snprintf(wrong + at, sizeof wrong - (size_t)at, " %zu %s", c.wrong[k], csg_verdict_names[k]);
-    check_at_most("K02", (double)c.outline_wrong, 0, "%s: pixels farther than a pixel from the outline that are full or empty and should not be", title);
+    check_at_most("K02", (double)c.outline_wrong, 0,
+                  "%s: pixels farther than a pixel from the outline that are full or empty and should not be", title);
     check_at_least(layers == 1 ? "K02" : "K03", (double)c.right_inner / (double)(c.inner ? c.inner : 1), 0.999,
                    "  share of %zu pixels farther than a pixel from borders that are right", c.inner);
-    if (!check_at_most(layers == 1 ? "C1" : "C5", (double)(c.sharp - c.right_sharp), 0, "  wrong pixels, of %zu whose answer is sure%s%s", c.sharp,
-                       *wrong ? ":" : "", wrong)) {
+    if (!check_at_most(layers == 1 ? "C1" : "C5", (double)(c.sharp - c.right_sharp), 0,
+                       "  wrong pixels, of %zu whose answer is sure%s%s", c.sharp, *wrong ? ":" : "", wrong)) {
         check_note("errors so far: depth %.3g, normal %.3g degrees", c.depth_error, c.normal_error);
         for (int k = 1; k < CSG_VERDICTS; k++)
             if (c.wrong[k])
@@ -107,7 +112,8 @@ static void against_rays(const char *name, const csg *c, const shot_view *view, 
         for (int front = view->es; front < 2; front++) {
             char title[128];
             shot s;
-            snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", ways[e].name, view->orthographic ? ", parallel" : "");
+            snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", ways[e].name,
+                     view->orthographic ? ", parallel" : "");
             if (!draw(&s, c, front, &ways[e], view))
                 continue;
             if (!map.hits)
@@ -116,7 +122,8 @@ static void against_rays(const char *name, const csg *c, const shot_view *view, 
                 check_score(title, &map, r, &s, front ? 1 : 0);
             if (!front) {
                 check_that("K03", s.layers_drawn >= (int)map.most_sharp && s.layers_drawn <= (int)map.most,
-                           "  %d layers; rays find %zu surfaces at most (%zu where it is sure)", s.layers_drawn, map.most, map.most_sharp);
+                           "  %d layers; rays find %zu surfaces at most (%zu where it is sure)", s.layers_drawn,
+                           map.most, map.most_sharp);
                 if (outside)
                     check_facing(title, &map, &s);
             }
@@ -126,7 +133,7 @@ static void against_rays(const char *name, const csg *c, const shot_view *view, 
     csg_rays_destroy(r);
 }
 
-/* --- trees from seeds ------------------------------------------------------------------------------------------------ */
+/* --- trees from seeds ----------------------------------------------------------------------------------- */
 
 static void random_of(csg_scene kind, uint32_t seeds)
 {
@@ -177,8 +184,14 @@ static void from_inside(void)
         csg_random(&c, kinds[k / 2], seed);
         csg_rays *r = csg_rays_create(&c, 30);
         if (csg_find_place(r, in_solid, seed, &eye)) {
-            shot_view view = {.width = 120, .height = 100, .eye = eye, .target = dvec_add(eye, dvec_of(0.3, -0.5, 0.1)), .up = {0.1, 0.2, 1}, .fov_deg = 80};
-            snprintf(title, sizeof title, "from inside %s, %s %u", in_solid ? "the solid" : "what is cut off", csg_scene_names[kinds[k / 2]], seed);
+            shot_view view = {.width = 120,
+                              .height = 100,
+                              .eye = eye,
+                              .target = dvec_add(eye, dvec_of(0.3, -0.5, 0.1)),
+                              .up = {0.1, 0.2, 1},
+                              .fov_deg = 80};
+            snprintf(title, sizeof title, "from inside %s, %s %u", in_solid ? "the solid" : "what is cut off",
+                     csg_scene_names[kinds[k / 2]], seed);
             against_rays(title, &c, &view, false);
             k++;
         }
@@ -191,8 +204,8 @@ static void from_inside(void)
 static void dialect(void)
 {
     for (uint32_t seed = 1; seed <= 4; seed++) {
-        csg  c = {0};
-        char title[64];
+        csg       c = {0};
+        char      title[64];
         shot_view view = views[seed % 3];
         view.es = true;
         csg_random(&c, CSG_CONVEX, seed);
@@ -202,7 +215,7 @@ static void dialect(void)
     }
 }
 
-/* --- scenes by hand -------------------------------------------------------------------------------------------------- */
+/* --- scenes by hand ------------------------------------------------------------------------------------- */
 
 static void ball_minus_ball(csg *c)
 {
@@ -298,9 +311,16 @@ static void by_hand(void)
         const char *name;
         void (*make)(csg *c);
     } scenes[] = {
-        {"ball minus ball", ball_minus_ball}, {"torus minus torus", torus_minus_torus}, {"differences in differences", nested}, {"hollow box", hollow},
-        {"drilled plate", drilled}, {"mirrored leaves", mirrored}, {"flush plates", plates}, {"a leaf twice, united", twice_united},
-        {"a leaf twice, in common", twice_common}, {"a leaf twice, taken away", twice_removed},
+        {"ball minus ball", ball_minus_ball},
+        {"torus minus torus", torus_minus_torus},
+        {"differences in differences", nested},
+        {"hollow box", hollow},
+        {"drilled plate", drilled},
+        {"mirrored leaves", mirrored},
+        {"flush plates", plates},
+        {"a leaf twice, united", twice_united},
+        {"a leaf twice, in common", twice_common},
+        {"a leaf twice, taken away", twice_removed},
     };
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
         csg c = {0};
@@ -311,7 +331,7 @@ static void by_hand(void)
     }
 }
 
-/* --- extremes -------------------------------------------------------------------------------------------------------- */
+/* --- extremes ------------------------------------------------------------------------------------------- */
 
 /* A plate with 225 bores, seen almost along itself. */
 static void crowd(csg *c)
@@ -328,7 +348,8 @@ static void shells(csg *c)
     int parent = -1;
     for (int k = 0; k < 30; k++) {
         parent = csg_add(c, parent, CSG_DIFFERENCE);
-        csg_place(c, csg_ball(c, parent, 1.5 - 0.045 * k, 12, 20), dvec_of(1, 1, 1), dvec_of(1, k, 2), 7 * k, dvec_of(0, 0, 0));
+        csg_place(c, csg_ball(c, parent, 1.5 - 0.045 * k, 12, 20), dvec_of(1, 1, 1), dvec_of(1, k, 2), 7 * k,
+                  dvec_of(0, 0, 0));
     }
     csg_box(c, parent, dvec_of(-0.05, -0.06, -0.07), dvec_of(0.08, 0.05, 0.06));
 }
@@ -384,25 +405,32 @@ static void through_the_back(void)
         if (k < 2) {
             csg_add(&c, -1, CSG_DIFFERENCE);
             csg_box(&c, 0, dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
-            csg_place(&c, csg_cylinder(&c, 0, 0.6, 0.6, 12, 24), dvec_of(1, 1, 1), dvec_of(1, 0, 0), -85, dvec_of(0, -2, 0.3));
+            csg_place(&c, csg_cylinder(&c, 0, 0.6, 0.6, 12, 24), dvec_of(1, 1, 1), dvec_of(1, 0, 0), -85,
+                      dvec_of(0, -2, 0.3));
             csg_box(&c, 0, dvec_of(-2, -2, 0.6), dvec_of(-0.7, 1.005, 3));
             csg_colour(&c);
         } else {
             csg_random(&c, CSG_CONVEX, seeds[k - 2]);
             view = views[seeds[k - 2] % 3];
         }
-        snprintf(title, sizeof title, "%s %d", k < 2 ? "a bore that ends behind the far plane" : "convex", k < 2 ? k : (int)seeds[k - 2]);
+        snprintf(title, sizeof title, "%s %d", k < 2 ? "a bore that ends behind the far plane" : "convex",
+                 k < 2 ? k : (int)seeds[k - 2]);
         against_rays(title, &c, &view, true);
         csg_release(&c);
     }
 }
 
-/* --- single statements ------------------------------------------------------------------------------------------------ */
+/* --- single statements ---------------------------------------------------------------------------------- */
 
 /* The second layer of a hollow box is the inner side of its front wall, not the far wall. */
 static void inner_side(void)
 {
-    static const shot_view straight = {.width = 90, .height = 80, .eye = {0.03, -6, 0.02}, .target = {0.03, 0, 0.02}, .up = {0, 0, 1}, .orthographic = true};
+    static const shot_view straight = {.width = 90,
+                                       .height = 80,
+                                       .eye = {0.03, -6, 0.02},
+                                       .target = {0.03, 0, 0.02},
+                                       .up = {0, 0, 1},
+                                       .orthographic = true};
     for (int e = 0; e < WAYS; e++) {
         csg  c = {0};
         shot s;
@@ -416,7 +444,8 @@ static void inner_side(void)
                 shot_ray(&s, i % s.width + 0.5, i / s.width + 0.5, &origin, &direction);
                 if (origin.x < -0.75 || origin.x > 0.65 || origin.z < -0.85 || origin.z > 0.7)
                     continue;
-                judged++; /* the wall reaches from y = −1 to −0.7; its inner side looks along +y, away from the viewer */
+                judged++; /* the wall reaches from y = −1 to −0.7; its inner side looks along +y, away from the viewer
+                           */
                 wrong += fabs((double)s.layers[1].depth[i] - 5.3) > 0.001 || (double)s.layers[1].normal[i][2] > -0.99;
             }
         if (drawn) {
@@ -437,8 +466,10 @@ static void no_inner_walls(void)
         int  more = 0, full = 0;
         csg_add(&c, -1, CSG_UNION);
         for (int k = 0; k < 9; k++) {
-            int node = k % 3 == 0 ? csg_box(&c, 0, dvec_of(-0.9, -0.3, -0.3), dvec_of(0.9, 0.3, 0.3)) : csg_ball(&c, 0, 0.7, 12, 24);
-            csg_place(&c, node, dvec_of(1, 0.9, 1), dvec_of(1, 2, k), 40 * k, dvec_of(0.06 * (k % 3), 0.05 * (k % 4), 0.04 * (k % 5)));
+            int node = k % 3 == 0 ? csg_box(&c, 0, dvec_of(-0.9, -0.3, -0.3), dvec_of(0.9, 0.3, 0.3))
+                                  : csg_ball(&c, 0, 0.7, 12, 24);
+            csg_place(&c, node, dvec_of(1, 0.9, 1), dvec_of(1, 2, k), 40 * k,
+                      dvec_of(0.06 * (k % 3), 0.05 * (k % 4), 0.04 * (k % 5)));
         }
         csg_ball(&c, 0, 0.95, 12, 24);
         csg_colour(&c);
@@ -483,8 +514,19 @@ static void cut_colours(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"convex", convex}, {"concave", concave}, {"deep", deep}, {"many", many}, {"coincident", coincident}, {"inside", from_inside},
-        {"dialect", dialect}, {"by-hand", by_hand}, {"extremes", extremes}, {"through", through_the_back}, {"inner-side", inner_side}, {"no-inner-walls", no_inner_walls}, {"colours", cut_colours},
+        {"convex", convex},
+        {"concave", concave},
+        {"deep", deep},
+        {"many", many},
+        {"coincident", coincident},
+        {"inside", from_inside},
+        {"dialect", dialect},
+        {"by-hand", by_hand},
+        {"extremes", extremes},
+        {"through", through_the_back},
+        {"inner-side", inner_side},
+        {"no-inner-walls", no_inner_walls},
+        {"colours", cut_colours},
     };
     int status = check_main(argc, argv, "solid", cases, sizeof cases / sizeof *cases);
     shot_end();

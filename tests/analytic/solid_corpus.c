@@ -1,6 +1,6 @@
-/* OpenSCAD's own examples: a solid drawn pixel by pixel against the drawing of the mesh that OpenSCAD made of it, from the same
- * place. LIMNER_DATA names the folder of the corpora (default: shared/data beside or above the source); where there is none, there is
- * nothing to compare. */
+/* OpenSCAD's own examples: a solid drawn pixel by pixel against the drawing of the mesh that OpenSCAD made of it,
+ * from the same place. LIMNER_DATA names the folder of the corpora (default: shared/data beside or above the
+ * source); where there is none, there is nothing to compare. */
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,8 +13,9 @@
 enum { SIZE = 320, LAYERS = 2, DRAWN = 6 };
 
 static const char front_look[] = "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\"}]}";
-static const char look[] = "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\","
-                           "\"layers\":{\"technique\":\"peel\",\"count\":6},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}}]}";
+static const char look[] =
+    "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\","
+    "\"layers\":{\"technique\":\"peel\",\"count\":6},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}}]}";
 
 /* Bounds of a binary STL file. */
 static bool stl_bounds(const char *path, dvec *low, dvec *high)
@@ -43,13 +44,13 @@ static bool stl_bounds(const char *path, dvec *low, dvec *high)
 }
 
 typedef struct comparison {
-    double overlap;        /* of the silhouettes: intersection over union */
-    double right[LAYERS];  /* share of the pixels that both have whose depths agree */
+    double overlap;       /* of the silhouettes: intersection over union */
+    double right[LAYERS]; /* share of the pixels that both have whose depths agree */
     int    common[LAYERS], x, y;
 } comparison;
 
-/* The depths behind a pixel. Where parts nearly meet, OpenSCAD's meshes have clefts and skins without thickness (their places have six
- * digits): two surfaces closer than `hair` are none. */
+/* The depths behind a pixel. Where parts nearly meet, OpenSCAD's meshes have clefts and skins without thickness
+ * (their places have six digits): two surfaces closer than `hair` are none. */
 static int depths_at(const shot *s, int i, double hair, double out[DRAWN])
 {
     int count = 0;
@@ -66,7 +67,7 @@ static int depths_at(const shot *s, int i, double hair, double out[DRAWN])
 static comparison compare(const shot *solid, const shot *mesh, double extent)
 {
     comparison c = {.x = -1};
-    int both = 0, any = 0, right[LAYERS] = {0};
+    int        both = 0, any = 0, right[LAYERS] = {0};
     for (int i = 0; i < SIZE * SIZE; i++) {
         double a[DRAWN], b[DRAWN];
         int    of_solid = depths_at(solid, i, 1e-5 * extent, a), of_mesh = depths_at(mesh, i, 1e-5 * extent, b);
@@ -109,21 +110,27 @@ static void check_file(const char *folder, const char *name, const char *stl)
     snprintf(path[1], sizeof path[1], "%s/%s", folder, stl);
     if (!check_that("corpus", stl_bounds(path[1], &low, &high), "%s can be read", stl))
         return;
-    double extent = dvec_length(dvec_sub(high, low));
-    dvec   middle = dvec_mix(low, high, 0.5);
-    shot_view view = {.width = SIZE, .height = SIZE, .target = middle, .up = {0, 0, 1}, .fov_deg = 30,
+    double    extent = dvec_length(dvec_sub(high, low));
+    dvec      middle = dvec_mix(low, high, 0.5);
+    shot_view view = {.width = SIZE,
+                      .height = SIZE,
+                      .target = middle,
+                      .up = {0, 0, 1},
+                      .fov_deg = 30,
                       .eye = dvec_add(middle, dvec_scale(dvec_unit(dvec_of(0.8, -1.1, 0.7)), 2 * extent))};
     if (shot_take(&s[0], path[0], look, NULL, &view) && shot_take(&s[1], path[1], look, NULL, &view) &&
         shot_take(&s[2], path[0], front_look, NULL, &view)) {
         comparison c = compare(&s[0], &s[1], extent);
-        double front = right_front(&s[2], &s[1], extent);
-        bool right = front >= 0.99 && c.overlap >= 0.995 && c.right[0] >= 0.99 && c.right[1] >= 0.99;
-        if (!check_that("K02", right, "%-40s overlap %.5f, front %.5f, depths of layer 0 %.5f of %6d, of layer 1 %.5f of %6d", name, c.overlap, front, c.right[0],
-                        c.common[0], c.right[1], c.common[1]) && c.x >= 0) {
+        double     front = right_front(&s[2], &s[1], extent);
+        bool       right = front >= 0.99 && c.overlap >= 0.995 && c.right[0] >= 0.99 && c.right[1] >= 0.99;
+        if (!check_that("K02", right,
+                        "%-40s overlap %.5f, front %.5f, depths of layer 0 %.5f of %6d, of layer 1 %.5f of %6d", name,
+                        c.overlap, front, c.right[0], c.common[0], c.right[1], c.common[1]) &&
+            c.x >= 0) {
             int i = c.y * SIZE + c.x;
             for (int k = 0; k < LAYERS; k++)
-                check_note("first at %d, %d: layer %d of the solid at %.6g, of the mesh at %.6g", c.x, c.y, k, (double)s[0].layers[k].depth[i],
-                           (double)s[1].layers[k].depth[i]);
+                check_note("first at %d, %d: layer %d of the solid at %.6g, of the mesh at %.6g", c.x, c.y, k,
+                           (double)s[0].layers[k].depth[i], (double)s[1].layers[k].depth[i]);
         }
     }
     shot_release(&s[0]);
@@ -134,9 +141,9 @@ static void check_file(const char *folder, const char *name, const char *stl)
 static void against_meshes(void)
 {
     static const char *const places[] = {"../shared/data", "../../shared/data", "../../../shared/data"};
-    char        folder[512] = "", path[640];
-    const char *given = getenv("LIMNER_DATA");
-    struct stat unused;
+    char                     folder[512] = "", path[640];
+    const char              *given = getenv("LIMNER_DATA");
+    struct stat              unused;
     for (int k = -1; k < 3 && !*folder; k++) {
         if (k < 0 ? !given : given != NULL)
             continue;
@@ -155,7 +162,8 @@ static void against_meshes(void)
         return;
     }
     int count = 0;
-    json_object_foreach(all, name, entry) {
+    json_object_foreach(all, name, entry)
+    {
         const char *stl = json_string_value(json_object_get(entry, "stl"));
         if (!stl)
             continue;
@@ -169,7 +177,7 @@ static void against_meshes(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {{"corpus", against_meshes}};
-    int status = check_main(argc, argv, "solid_corpus", cases, sizeof cases / sizeof *cases);
+    int                     status = check_main(argc, argv, "solid_corpus", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

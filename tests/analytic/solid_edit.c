@@ -1,5 +1,5 @@
-/* K09: what is edited is drawn like what was built that way. Random edits, each followed by a drawing that must equal, byte for byte,
- * that of a fresh scene in the same state, which another renderer draws. */
+/* K09: what is edited is drawn like what was built that way. Random edits, each followed by a drawing that must
+ * equal, byte for byte, that of a fresh scene in the same state, which another renderer draws. */
 #include <limner/limner.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,12 +28,12 @@ typedef struct root {
 } root;
 
 typedef struct twin {
-    lmn_scene *scene;
-    item       items[ITEMS_MAX];
-    int        item_count;
-    root       roots[ROOTS_MAX];
-    int        root_count;
-    uint32_t   random;
+    lmn_scene  *scene;
+    item        items[ITEMS_MAX];
+    int         item_count;
+    root        roots[ROOTS_MAX];
+    int         root_count;
+    uint32_t    random;
     const char *last; /* edit */
 } twin;
 
@@ -60,9 +60,9 @@ static void good(lmn_status status, const lmn_error *error, const char *what)
 
 #define DO(call) good((call), &error, #call)
 
-static const double corner[6][2] = {{0, 0}, {1.2, 0}, {1.2, 0.5}, {0.5, 0.5}, {0.5, 1.2}, {0, 1.2}};
-static const double ring[4][2] = {{0.5, -0.3}, {1, -0.3}, {1, 0.3}, {0.5, 0.3}};
-static const double tetrahedron[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
+static const double   corner[6][2] = {{0, 0}, {1.2, 0}, {1.2, 0.5}, {0.5, 0.5}, {0.5, 1.2}, {0, 1.2}};
+static const double   ring[4][2] = {{0.5, -0.3}, {1, -0.3}, {1, 0.3}, {0.5, 0.3}};
+static const double   tetrahedron[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
 static const uint32_t faces[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}, threes[4] = {3, 3, 3, 3};
 
 static lmn_shape random_shape(twin *t)
@@ -82,33 +82,33 @@ static lmn_shape random_shape(twin *t)
         shape.facets.fn = 6 + roll(t, 12);
         shape.centred = roll(t, 2);
         return shape;
-    case 3:
-        return lmn_shape_extrusion(corner, 6, between(t, 0.4, 1.5));
+    case 3: return lmn_shape_extrusion(corner, 6, between(t, 0.4, 1.5));
     case 4:
         shape = lmn_shape_revolution(ring, 4, roll(t, 2) ? 360 : 250);
         shape.facets.fn = 16;
         return shape;
-    default:
-        return lmn_shape_polyhedron(tetrahedron, 4, faces, threes, 4);
+    default: return lmn_shape_polyhedron(tetrahedron, 4, faces, threes, 4);
     }
 }
 
 /* Steps that repeat, so that faces fall into common planes; turns; now and then a mirror. */
 static void random_matrix(twin *t, double m[16])
 {
-    double angle = roll(t, 3) ? 0 : between(t, 0, 6), c = cos(angle), s = sin(angle), flip = roll(t, 8) ? 1 : -1;
-    const double own[16] = {c, s, 0, 0, -s, c, 0, 0, 0, 0, flip, 0, roll(t, 5) * 0.5 - 1, roll(t, 5) * 0.5 - 1, roll(t, 5) * 0.5 - 1, 1};
+    double       angle = roll(t, 3) ? 0 : between(t, 0, 6), c = cos(angle), s = sin(angle), flip = roll(t, 8) ? 1 : -1;
+    const double own[16] = {
+        c, s, 0, 0, -s, c, 0, 0, 0, 0, flip, 0, roll(t, 5) * 0.5 - 1, roll(t, 5) * 0.5 - 1, roll(t, 5) * 0.5 - 1, 1};
     memcpy(m, own, sizeof own);
 }
 
-/* --- our tree ----------------------------------------------------------------------------------------------------------- */
+/* --- our tree ------------------------------------------------------------------------------------------- */
 
 static int new_item(twin *t, lmn_operation operation, int parent, uint32_t id)
 {
     if (t->item_count == ITEMS_MAX)
         return -1;
     int at = t->item_count++;
-    t->items[at] = (item){.operation = operation, .parent = parent, .id = id, .matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    t->items[at] = (item){
+        .operation = operation, .parent = parent, .id = id, .matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     if (parent >= 0)
         t->items[parent].children[t->items[parent].count++] = at;
     return at;
@@ -125,7 +125,7 @@ static int place_among(const item *parent, int child)
 static void take_out(twin *t, int child)
 {
     item *parent = &t->items[t->items[child].parent];
-    int at = place_among(parent, child);
+    int   at = place_among(parent, child);
     memmove(&parent->children[at], &parent->children[at + 1], (size_t)(--parent->count - at) * sizeof(int));
 }
 
@@ -177,11 +177,11 @@ static int any_operation(twin *t, int root_item)
     return t->items[at].operation == LMN_SHAPE ? t->items[at].parent : at;
 }
 
-/* --- fresh scenes, and what both must show ----------------------------------------------------------------------------- */
+/* --- fresh scenes, and what both must show -------------------------------------------------------------- */
 
 static const char *model_file(void)
 {
-    static char path[512];
+    static char       path[512];
     static const char text[] = "v -3 -2 -2\nv 3 -2 -2\nv 0 -2 3\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
     if (!path[0]) {
         snprintf(path, sizeof path, "%s", check_path("edit.obj"));
@@ -195,8 +195,8 @@ static const char *model_file(void)
 static void build(const twin *t, lmn_scene *scene, uint32_t solid, int at, uint32_t parent)
 {
     const item *i = &t->items[at];
-    lmn_error error;
-    uint32_t  id = LMN_SOLID_ROOT;
+    lmn_error   error;
+    uint32_t    id = LMN_SOLID_ROOT;
     if (i->operation == LMN_SHAPE)
         DO(lmn_solid_add_shape(scene, solid, parent, &i->shape, &id, &error));
     else if (parent)
@@ -233,8 +233,9 @@ static bool same_tree(const twin *t, uint32_t solid, int at)
 {
     const item    *i = &t->items[at];
     lmn_solid_info info;
-    if (!lmn_solid_info_of(t->scene, solid, i->id, &info) || info.operation != i->operation || info.child_count != (size_t)i->count ||
-        memcmp(info.matrix, i->matrix, sizeof info.matrix) != 0 || info.has_colour != i->has_colour)
+    if (!lmn_solid_info_of(t->scene, solid, i->id, &info) || info.operation != i->operation ||
+        info.child_count != (size_t)i->count || memcmp(info.matrix, i->matrix, sizeof info.matrix) != 0 ||
+        info.has_colour != i->has_colour)
         return false;
     uint32_t child = info.first_child;
     for (int k = 0; k < i->count; k++) {
@@ -249,16 +250,19 @@ static bool same_tree(const twin *t, uint32_t solid, int at)
 static bool same_facts(const lmn_scene *a, const lmn_scene *b)
 {
     lmn_scene_info i = lmn_scene_info_of(a), k = lmn_scene_info_of(b);
-    bool same = i.parts == k.parts && i.triangles == k.triangles && memcmp(i.bounds_min, k.bounds_min, sizeof i.bounds_min) == 0 &&
+    bool           same = i.parts == k.parts && i.triangles == k.triangles &&
+                memcmp(i.bounds_min, k.bounds_min, sizeof i.bounds_min) == 0 &&
                 memcmp(i.bounds_max, k.bounds_max, sizeof i.bounds_max) == 0;
     for (size_t p = 0; p < i.parts && same; p++) {
         lmn_part_info x, y;
-        same = lmn_scene_part_at(a, p, &x) && lmn_scene_part_at(b, p, &y) && strcmp(x.path, y.path) == 0 && x.triangles == y.triangles;
+        same = lmn_scene_part_at(a, p, &x) && lmn_scene_part_at(b, p, &y) && strcmp(x.path, y.path) == 0 &&
+               x.triangles == y.triangles;
     }
     return same;
 }
 
-#define LOOK(RULE) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\"," RULE "}]}"
+#define LOOK(RULE)                                                                                                     \
+    "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\"," RULE "}]}"
 #define FLAT "\"surface\":{\"technique\":\"flat\",\"model_colour\":1}"
 
 static const char *const looks[] = {
@@ -271,12 +275,13 @@ static const char *const looks[] = {
 enum { LOOKS = sizeof looks / sizeof *looks };
 
 /* Other meshes are needed for another crease angle, and others again for what a section leaves. */
-static const char *const changes[LOOKS][2] = {{"scene.cut", "z"}, {NULL, NULL}, {NULL, NULL}, {NULL, NULL}, {"scene.crease_angle", "5"}};
+static const char *const changes[LOOKS][2] = {
+    {"scene.cut", "z"}, {NULL, NULL}, {NULL, NULL}, {NULL, NULL}, {"scene.crease_angle", "5"}};
 
 static lmn_look *look_of(int index)
 {
     static lmn_look *loaded[LOOKS];
-    lmn_error error;
+    lmn_error        error;
     for (int i = 0; i < LOOKS && index < 0; i++)
         lmn_look_destroy(&loaded[i]);
     if (index >= 0 && !loaded[index])
@@ -315,7 +320,7 @@ static int pixels_that_differ(const lmn_drawing *a, const lmn_drawing *b)
     if (!a || !b)
         return a == b ? 0 : SIDE * SIDE;
     const uint8_t *p = lmn_drawing_pixels(a, NULL, NULL), *q = lmn_drawing_pixels(b, NULL, NULL);
-    int count = 0;
+    int            count = 0;
     for (int i = 0; i < SIDE * SIDE; i++)
         count += memcmp(p + 4 * i, q + 4 * i, 4) != 0;
     return count;
@@ -331,8 +336,8 @@ static int compare(const twin *t, int look, int step)
     for (int i = 0; i < t->root_count; i++)
         same = same && (t->roots[i].item < 0 || same_tree(t, t->roots[i].solid, t->roots[i].item));
     if (differ || !same)
-        check_that("K09", false, "step %d (%s), look %d: %d pixels differ from the fresh scene; trees and parts are %s", step, t->last, look, differ,
-                   same ? "the same" : "not");
+        check_that("K09", false, "step %d (%s), look %d: %d pixels differ from the fresh scene; trees and parts are %s",
+                   step, t->last, look, differ, same ? "the same" : "not");
     for (int i = 0; a && i < SIDE * SIDE; i++)
         full += memcmp(lmn_drawing_pixels(a, NULL, NULL) + 4 * i, lmn_drawing_pixels(a, NULL, NULL), 4) != 0;
     lmn_drawing_destroy(&a);
@@ -341,7 +346,7 @@ static int compare(const twin *t, int look, int step)
     return differ || !same ? -1 : full;
 }
 
-/* --- edits -------------------------------------------------------------------------------------------------------------- */
+/* --- edits ---------------------------------------------------------------------------------------------- */
 
 static void begin_solid(twin *t)
 {
@@ -361,7 +366,8 @@ static void add_file(twin *t)
 
 static bool has_room(const twin *t, root r, int parent, int more)
 {
-    return t->items[parent].count + 1 < CHILDREN_MAX && t->item_count + more < ITEMS_MAX && shapes_below(t, r.item) + more <= SHAPES_MAX;
+    return t->items[parent].count + 1 < CHILDREN_MAX && t->item_count + more < ITEMS_MAX &&
+           shapes_below(t, r.item) + more <= SHAPES_MAX;
 }
 
 static void set_matrix(twin *t, root r, int at)
@@ -405,8 +411,8 @@ static void add_operation(twin *t, root r)
 static void clone(twin *t, root r, int source, int parent, uint32_t id)
 {
     lmn_solid_info info;
-    int at = new_item(t, t->items[source].operation, parent, id), count = t->items[source].count;
-    const item *from = &t->items[source];
+    int            at = new_item(t, t->items[source].operation, parent, id), count = t->items[source].count;
+    const item    *from = &t->items[source];
     t->items[at].shape = from->shape;
     memcpy(t->items[at].matrix, from->matrix, sizeof from->matrix);
     t->items[at].has_colour = from->has_colour;
@@ -472,8 +478,8 @@ static void move(twin *t, root r)
     if (at == r.item || is_below(t, parent, at) || t->items[parent].count + 1 >= CHILDREN_MAX)
         return;
     take_out(t, at);
-    item *p = &t->items[parent];
-    int   place = (int)roll(t, (uint32_t)p->count + 1);
+    item    *p = &t->items[parent];
+    int      place = (int)roll(t, (uint32_t)p->count + 1);
     uint32_t before = place < p->count ? t->items[p->children[place]].id : 0;
     memmove(&p->children[place + 1], &p->children[place], (size_t)(p->count++ - place) * sizeof(int));
     p->children[place] = at;
@@ -506,9 +512,7 @@ static void edit(twin *t, root *r)
         return;
     }
     switch (roll(t, 24)) {
-    case 0:
-        empty(t, *r);
-        return;
+    case 0: empty(t, *r); return;
     case 1:
         if (t->root_count + 1 < ROOTS_MAX && roll(t, 2)) {
             DO(lmn_solid_remove(t->scene, r->solid, LMN_SOLID_ROOT, &error));
@@ -518,40 +522,23 @@ static void edit(twin *t, root *r)
         }
         return;
     case 2:
-    case 3:
-        add_operation(t, *r);
-        return;
+    case 3: add_operation(t, *r); return;
     case 4:
-    case 5:
-        copy(t, *r);
-        return;
+    case 5: copy(t, *r); return;
     case 6:
-    case 7:
-        set_colour(t, *r);
-        return;
+    case 7: set_colour(t, *r); return;
     case 8:
-    case 9:
-        set_operation(t, *r);
-        return;
+    case 9: set_operation(t, *r); return;
     case 10:
-    case 11:
-        set_shape(t, *r);
-        return;
+    case 11: set_shape(t, *r); return;
     case 12:
-    case 13:
-        move(t, *r);
-        return;
+    case 13: move(t, *r); return;
     case 14:
-    case 15:
-        remove_item(t, *r, any(t, r->item));
-        return;
+    case 15: remove_item(t, *r, any(t, r->item)); return;
     case 16:
     case 17:
-    case 18:
-        set_matrix(t, *r, any(t, r->item));
-        return;
-    default:
-        add_shape(t, *r);
+    case 18: set_matrix(t, *r, any(t, r->item)); return;
+    default: add_shape(t, *r);
     }
 }
 
@@ -587,7 +574,8 @@ static void sequence(const char *title, uint32_t seed, int solids, int file_at, 
         wrong += full < 0;
         shown += full > 100;
     }
-    check_at_most("K09", wrong, 0, "%s %u: drawings after %d edits that differ from those of fresh scenes", title, seed, made);
+    check_at_most("K09", wrong, 0, "%s %u: drawings after %d edits that differ from those of fresh scenes", title, seed,
+                  made);
     check_at_least("self", shown, 0.25 * made, "  drawings that show something");
     lmn_scene_destroy(&t.scene);
 }
@@ -611,7 +599,7 @@ static void with_a_mesh(void)
         sequence("two solids and meshes", seed, 2, 1, 60);
 }
 
-/* --- K09 by hand -------------------------------------------------------------------------------------------------------- */
+/* --- K09 by hand ---------------------------------------------------------------------------------------- */
 
 /* A box minus a ball: each edit changes the picture at once. */
 static void each_edit_shows(void)
@@ -643,7 +631,8 @@ static void each_edit_shows(void)
     for (int i = 0; i < 6; i++)
         for (int k = i + 1; k < 6; k++)
             if (!(i == 3 && k == 5)) /* a ball inside the box is not seen */
-                check_at_least("K09", pixels_that_differ(now[i], now[k]), 20, "pixels in which drawings %d and %d differ", i, k);
+                check_at_least("K09", pixels_that_differ(now[i], now[k]), 20,
+                               "pixels in which drawings %d and %d differ", i, k);
     check_at_most("K09", pixels_that_differ(now[3], now[5]), 0, "pixels that a hidden hollow changes");
     for (int i = 0; i < 6; i++)
         lmn_drawing_destroy(&now[i]);
@@ -652,7 +641,8 @@ static void each_edit_shows(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"shows", each_edit_shows}, {"one", one_solid}, {"several", several_solids}, {"mesh", with_a_mesh}};
+    static const check_case cases[] = {
+        {"shows", each_edit_shows}, {"one", one_solid}, {"several", several_solids}, {"mesh", with_a_mesh}};
     int status = check_main(argc, argv, "solid_edit", cases, sizeof cases / sizeof *cases);
     look_of(-1);
     lmn_renderer_destroy(&edited_renderer);

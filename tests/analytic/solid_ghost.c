@@ -1,5 +1,5 @@
-/* What solids take away, drawn see-through: where it is seen, what of the picture it leaves alone, how many layers it has, and what the
- * picture is fitted to. The truth are rays through the solid and through what was taken away. */
+/* What solids take away, drawn see-through: where it is seen, what of the picture it leaves alone, how many layers
+ * it has, and what the picture is fitted to. The truth are rays through the solid and through what was taken away. */
 #include <limner/limner.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static const char counting[] =
     "{\"select\":\"@removed\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"},"
     "\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}}]}";
 
-/* --- models: the solid, and what was taken away from it ----------------------------------------------------------------- */
+/* --- models: the solid, and what was taken away from it ------------------------------------------------- */
 
 typedef struct model {
     const char *name;
@@ -83,7 +83,7 @@ static const model models[] = {{"drilled", drilled}, {"shelled", shelled}, {"car
 
 enum { MODELS = sizeof models / sizeof *models };
 
-/* --- where it is seen ---------------------------------------------------------------------------------------------------- */
+/* --- where it is seen ----------------------------------------------------------------------------------- */
 
 typedef struct truth {
     csg_map whole, gone;
@@ -98,7 +98,7 @@ static double depth_at(const csg_map *m, int pixel, size_t layer)
 static int layers_in_front(const truth *t, int pixel, int *on)
 {
     double wall = depth_at(&t->whole, pixel, 0);
-    int before = 0;
+    int    before = 0;
     *on = 0;
     for (size_t k = 0; k < csg_count(&t->gone, pixel); k++) {
         double depth = depth_at(&t->gone, pixel, k), off = isinf(wall) ? -1 : (depth - wall) / wall;
@@ -114,7 +114,8 @@ static bool seen_near(const truth *t, int x, int y, int reach)
     int on;
     for (int j = y - reach; j <= y + reach; j++)
         for (int i = x - reach; i <= x + reach; i++)
-            if (i >= 0 && j >= 0 && i < t->whole.width && j < t->whole.height && layers_in_front(t, j * t->whole.width + i, &on) + on > 0)
+            if (i >= 0 && j >= 0 && i < t->whole.width && j < t->whole.height &&
+                layers_in_front(t, j * t->whole.width + i, &on) + on > 0)
                 return true;
     return false;
 }
@@ -124,15 +125,15 @@ static bool is_border(const truth *t, int x, int y)
     return csg_map_border(&t->whole, x, y, 1) || csg_map_border(&t->gone, x, y, 0);
 }
 
-/* Pixels in which it is seen are tinted towards red; beyond the reach of its lines nothing changes. `unseen`: nothing of it has a colour.
- * Where it sticks out nearer or farther than the solid, the depth range is another one and depth is rounded otherwise, in which a pixel of a
- * line may differ from edges. */
+/* Pixels in which it is seen are tinted towards red; beyond the reach of its lines nothing changes. `unseen`:
+ * nothing of it has a colour. Where it sticks out nearer or farther than the solid, the depth range is another one
+ * and depth is rounded otherwise, in which a pixel of a line may differ from edges. */
 static void check_tint(const char *name, const truth *t, const shot *plain, const shot *unseen, const shot *ghost)
 {
     int tinted = 0, bare = 0, alone = 0, changed = 0, rounded = 0, on;
     for (int i = 0; i < plain->width * plain->height; i++) {
         const uint8_t *a = &plain->picture[4 * i], *b = &ghost->picture[4 * i];
-        int x = i % plain->width, y = i / plain->width;
+        int            x = i % plain->width, y = i / plain->width;
         if (!seen_near(t, x, y, 3)) {
             alone++;
             changed += memcmp(&unseen->picture[4 * i], b, 4) != 0;
@@ -147,14 +148,16 @@ static void check_tint(const char *name, const truth *t, const shot *plain, cons
     check_at_least("C9", alone, 2000, "  pixels out of its reach");
     bool same_range = plain->near_depth == ghost->near_depth && plain->far_depth == ghost->far_depth;
     check_at_most("C9", changed, 0, "  of them, those that are not as when it is there without a colour");
-    check_at_most("C9", rounded, same_range ? 0 : 0.0005 * alone, "  of them, those that are not as in edges, %s", same_range ? "at the same depth range" : "rounded otherwise");
+    check_at_most("C9", rounded, same_range ? 0 : 0.0005 * alone, "  of them, those that are not as in edges, %s",
+                  same_range ? "at the same depth range" : "rounded otherwise");
 }
 
 /* 255 after no layer, then what sRGB makes of halves; −1: none of these. */
 static int layers_of(const uint8_t *p)
 {
     for (int n = 0; n < 12; n++) {
-        double linear = pow(0.5, n), wanted = 255 * (linear > 0.0031308 ? 1.055 * pow(linear, 1 / 2.4) - 0.055 : 12.92 * linear);
+        double linear = pow(0.5, n),
+               wanted = 255 * (linear > 0.0031308 ? 1.055 * pow(linear, 1 / 2.4) - 0.055 : 12.92 * linear);
         if (fabs(p[1] - wanted) <= 1.5)
             return n;
     }
@@ -179,18 +182,20 @@ static void check_layers(const char *name, const truth *t, const shot *s)
     }
     check_at_least("C9", sure, 0.8 * s->width * s->height, "%s: pixels that are no border", name);
     check_at_most("C9", wrong, 0.0005 * sure, "  with another number of layers");
-    check_at_most("C9", walls[0] < walls[1] ? walls[0] : walls[1], 0.01 * (walls[0] + walls[1]), "  walls of holes that differ from the %d others",
-                  walls[0] < walls[1] ? walls[1] : walls[0]);
+    check_at_most("C9", walls[0] < walls[1] ? walls[0] : walls[1], 0.01 * (walls[0] + walls[1]),
+                  "  walls of holes that differ from the %d others", walls[0] < walls[1] ? walls[1] : walls[0]);
 }
 
 static void check_view(const model *m, const char *path, csg_rays *whole, csg_rays *gone, int v)
 {
     char title[64];
     snprintf(title, sizeof title, "%s, view %d", m->name, v);
-    static const char *const colourless[] = {"1:compose.opacity", "0", "1:compose.rim", "0", "1:lines.operator", "none", NULL};
+    static const char *const colourless[] = {
+        "1:compose.opacity", "0", "1:compose.rim", "0", "1:lines.operator", "none", NULL};
     shot plain, unseen, ghost, layers;
-    if (!shot_take(&plain, path, "edges", NULL, &views[v]) || !shot_take(&unseen, path, "ghost", colourless, &views[v]) || !shot_take(&ghost, path, "ghost", NULL, &views[v]) ||
-        !shot_take(&layers, path, counting, NULL, &views[v]))
+    if (!shot_take(&plain, path, "edges", NULL, &views[v]) ||
+        !shot_take(&unseen, path, "ghost", colourless, &views[v]) ||
+        !shot_take(&ghost, path, "ghost", NULL, &views[v]) || !shot_take(&layers, path, counting, NULL, &views[v]))
         return;
     truth t;
     csg_map_make(&t.whole, whole, &ghost); /* whose near plane is in front of both */
@@ -208,7 +213,7 @@ static void check_view(const model *m, const char *path, csg_rays *whole, csg_ra
 static void seen_in_front(void)
 {
     for (int i = 0; i < MODELS; i++) {
-        csg whole = {0}, gone = {0};
+        csg  whole = {0}, gone = {0};
         char path[512];
         models[i].make(&whole, &gone);
         snprintf(path, sizeof path, "%s", check_path("%s.csg", models[i].name));
@@ -224,14 +229,14 @@ static void seen_in_front(void)
     }
 }
 
-/* --- what the picture is fitted to ----------------------------------------------------------------------------------------- */
+/* --- what the picture is fitted to ---------------------------------------------------------------------- */
 
 /* A cube of two units, and a rod through it that ends so far from its middle. */
 static bool pierced(shot *out, const char *look, const char *select, double reach, double side)
 {
     static const shot_view fitted = {.width = 160, .height = 160, .bare = true, .without_maps = true};
-    char path[512];
-    csg c = {0};
+    char                   path[512];
+    csg                    c = {0};
     csg_add(&c, -1, CSG_DIFFERENCE);
     csg_box(&c, 0, dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     csg_box(&c, 0, dvec_of(-side, -0.3, -reach), dvec_of(0.3, 0.3, reach));
@@ -254,50 +259,57 @@ static double view_difference(const shot *a, const shot *b)
 static void fitted_to_the_solid(void)
 {
     const double diagonal = sqrt(12), edge = 1 + diagonal / 4;
-    shot plain, inside, at_edge, far;
-    if (!pierced(&plain, "edges", NULL, 100, 0.3) || !pierced(&inside, "ghost", NULL, 1, 0.3) || !pierced(&at_edge, "ghost", NULL, edge, 0.3) ||
-        !pierced(&far, "ghost", NULL, 100, 0.3))
+    shot         plain, inside, at_edge, far;
+    if (!pierced(&plain, "edges", NULL, 100, 0.3) || !pierced(&inside, "ghost", NULL, 1, 0.3) ||
+        !pierced(&at_edge, "ghost", NULL, edge, 0.3) || !pierced(&far, "ghost", NULL, 100, 0.3))
         return;
-    check_at_most("C9", view_difference(&plain, &inside), 0, "a cutter that stays inside: the camera differs from that of edges by");
+    check_at_most("C9", view_difference(&plain, &inside), 0,
+                  "a cutter that stays inside: the camera differs from that of edges by");
     check_at_least("C9", view_difference(&plain, &far), 0.1, "one that sticks out: it differs by");
-    check_at_most("C9", view_difference(&at_edge, &far), 1e-5, "one of 100 units: it differs from that of one that ends a quarter of the diagonal out by");
+    check_at_most("C9", view_difference(&at_edge, &far), 1e-5,
+                  "one of 100 units: it differs from that of one that ends a quarter of the diagonal out by");
     shot_release(&plain);
     shot_release(&inside);
     shot_release(&at_edge);
     shot_release(&far);
 }
 
-/* --- what stays as it is -------------------------------------------------------------------------------------------------- */
+/* --- what stays as it is -------------------------------------------------------------------------------- */
 
 /* One renderer and one scene, looks in turn: a picture depends on its look alone. */
 static void in_turn(void)
 {
     static const char *const looks[] = {"edges", "ghost", "edges", "ghost", "xray", "ghost", "xray"};
     enum { TURNS = sizeof looks / sizeof *looks };
-    char path[512];
-    lmn_renderer *renderer = NULL;
-    lmn_scene *scene = NULL;
-    lmn_drawing *drawn[TURNS] = {NULL};
+    char              path[512];
+    lmn_renderer     *renderer = NULL;
+    lmn_scene        *scene = NULL;
+    lmn_drawing      *drawn[TURNS] = {NULL};
     lmn_renderer_desc how = LMN_RENDERER_DESC_INIT;
-    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
-    csg whole = {0}, gone = {0};
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    csg               whole = {0}, gone = {0};
     drilled(&whole, &gone);
     snprintf(path, sizeof path, "%s", check_path("turns.csg"));
     desc.width = desc.height = 160;
-    bool good = csg_write(&whole, path) && lmn_renderer_create(&renderer, &how, NULL) == LMN_OK && lmn_scene_create(&scene, NULL) == LMN_OK &&
-                lmn_scene_add_file(scene, path, NULL, NULL) == LMN_OK;
+    bool good = csg_write(&whole, path) && lmn_renderer_create(&renderer, &how, NULL) == LMN_OK &&
+                lmn_scene_create(&scene, NULL) == LMN_OK && lmn_scene_add_file(scene, path, NULL, NULL) == LMN_OK;
     for (int i = 0; i < TURNS && good; i++) {
         lmn_look *look = NULL;
-        good = lmn_look_load(&look, looks[i], NULL) == LMN_OK && lmn_draw(&drawn[i], renderer, scene, look, &desc, NULL) == LMN_OK;
+        good = lmn_look_load(&look, looks[i], NULL) == LMN_OK &&
+               lmn_draw(&drawn[i], renderer, scene, look, &desc, NULL) == LMN_OK;
         lmn_look_destroy(&look);
     }
     if (check_that("files", good, "all are drawn")) {
         static const int pairs[][2] = {{0, 2}, {1, 3}, {1, 5}, {4, 6}};
         for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
-            const uint8_t *a = lmn_drawing_pixels(drawn[pairs[i][0]], NULL, NULL), *b = lmn_drawing_pixels(drawn[pairs[i][1]], NULL, NULL);
-            check_that("C9", memcmp(a, b, 160 * 160 * 4) == 0, "%s after %s is what it was", looks[pairs[i][1]], looks[pairs[i][1] - 1]);
+            const uint8_t *a = lmn_drawing_pixels(drawn[pairs[i][0]], NULL, NULL),
+                          *b = lmn_drawing_pixels(drawn[pairs[i][1]], NULL, NULL);
+            check_that("C9", memcmp(a, b, 160 * 160 * 4) == 0, "%s after %s is what it was", looks[pairs[i][1]],
+                       looks[pairs[i][1] - 1]);
         }
-        check_that("C9", memcmp(lmn_drawing_pixels(drawn[0], NULL, NULL), lmn_drawing_pixels(drawn[1], NULL, NULL), 160 * 160 * 4) != 0,
+        check_that("C9",
+                   memcmp(lmn_drawing_pixels(drawn[0], NULL, NULL), lmn_drawing_pixels(drawn[1], NULL, NULL),
+                          160 * 160 * 4) != 0,
                    "ghost is not edges");
     }
     for (int i = 0; i < TURNS; i++)
@@ -312,19 +324,22 @@ static void in_turn(void)
 static void selected(void)
 {
     shot plain, without, with, alone;
-    csg c = {0};
+    csg  c = {0};
     char path[512];
     csg_add(&c, -1, CSG_UNION);
     csg_box(&c, 0, dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
     snprintf(path, sizeof path, "%s", check_path("whole.csg"));
-    if (!csg_write(&c, path) || !shot_take(&plain, path, "edges", NULL, &views[0]) || !shot_take(&without, path, "ghost", NULL, &views[0]))
+    if (!csg_write(&c, path) || !shot_take(&plain, path, "edges", NULL, &views[0]) ||
+        !shot_take(&without, path, "ghost", NULL, &views[0]))
         return;
     check_at_most("C9", shot_differing(&plain, &without, 0), 0, "nothing taken away: values that differ from edges");
-    check_that("C9", shot_has_warning(&without, "no-match") && !shot_has_warning(&plain, "no-match"), "  with a warning");
+    check_that("C9", shot_has_warning(&without, "no-match") && !shot_has_warning(&plain, "no-match"),
+               "  with a warning");
     shot_release(&plain);
     shot_release(&without);
     csg_release(&c);
-    if (!pierced(&plain, "ghost", NULL, 1.5, 0.3) || !pierced(&with, "ghost", "pierced", 1.5, 0.3) || !pierced(&alone, "ghost", "@removed", 1.5, 0.3))
+    if (!pierced(&plain, "ghost", NULL, 1.5, 0.3) || !pierced(&with, "ghost", "pierced", 1.5, 0.3) ||
+        !pierced(&alone, "ghost", "@removed", 1.5, 0.3))
         return;
     check_at_most("C9", shot_differing(&plain, &with, 0), 0, "the part selected: values that differ");
     check_at_least("C9", shot_differing(&plain, &alone, 0), 1000, "@removed selected alone: values that differ");
@@ -336,10 +351,12 @@ static void selected(void)
 /* Sections cut it with its part; where that stays whole, so does it. */
 static void cut_with_its_part(void)
 {
-    static const char *const cut[] = {"scene.cut", "x", NULL}, *const kept[] = {"scene.cut", "x", "scene.cut_keep", "pierced", NULL};
-    shot whole, other;
+    static const char *const cut[] = {"scene.cut", "x", NULL}, *const kept[] = {"scene.cut", "x", "scene.cut_keep",
+                                                                                "pierced", NULL};
+    shot      whole, other;
     shot_view view = {.width = 160, .height = 160, .eye = {6, 3, 4}, .up = {0, 0, 1}, .without_maps = true};
-    if (!pierced(&whole, "ghost", NULL, 1.5, 0.3) || !shot_take(&other, check_path("pierced.csg"), "ghost", kept, &view))
+    if (!pierced(&whole, "ghost", NULL, 1.5, 0.3) ||
+        !shot_take(&other, check_path("pierced.csg"), "ghost", kept, &view))
         return;
     shot_release(&whole);
     if (!shot_take(&whole, check_path("pierced.csg"), "ghost", NULL, &view))
@@ -347,7 +364,8 @@ static void cut_with_its_part(void)
     check_at_most("C9", shot_differing(&whole, &other, 0), 0, "its part stays whole: values that differ");
     shot_release(&whole);
     shot_release(&other);
-    if (!shot_take(&whole, check_path("pierced.csg"), "edges", cut, &view) || !shot_take(&other, check_path("pierced.csg"), "ghost", cut, &view))
+    if (!shot_take(&whole, check_path("pierced.csg"), "edges", cut, &view) ||
+        !shot_take(&other, check_path("pierced.csg"), "ghost", cut, &view))
         return;
     /* The hole is open to the viewer, and of the hatched face beside it nothing changes. */
     int red = 0, face = 0;
@@ -364,8 +382,12 @@ static void cut_with_its_part(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"seen", seen_in_front}, {"fitted", fitted_to_the_solid}, {"turns", in_turn}, {"selected", selected}, {"cut", cut_with_its_part}};
-    int status = check_main(argc, argv, "solid_ghost", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {{"seen", seen_in_front},
+                                       {"fitted", fitted_to_the_solid},
+                                       {"turns", in_turn},
+                                       {"selected", selected},
+                                       {"cut", cut_with_its_part}};
+    int                     status = check_main(argc, argv, "solid_ghost", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

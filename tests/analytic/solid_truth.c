@@ -1,5 +1,5 @@
-/* The reference for solids against what is known without it: volumes, winding numbers, the laws of sets, flush faces by hand.
- * Nothing is drawn here. */
+/* The reference for solids against what is known without it: volumes, winding numbers, the laws of sets, flush
+ * faces by hand. Nothing is drawn here. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,13 +10,15 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* --- leaves ---------------------------------------------------------------------------------------------------------- */
+/* --- leaves --------------------------------------------------------------------------------------------- */
 
 static double mesh_volume(const csg_mesh *m)
 {
     double volume = 0;
     for (size_t f = 0; f < m->face_count; f++)
-        volume += dvec_dot(m->points[m->faces[3 * f]], dvec_cross(m->points[m->faces[3 * f + 1]], m->points[m->faces[3 * f + 2]])) / 6;
+        volume += dvec_dot(m->points[m->faces[3 * f]],
+                           dvec_cross(m->points[m->faces[3 * f + 1]], m->points[m->faces[3 * f + 2]])) /
+                  6;
     return volume;
 }
 
@@ -40,9 +42,9 @@ static int open_sides(const csg_mesh *m)
 static void leaves(void)
 {
     static const char *const names[] = {"box", "ball", "cylinder", "cone", "torus", "angle", "star", "cup", "hull"};
-    csg      c = {0};
-    uint32_t state = 5;
-    int      root = csg_add(&c, -1, CSG_UNION);
+    csg                      c = {0};
+    uint32_t                 state = 5;
+    int                      root = csg_add(&c, -1, CSG_UNION);
     csg_box(&c, root, dvec_of(-1, -0.5, 0), dvec_of(1, 1, 0.7));
     csg_ball(&c, root, 1, 16, 24);
     csg_cylinder(&c, root, 0.7, 0.7, 1.2, 24);
@@ -60,14 +62,15 @@ static void leaves(void)
         double    volume = mesh_volume(&c.nodes[i].mesh);
         check_at_most("self", open_sides(&c.nodes[i].mesh), 0, "%s: open sides", names[i - 1]);
         for (int axis = 0; axis < 3; axis++)
-            check_near("self", csg_volume(r, axis, 150), volume, 0.004 * volume, "%s: volume by rays along axis %d and by its faces", names[i - 1], axis);
+            check_near("self", csg_volume(r, axis, 150), volume, 0.004 * volume,
+                       "%s: volume by rays along axis %d and by its faces", names[i - 1], axis);
         csg_rays_destroy(r);
         csg_release(&alone);
     }
     csg_release(&c);
 }
 
-/* --- volumes --------------------------------------------------------------------------------------------------------- */
+/* --- volumes -------------------------------------------------------------------------------------------- */
 
 static void volume_is(csg *c, double wanted, double share, const char *what)
 {
@@ -80,13 +83,13 @@ static void volume_is(csg *c, double wanted, double share, const char *what)
 
 static void volumes(void)
 {
-    csg c = {0};
+    csg    c = {0};
     double radius = 1, apart = 0.8;
     /* What two equal balls have in common: two caps. */
     double height = radius - apart / 2, lens = 2 * pi * height * height * (3 * radius - height) / 3, ball = 4 * pi / 3;
     for (int kind = 1; kind <= 3; kind++) {
         static const char *const names[] = {"", "ball and ball", "ball in ball", "ball minus ball"};
-        int root = csg_add(&c, -1, (csg_kind)kind);
+        int                      root = csg_add(&c, -1, (csg_kind)kind);
         csg_ball(&c, root, radius, 64, 128);
         csg_move(&c, csg_ball(&c, root, radius, 64, 128), apart, 0, 0);
         volume_is(&c, kind == 1 ? 2 * ball - lens : kind == 2 ? lens : ball - lens, 0.006, names[kind]);
@@ -102,7 +105,7 @@ static void volumes(void)
     volume_is(&c, 8 - 1.4 * 1.4 * 1.4 + 0.8 * 0.8 * 0.8, 0.004, "box in a hollow box");
 }
 
-/* --- winding numbers --------------------------------------------------------------------------------------------------- */
+/* --- winding numbers ------------------------------------------------------------------------------------ */
 
 /* Twice around: the solid angle of a triangle, van Oosterom and Strackee. */
 static double solid_angle(dvec a, dvec b, dvec c)
@@ -175,11 +178,12 @@ static void winding(void)
             csg_release(&c);
         }
         check_at_least("K01", inside, 0.05 * points, "%s: points in the solid, of %d", csg_scene_names[kind], points);
-        check_at_most("K01", wrong, 0, "%s: points at which rays and solid angles differ (%d leaves)", csg_scene_names[kind], leaf_count);
+        check_at_most("K01", wrong, 0, "%s: points at which rays and solid angles differ (%d leaves)",
+                      csg_scene_names[kind], leaf_count);
     }
 }
 
-/* --- laws ------------------------------------------------------------------------------------------------------------ */
+/* --- laws ----------------------------------------------------------------------------------------------- */
 
 /* Three solids of a seed, and trees of them written in two ways. */
 typedef struct law {
@@ -209,8 +213,8 @@ static int differing_rays(csg_rays *one, csg_rays *other, uint32_t seed, int cou
         dvec   origin = dvec_of(v[0], v[1], v[2]), direction = dvec_of(v[3], v[4], v[5]);
         size_t found = csg_trace(one, origin, direction, a, CSG_HITS_MAX, &way), same = 0;
         if (csg_trace(other, origin, direction, b, CSG_HITS_MAX, &way) == found)
-            while (same < found && fabs(a[same].t - b[same].t) * dvec_length(direction) < 1e-9 && a[same].front == b[same].front &&
-                   dvec_dot(a[same].flat, b[same].flat) > 1 - 1e-9)
+            while (same < found && fabs(a[same].t - b[same].t) * dvec_length(direction) < 1e-9 &&
+                   a[same].front == b[same].front && dvec_dot(a[same].flat, b[same].flat) > 1 - 1e-9)
                 same++;
         wrong += same < found || (way.close && !found);
     }
@@ -220,19 +224,27 @@ static int differing_rays(csg_rays *one, csg_rays *other, uint32_t seed, int cou
 static void laws(void)
 {
     static const law all[] = {
-        {"A - (B + C) = (A - B) - C", "-a+bc", "--abc"},           {"A * (B + C) = A * B + A * C", "*a+bc", "+*ab*ac"},
-        {"A - (B * C) = (A - B) + (A - C)", "-a*bc", "+-ab-ac"},   {"A - (B - C) = (A - B) + A * C", "-a-bc", "+-ab*ac"},
-        {"A * (B - C) = A * B - C", "*a-bc", "-*abc"},             {"(A + B) - C = (A - C) + (B - C)", "-+abc", "+-ac-bc"},
-        {"A + A = A", "+aa", "a"},                                 {"A * A = A", "*aa", "a"},
-        {"A + (A * B) = A", "+a*ab", "a"},                         {"(A - B) + (A * B) = A", "+-ab*ab", "a"},
-        {"A - (A - B) = A * B", "-a-ab", "*ab"},                   {"A - A = nothing", "-aa", "-bb"},
+        {"A - (B + C) = (A - B) - C", "-a+bc", "--abc"},
+        {"A * (B + C) = A * B + A * C", "*a+bc", "+*ab*ac"},
+        {"A - (B * C) = (A - B) + (A - C)", "-a*bc", "+-ab-ac"},
+        {"A - (B - C) = (A - B) + A * C", "-a-bc", "+-ab*ac"},
+        {"A * (B - C) = A * B - C", "*a-bc", "-*abc"},
+        {"(A + B) - C = (A - C) + (B - C)", "-+abc", "+-ac-bc"},
+        {"A + A = A", "+aa", "a"},
+        {"A * A = A", "*aa", "a"},
+        {"A + (A * B) = A", "+a*ab", "a"},
+        {"(A - B) + (A * B) = A", "+-ab*ab", "a"},
+        {"A - (A - B) = A * B", "-a-ab", "*ab"},
+        {"A - A = nothing", "-aa", "-bb"},
     };
     for (size_t l = 0; l < sizeof all / sizeof *all; l++) {
         int wrong = 0;
         for (uint32_t seed = 1; seed <= 5; seed++) {
             csg parts[3] = {{0}}, sides[2] = {{0}};
             for (uint32_t k = 0; k < 3; k++)
-                csg_random(&parts[k], (csg_scene)((seed + k) % CSG_SCENES == CSG_MANY ? CSG_CONVEX : (seed + k) % CSG_SCENES), 10 * seed + k);
+                csg_random(&parts[k],
+                           (csg_scene)((seed + k) % CSG_SCENES == CSG_MANY ? CSG_CONVEX : (seed + k) % CSG_SCENES),
+                           10 * seed + k);
             build(&sides[0], -1, all[l].left, parts);
             build(&sides[1], -1, all[l].right, parts);
             csg_rays *one = csg_rays_create(&sides[0], 30), *other = csg_rays_create(&sides[1], 30);
@@ -248,7 +260,7 @@ static void laws(void)
     }
 }
 
-/* --- flush faces by hand ------------------------------------------------------------------------------------------------ */
+/* --- flush faces by hand -------------------------------------------------------------------------------- */
 
 /* The surfaces along x through (y, z) = (0.1, 0.2): places, owners; the first is a front. */
 static void along_x(csg *c, int count, const double *places, const int *owners, const char *what)
@@ -262,7 +274,8 @@ static void along_x(csg *c, int count, const double *places, const int *owners, 
     for (int k = 0; k < found && k < count; k++) {
         check_near("self", hits[k].t * 2 - 10, places[k], 1e-9, "  place of surface %d", k);
         check_near("self", hits[k].leaf, owners[k], 0, "  its owner");
-        check_that("self", hits[k].front == (k % 2 == 0) && hits[k].normal.x * (k % 2 ? 1 : -1) > 0.5, "  it faces outwards");
+        check_that("self", hits[k].front == (k % 2 == 0) && hits[k].normal.x * (k % 2 ? 1 : -1) > 0.5,
+                   "  it faces outwards");
     }
     csg_rays_destroy(r);
     csg_release(c);
@@ -308,7 +321,8 @@ static void flush(void)
     csg_box(&c, 0, dvec_of(1, -1, -1), dvec_of(2, 1, 1));
     along_x(&c, 2, (double[]){0, 3}, (int[]){0, 0}, "a cut that is filled again");
     boxes(&c, CSG_DIFFERENCE, 1, (double[][2]){{0, 3}});
-    csg_place(&c, csg_box(&c, 0, dvec_of(-2, -1, -1), dvec_of(-1, 1, 1)), dvec_of(-1, 1, 1), dvec_of(1, 0, 0), 0, dvec_of(0, 0, 0));
+    csg_place(&c, csg_box(&c, 0, dvec_of(-2, -1, -1), dvec_of(-1, 1, 1)), dvec_of(-1, 1, 1), dvec_of(1, 0, 0), 0,
+              dvec_of(0, 0, 0));
     along_x(&c, 4, (double[]){0, 1, 2, 3}, (int[]){0, 1, 1, 0}, "a mirrored cut");
     csg_ball(&c, csg_add(&c, -1, CSG_UNION), 1, 8, 16);
     csg_ball(&c, 0, 1, 8, 16);
@@ -337,14 +351,14 @@ static void nearly_flush(void)
     }
 }
 
-/* --- maps ------------------------------------------------------------------------------------------------------------ */
+/* --- maps ----------------------------------------------------------------------------------------------- */
 
 static void maps(void)
 {
     for (int kind = 0; kind < CSG_SCENES; kind++) {
-        csg     c = {0};
-        shot    blank;
-        csg_map map;
+        csg       c = {0};
+        shot      blank;
+        csg_map   map;
         shot_view view = {.width = 80, .height = 64, .eye = {4, 3, 5}, .up = {0, 1, 0}, .orthographic = kind % 2};
         csg_random(&c, (csg_scene)kind, 3);
         shot_blank(&blank, &view, 1, 20);
@@ -362,9 +376,12 @@ static void maps(void)
                 wrong += (dvec_dot(h->flat, direction) < 0) != h->front;
             }
         }
-        check_at_most("C5", odd, 0, "%s: pixels with an odd number of surfaces (at most %zu)", csg_scene_names[kind], map.most);
-        check_at_most("C5", turned + wrong + back, 0, "  surfaces that do not alternate, face the wrong way or are out of order");
-        check_at_least("self", (double)map.sharp_count / (map.width * map.height), 0.9, "  share of pixels whose answer is sure");
+        check_at_most("C5", odd, 0, "%s: pixels with an odd number of surfaces (at most %zu)", csg_scene_names[kind],
+                      map.most);
+        check_at_most("C5", turned + wrong + back, 0,
+                      "  surfaces that do not alternate, face the wrong way or are out of order");
+        check_at_least("self", (double)map.sharp_count / (map.width * map.height), 0.9,
+                       "  share of pixels whose answer is sure");
         csg_map_release(&map);
         csg_rays_destroy(r);
         shot_release(&blank);
@@ -375,7 +392,8 @@ static void maps(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"leaves", leaves}, {"volumes", volumes}, {"winding", winding}, {"laws", laws}, {"flush", flush}, {"nearly", nearly_flush}, {"maps", maps},
+        {"leaves", leaves}, {"volumes", volumes},     {"winding", winding}, {"laws", laws},
+        {"flush", flush},   {"nearly", nearly_flush}, {"maps", maps},
     };
     return check_main(argc, argv, "solid_truth", cases, sizeof cases / sizeof *cases);
 }

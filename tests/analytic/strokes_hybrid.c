@@ -1,5 +1,6 @@
-/* Two kinds of lines on complementary parts: strokes on some, lines found in the picture on the others. Each part has its own kind alone, whoever is in front hides the other's
- * lines, and as a vector drawing both are strokes, each with its rule's colour. Seed 000, chapter 4; row C11. */
+/* Two kinds of lines on complementary parts: strokes on some, lines found in the picture on the others. Each part
+ * has its own kind alone, whoever is in front hides the other's lines, and as a vector drawing both are strokes,
+ * each with its rule's colour. Seed 000, chapter 4; row C11. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,11 +10,14 @@
 
 enum { NONE_KIND, STROKES, FOUND, KINDS, SIDE = 900, REACH = 3 };
 
-/* Red strokes, blue lines of the picture. `%s`: the parts with strokes, what else the strokes have, and the operator of the others. */
+/* Red strokes, blue lines of the picture. `%s`: the parts with strokes, what else the strokes have, and the
+ * operator of the others. */
 static const char look_text[] =
     "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":["
-    "{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"%s\",\"width\":2,\"colour\":\"#0000ff\"}},"
-    "{\"select\":\"%s\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"strokes\",\"width\":2,\"colour\":\"#ff0000\",\"visibility\":\"%s\"}}]}";
+    "{\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":\"%s\",\"width\":2,"
+    "\"colour\":\"#0000ff\"}},"
+    "{\"select\":\"%s\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{\"operator\":"
+    "\"strokes\",\"width\":2,\"colour\":\"#ff0000\",\"visibility\":\"%s\"}}]}";
 
 typedef struct subject {
     const char *model, *select; /* whose parts have strokes */
@@ -49,8 +53,9 @@ static void find_kinds(part_kinds *out, const subject *s, const char *report)
 {
     memset(out, 0, sizeof *out);
     for (const char *at = strstr(report, "\"parts_visible\""); at && (at = strstr(at, "\"id\""));) {
-        int id = (int)strtol(strchr(at, ':') + 1, NULL, 10);
-        const char *name = strstr(at, "\"name\""), *begin = name ? strchr(strchr(name, ':'), '"') : NULL, *end = begin ? strchr(begin + 1, '"') : NULL;
+        int         id = (int)strtol(strchr(at, ':') + 1, NULL, 10);
+        const char *name = strstr(at, "\"name\""), *begin = name ? strchr(strchr(name, ':'), '"') : NULL,
+                   *end = begin ? strchr(begin + 1, '"') : NULL;
         if (!end)
             return;
         if (id > 0 && id < 2048) {
@@ -88,7 +93,8 @@ static unsigned ink_around(const shot *s, int x, int y)
 
 typedef struct tally {
     long ink[KINDS], alien[KINDS]; /* alien: amid parts of the other kind, or of none */
-    long rims[KINDS], inked[KINDS]; /* pixels of a kind's outline against what is farther, and those with that kind's ink near */
+    long rims[KINDS],
+        inked[KINDS]; /* pixels of a kind's outline against what is farther, and those with that kind's ink near */
 } tally;
 
 /* Kinds around a pixel, as far as a line can reach. */
@@ -105,10 +111,11 @@ static unsigned kinds_around(const shot *s, const part_kinds *k, int x, int y)
 static bool is_rim(const shot *s, const part_kinds *k, int x, int y, double step)
 {
     static const int beside[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    double own = (double)s->depth[y * s->width + x];
+    double           own = (double)s->depth[y * s->width + x];
     for (int i = 0; i < 4; i++) {
         int u = x + beside[i][0], v = y + beside[i][1];
-        if (kind_at(s, k, u, v) != kind_at(s, k, x, y) && u >= 0 && v >= 0 && u < s->width && v < s->height && (double)s->depth[v * s->width + u] > own + step)
+        if (kind_at(s, k, u, v) != kind_at(s, k, x, y) && u >= 0 && v >= 0 && u < s->width && v < s->height &&
+            (double)s->depth[v * s->width + u] > own + step)
             return true;
     }
     return false;
@@ -120,7 +127,7 @@ static tally count_lines(const shot *s, const part_kinds *k, double step)
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++) {
             unsigned ink = ink_at(s, x, y), around = ink ? kinds_around(s, k, x, y) : 0;
-            int own = kind_at(s, k, x, y);
+            int      own = kind_at(s, k, x, y);
             for (int kind = STROKES; kind <= FOUND; kind++) {
                 t.ink[kind] += (ink >> kind) & 1;
                 t.alien[kind] += (ink >> kind & 1) && !(around >> kind & 1);
@@ -136,43 +143,48 @@ static tally count_lines(const shot *s, const part_kinds *k, double step)
 static const char *look_of(const subject *s, const char *found, const char *visibility)
 {
     static char texts[4][1200];
-    static int next;
-    char *text = texts[next++ % 4];
+    static int  next;
+    char       *text = texts[next++ % 4];
     snprintf(text, sizeof texts[0], look_text, found, s->select, visibility);
     return text;
 }
 
 static void in_the_window(void)
 {
-    static const char *const names[KINDS] = {"", "strokes", "lines of the picture"}, *const ways[] = {"exact", "sampled"};
+    static const char *const names[KINDS] = {"", "strokes", "lines of the picture"}, *const ways[] = {"exact",
+                                                                                                      "sampled"};
     for (int i = 0; i < 2; i++)
         for (int way = 0; way < 2; way++) {
             const subject *s = &subjects[i];
-            char model[512];
+            char           model[512];
             snprintf(model, sizeof model, "%s/%s", LIMNER_EXAMPLES, s->model);
             shot_view view = {.width = SIDE, .height = SIDE, .bare = true};
-            shot t;
+            shot      t;
             if (shot_take(&t, model, look_of(s, "discontinuity", ways[way]), NULL, &view)) {
                 part_kinds k;
                 find_kinds(&k, s, t.report);
                 tally n = count_lines(&t, &k, 0.01 * (t.far_depth - t.near_depth));
                 for (int kind = STROKES; kind <= FOUND; kind++) {
-                    check_at_least("C11", (double)k.seen[kind], 3, "%s, %s: parts with %s that are seen", s->model, ways[way], names[kind]);
+                    check_at_least("C11", (double)k.seen[kind], 3, "%s, %s: parts with %s that are seen", s->model,
+                                   ways[way], names[kind]);
                     check_at_least("C11", (double)n.ink[kind], 2000, "%s: pixels of %s", s->model, names[kind]);
                     check_at_most("C11", (double)n.alien[kind], 0, "%s: of which away from their parts", s->model);
-                    check_at_least("C11", (double)n.rims[kind], 400, "%s: pixels of outlines of parts with %s", s->model, names[kind]);
-                    check_at_least("C11", (double)n.inked[kind] / (double)n.rims[kind], 0.99, "%s: share of them with ink of that kind", s->model);
+                    check_at_least("C11", (double)n.rims[kind], 400, "%s: pixels of outlines of parts with %s",
+                                   s->model, names[kind]);
+                    check_at_least("C11", (double)n.inked[kind] / (double)n.rims[kind], 0.99,
+                                   "%s: share of them with ink of that kind", s->model);
                 }
             }
             shot_release(&t);
         }
 }
 
-/* --- as a vector drawing --------------------------------------------------------------------------------------------- */
+/* --- as a vector drawing -------------------------------------------------------------------------------- */
 
 enum { STYLES_MAX = 64 };
 
-/* Reads a line of the drawing's file: which styles are of which kind, whose part follows, and what its lines are drawn with. */
+/* Reads a line of the drawing's file: which styles are of which kind, whose part follows, and what its lines are
+ * drawn with. */
 static void read_line(const subject *s, const char *line, int styles[STYLES_MAX], int *kind, tally *out)
 {
     int         style;
@@ -205,12 +217,13 @@ static bool write_look(const char *path, const char *look)
 static void read_verdict(const char *path, double *samples, double *wrong)
 {
     static char text[1 << 20];
-    FILE *file = fopen(path, "r");
-    size_t size = file ? fread(text, 1, sizeof text - 1, file) : 0;
+    FILE       *file = fopen(path, "r");
+    size_t      size = file ? fread(text, 1, sizeof text - 1, file) : 0;
     text[size] = '\0';
     if (file)
         fclose(file);
-    const char *verify = strstr(text, "\"verify\""), *of = verify ? strstr(verify, "\"samples\"") : NULL, *bad = verify ? strstr(verify, "\"wrong\"") : NULL;
+    const char *verify = strstr(text, "\"verify\""), *of = verify ? strstr(verify, "\"samples\"") : NULL,
+               *bad = verify ? strstr(verify, "\"wrong\"") : NULL;
     *samples = of ? atof(strchr(of, ':') + 1) : 0;
     *wrong = bad ? atof(strchr(bad, ':') + 1) : INFINITY;
 }
@@ -220,11 +233,12 @@ static void as_strokes(void)
     static char line[1 << 20];
     for (int i = 0; i < 2; i++) {
         const subject *s = &subjects[i];
-        char command[3000], look[400], drawing[400], report[400];
+        char           command[3000], look[400], drawing[400], report[400];
         snprintf(look, sizeof look, "%s", check_path("hybrid.json"));
         snprintf(drawing, sizeof drawing, "%s", check_path("hybrid.svg"));
         snprintf(report, sizeof report, "%s", check_path("hybrid-report.json"));
-        snprintf(command, sizeof command, "%s draw %s/%s -o %s --look %s --report %s --verify --quiet", LIMNER_COMMAND, LIMNER_EXAMPLES, s->model, drawing, look, report);
+        snprintf(command, sizeof command, "%s draw %s/%s -o %s --look %s --report %s --verify --quiet", LIMNER_COMMAND,
+                 LIMNER_EXAMPLES, s->model, drawing, look, report);
         bool  good = write_look(look, look_of(s, "discontinuity", "auto")) && system(command) == 0;
         FILE *file = good ? fopen(drawing, "r") : NULL;
         int   styles[STYLES_MAX] = {0}, kind = NONE_KIND;
@@ -235,7 +249,8 @@ static void as_strokes(void)
         if (file)
             fclose(file);
         for (kind = STROKES; kind <= FOUND; kind++) {
-            check_at_least("C11", (double)t.ink[kind], 20, "%s: lines of parts with %s", s->model, kind == STROKES ? "strokes" : "lines of the picture");
+            check_at_least("C11", (double)t.ink[kind], 20, "%s: lines of parts with %s", s->model,
+                           kind == STROKES ? "strokes" : "lines of the picture");
             check_at_most("C11", (double)t.alien[kind], 0, "%s: of which drawn as the other rule says", s->model);
         }
         double samples, wrong;
@@ -248,7 +263,7 @@ static void as_strokes(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {{"window", in_the_window}, {"strokes", as_strokes}};
-    int status = check_main(argc, argv, "strokes_hybrid", cases, sizeof cases / sizeof *cases);
+    int                     status = check_main(argc, argv, "strokes_hybrid", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

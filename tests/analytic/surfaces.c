@@ -8,14 +8,17 @@
 #include "shape.h"
 #include "shot.h"
 
-static const shot_view front = {.width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
+static const shot_view front = {
+    .width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
 
 static const char *surface_look(const char *surface, const char *light, double fill)
 {
     static char text[1024];
     snprintf(text, sizeof text,
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\",\"fill\":%g},"
-             "\"rules\":[{\"surface\":%s}]}", light, fill, surface);
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\","
+             "\"fill\":%g},"
+             "\"rules\":[{\"surface\":%s}]}",
+             light, fill, surface);
     return text;
 }
 
@@ -78,7 +81,7 @@ static int wrong_order(const shot *s, dvec light)
     for (int i = 0; i < s->width * s->height; i++) {
         if (isinf(s->depth[i]))
             continue;
-        int k = (int)floor((dvec_dot(dvec_unit(light), dvec_from(s->normal[i])) + 1) * 10);
+        int    k = (int)floor((dvec_dot(dvec_unit(light), dvec_from(s->normal[i])) + 1) * 10);
         double l = luminance(&s->picture[4 * i]);
         darkest[k] = fmin(darkest[k], l);
         lightest[k] = fmax(lightest[k], l);
@@ -93,9 +96,9 @@ static void tones_are_counted(void)
 {
     static const char *const palettes[] = {"[\"#202020\",\"#f0f0f0\"]", "[\"#202020\",\"#808080\",\"#f0f0f0\"]",
                                            "[\"#101010\",\"#404040\",\"#707070\",\"#a0a0a0\",\"#d0d0d0\"]"};
-    static const int steps[] = {2, 3, 5};
-    uint32_t colours[64];
-    int      pixels[64];
+    static const int         steps[] = {2, 3, 5};
+    uint32_t                 colours[64];
+    int                      pixels[64];
     for (int i = 0; i < 3; i++)
         for (int fill = 0; fill < 2; fill++) {
             char surface[160];
@@ -103,10 +106,12 @@ static void tones_are_counted(void)
             snprintf(surface, sizeof surface, "{\"technique\":\"tones\",\"palette\":%s}", palettes[i]);
             if (take_ball(&s, surface_look(surface, "0.8,0.5,0.4", fill ? 0.6 : 0), NULL)) {
                 int count = colours_of(&s, colours, pixels, 64);
-                check_near("G1", count, fill ? count : steps[i], 0, "tones on a sphere from a palette of %d%s", steps[i], fill ? " with a second light" : "");
+                check_near("G1", count, fill ? count : steps[i], 0, "tones on a sphere from a palette of %d%s",
+                           steps[i], fill ? " with a second light" : "");
                 check_at_most("G1", count, steps[i], "and never more");
                 if (!fill)
-                    check_at_most("G1", wrong_order(&s, dvec_of(0.8, 0.5, 0.4)), 0, "places where the side to the light is the darker one");
+                    check_at_most("G1", wrong_order(&s, dvec_of(0.8, 0.5, 0.4)), 0,
+                                  "places where the side to the light is the darker one");
             }
             shot_release(&s);
         }
@@ -114,20 +119,22 @@ static void tones_are_counted(void)
         for (int fill = 0; fill < 2; fill++) {
             char surface[160];
             shot s;
-            snprintf(surface, sizeof surface, "{\"technique\":\"toon\",\"bands\":%d,\"softness\":0,\"highlight\":0}", bands);
+            snprintf(surface, sizeof surface, "{\"technique\":\"toon\",\"bands\":%d,\"softness\":0,\"highlight\":0}",
+                     bands);
             if (take_ball(&s, surface_look(surface, "0.5,0.5,0.7", fill ? 0.8 : 0), NULL))
-                check_near("G1", colours_of(&s, colours, pixels, 64), bands, 0, "tones of toon with %d bands, %s", bands,
-                           fill ? "two lights" : "one light");
+                check_near("G1", colours_of(&s, colours, pixels, 64), bands, 0, "tones of toon with %d bands, %s",
+                           bands, fill ? "two lights" : "one light");
             shot_release(&s);
         }
 }
 
-/* Flat tones stay constant; between them lie one to three pixels of transition. Counted along rows that cross the borders nearly
- * at right angles. */
+/* Flat tones stay constant; between them lie one to three pixels of transition. Counted along rows that cross the
+ * borders nearly at right angles. */
 static void tone_borders(void)
 {
-    static const char *const forms[] = {"{\"technique\":\"toon\",\"bands\":3,\"softness\":1,\"highlight\":0}",
-                                        "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"seed_blur\":true}"};
+    static const char *const forms[] = {
+        "{\"technique\":\"toon\",\"bands\":3,\"softness\":1,\"highlight\":0}",
+        "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"seed_blur\":true}"};
     for (int f = 0; f < 2; f++) {
         uint32_t colours[256];
         int      pixels[256], runs = 0, short_runs = 0, long_runs = 0, flat = 0, inside = 0;
@@ -137,7 +144,7 @@ static void tone_borders(void)
             for (int y = 80; y < 176; y++) {
                 int run = -1, tone = -1;
                 for (int x = 0; x < 256; x++) {
-                    int i = y * 256 + x, k = 0;
+                    int      i = y * 256 + x, k = 0;
                     uint32_t c;
                     if (isinf(s.depth[i]) || s.normal[i][2] < 0.35f) {
                         run = -1;
@@ -162,7 +169,8 @@ static void tone_borders(void)
                 }
             }
         }
-        check_at_least("E12", runs, 100, "borders between tones crossed (%s)", f ? "blurred as the seed" : "softness 1");
+        check_at_least("E12", runs, 100, "borders between tones crossed (%s)",
+                       f ? "blurred as the seed" : "softness 1");
         check_at_most("E12", short_runs, 0, "of them without a transition");
         check_at_most("E12", long_runs, 0, "of them with more than 3 px");
         check_at_least("E12", inside ? (double)flat / inside : 0, 0.9, "share of pixels in one of the flat tones");
@@ -173,12 +181,12 @@ static void tone_borders(void)
 /* Four bilinear samples at two thirds of a pixel are the mean of nine. */
 static void blur_is_a_box(void)
 {
-    shot sharp, blurred;
-    double worst = 0;
-    int    changed = 0;
+    shot        sharp, blurred;
+    double      worst = 0;
+    int         changed = 0;
     const char *hard = "{\"technique\":\"toon\",\"bands\":4,\"softness\":0,\"highlight\":0}";
     const char *soft = "{\"technique\":\"toon\",\"bands\":4,\"softness\":0,\"highlight\":0,\"seed_blur\":true}";
-    bool ok = take_ball(&sharp, surface_look(hard, "1,0.35,0.3", 0), NULL);
+    bool        ok = take_ball(&sharp, surface_look(hard, "1,0.35,0.3", 0), NULL);
     if (take_ball(&blurred, surface_look(soft, "1,0.35,0.3", 0), NULL) && ok)
         for (int y = 1; y < 255; y++)
             for (int x = 1; x < 255; x++) {
@@ -201,13 +209,15 @@ static void blur_is_a_box(void)
     shot_release(&blurred);
 }
 
-/* --- Gooch ------------------------------------------------------------------------------------------------------- */
+/* --- Gooch ---------------------------------------------------------------------------------------------- */
 
 static void gooch_ramp(void)
 {
     static const double cool[3] = {0x52, 0x66, 0xa8}, warm[3] = {0xcc, 0xb8, 0x7a};
-    const char *look = surface_look("{\"technique\":\"gooch\",\"cool\":\"#5266a8\",\"warm\":\"#ccb87a\",\"cool_share\":0.2,"
-                                    "\"warm_share\":0.35,\"specular\":0}", "0.7,0.6,0.4", 0);
+    const char         *look =
+        surface_look("{\"technique\":\"gooch\",\"cool\":\"#5266a8\",\"warm\":\"#ccb87a\",\"cool_share\":0.2,"
+                     "\"warm_share\":0.35,\"specular\":0}",
+                     "0.7,0.6,0.4", 0);
     dvec   light = dvec_unit(dvec_of(0.7, 0.6, 0.4));
     double worst = 0, darkest = 1, hue[21] = {0};
     int    in_bin[21] = {0}, back = 0;
@@ -217,9 +227,10 @@ static void gooch_ramp(void)
             if (isinf(s.depth[i]))
                 continue;
             const uint8_t *p = &s.picture[4 * i];
-            double t = 0.5 * dvec_dot(light, dvec_from(s.normal[i])) + 0.5;
+            double         t = 0.5 * dvec_dot(light, dvec_from(s.normal[i])) + 0.5;
             for (int k = 0; k < 3; k++) {
-                double kc = fmin(picture_linear((uint8_t)cool[k]) + 0.2, 1), kw = fmin(picture_linear((uint8_t)warm[k]) + 0.35, 1);
+                double kc = fmin(picture_linear((uint8_t)cool[k]) + 0.2, 1),
+                       kw = fmin(picture_linear((uint8_t)warm[k]) + 0.35, 1);
                 worst = fmax(worst, fabs(p[k] - picture_srgb(kc * (1 - t) + kw * t)));
             }
             darkest = fmin(darkest, luminance(p));
@@ -240,9 +251,9 @@ static void gooch_ramp(void)
 static void gooch_lines(void)
 {
     const shot_view view = {.width = 300, .height = 240, .eye = {4, 3, 5}, .up = {0, 1, 0}};
-    shape s = {0};
-    shot  drawing;
-    int   outline = 0, light_outline = 0, inner = 0, dark_inner = 0, extreme = 0, away = 0;
+    shape           s = {0};
+    shot            drawing;
+    int             outline = 0, light_outline = 0, inner = 0, dark_inner = 0, extreme = 0, away = 0;
     shape_box(&s, "box", dvec_of(-1, -0.8, -0.8), dvec_of(0.9, 0.7, 0.8));
     if (shot_of_shape(&drawing, &s, "gooch.ply", "gooch", NULL, &view))
         for (int i = 0; i < view.width * view.height; i++) {
@@ -268,33 +279,41 @@ static void gooch_lines(void)
     shape_release(&s);
 }
 
-/* --- wax ---------------------------------------------------------------------------------------------------------- */
+/* --- wax ------------------------------------------------------------------------------------------------ */
 
-/* Without depth, wax is Lambert's law in its colour. With it, a channel is dark only where the light is further behind than it goes, and no place
- * is darker than the opaque one. The border is of the glow's hue. */
+/* Without depth, wax is Lambert's law in its colour. With it, a channel is dark only where the light is further
+ * behind than it goes, and no place is darker than the opaque one. The border is of the glow's hue. */
 static void wax_wraps(void)
 {
     static const double share[3] = {1, 0.5, 0.25}, depth[] = {0, 0.4, 1};
-    dvec light = dvec_unit(dvec_of(0.8, 0.2, 0.4));
+    dvec                light = dvec_unit(dvec_of(0.8, 0.2, 0.4));
     for (int d = 0; d < 3; d++) {
-        char surface[200];
+        char   surface[200];
         double worst = 0;
-        shot s;
+        shot   s;
         /* sRGB of 1, 0.5, 0.25 */
-        snprintf(surface, sizeof surface, "{\"technique\":\"wax\",\"colour\":\"#ffffff\",\"glow\":\"#ffbc89\",\"depth\":%g,\"warmth\":0,\"shine\":0}", depth[d]);
+        snprintf(
+            surface, sizeof surface,
+            "{\"technique\":\"wax\",\"colour\":\"#ffffff\",\"glow\":\"#ffbc89\",\"depth\":%g,\"warmth\":0,\"shine\":0}",
+            depth[d]);
         if (take_ball(&s, surface_look(surface, "0.8,0.2,0.4", 0), NULL))
             for (int i = 0; i < 256 * 256; i++)
                 for (int k = 0; k < 3 && !isinf(s.depth[i]); k++) {
                     double reach = depth[d] * sqrt(share[k]), t = dvec_dot(light, dvec_from(s.normal[i]));
                     double lit = fmax((t + reach) / (1 + reach), 0);
-                    worst = fmax(worst, fabs(s.picture[4 * i + k] - picture_srgb(lit + (1 - lit) * 0.4 * depth[d] * share[k])));
+                    worst = fmax(
+                        worst, fabs(s.picture[4 * i + k] - picture_srgb(lit + (1 - lit) * 0.4 * depth[d] * share[k])));
                 }
         check_at_most("wax", worst, 2, "levels between wax of depth %g and its closed form", depth[d]);
         shot_release(&s);
     }
     shot s;
-    int border = 0, cold = 0;
-    if (take_ball(&s, surface_look("{\"technique\":\"wax\",\"colour\":\"#ffffff\",\"glow\":\"#ff8040\",\"warmth\":1,\"shine\":0}", "0,0,1", 0), NULL))
+    int  border = 0, cold = 0;
+    if (take_ball(
+            &s,
+            surface_look("{\"technique\":\"wax\",\"colour\":\"#ffffff\",\"glow\":\"#ff8040\",\"warmth\":1,\"shine\":0}",
+                         "0,0,1", 0),
+            NULL))
         for (int i = 0; i < 256 * 256; i++)
             if (!isinf(s.depth[i]) && s.normal[i][2] < 0.3f) {
                 border++;
@@ -305,7 +324,7 @@ static void wax_wraps(void)
     shot_release(&s);
 }
 
-/* --- plain facts ------------------------------------------------------------------------------------------------- */
+/* --- plain facts ---------------------------------------------------------------------------------------- */
 
 static void light_comes_from_where_it_is_said(void)
 {
@@ -334,19 +353,21 @@ static void light_comes_from_where_it_is_said(void)
 static void texture_stands_upright(void)
 {
     static const uint8_t quarters[4][4] = {{255, 0, 0, 255}, {0, 180, 0, 255}, {0, 0, 200, 255}, {90, 90, 90, 255}};
-    const shot_view view = {.width = 200, .height = 200, .eye = {0, 0, 4.8}, .up = {0, 1, 0}};
-    shape s = {0};
-    shot  drawing;
-    int   wrong = 0;
+    const shot_view      view = {.width = 200, .height = 200, .eye = {0, 0, 4.8}, .up = {0, 1, 0}};
+    shape                s = {0};
+    shot                 drawing;
+    int                  wrong = 0;
     shape_quad(&s, "wall", 1, 0);
     s.parts[0].texture_size = 64;
     s.parts[0].texture = check_alloc(64 * 64, 4);
     for (int i = 0; i < 64 * 64; i++)
         memcpy(&s.parts[0].texture[4 * i], quarters[(i / 64 >= 32 ? 2 : 0) + (i % 64 >= 32 ? 1 : 0)], 4);
-    if (shot_of_shape(&drawing, &s, "quarters.glb", surface_look("{\"technique\":\"textured\",\"light\":0}", "0,0,1", 0), NULL, &view))
+    if (shot_of_shape(&drawing, &s, "quarters.glb",
+                      surface_look("{\"technique\":\"textured\",\"light\":0}", "0,0,1", 0), NULL, &view))
         for (int q = 0; q < 4; q++)
             for (int k = 0; k < 400; k++) {
-                const uint8_t *p = &drawing.picture[4 * (((q / 2 ? 130 : 50) + k / 20) * 200 + (q % 2 ? 130 : 50) + k % 20)];
+                const uint8_t *p =
+                    &drawing.picture[4 * (((q / 2 ? 130 : 50) + k / 20) * 200 + (q % 2 ? 130 : 50) + k % 20)];
                 for (int c = 0; c < 3; c++)
                     wrong += abs(p[c] - quarters[q][c]) > 1;
             }
@@ -358,9 +379,14 @@ static void texture_stands_upright(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"tones", tones_are_counted}, {"borders", tone_borders}, {"blur", blur_is_a_box},
-        {"gooch", gooch_ramp},        {"gooch-lines", gooch_lines}, {"wax", wax_wraps},
-        {"light", light_comes_from_where_it_is_said}, {"texture", texture_stands_upright},
+        {"tones", tones_are_counted},
+        {"borders", tone_borders},
+        {"blur", blur_is_a_box},
+        {"gooch", gooch_ramp},
+        {"gooch-lines", gooch_lines},
+        {"wax", wax_wraps},
+        {"light", light_comes_from_where_it_is_said},
+        {"texture", texture_stands_upright},
     };
     int status = check_main(argc, argv, "surfaces", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,4 +1,5 @@
-/* Tonal art maps on surfaces: tone, strokes that go on in darker tones, widths over distance, plateaus. Notes: seed-grossmann rows 4 and 5, seed-pencil-city P17 to P21, P29, P39. */
+/* Tonal art maps on surfaces: tone, strokes that go on in darker tones, widths over distance, plateaus. Notes:
+ * seed-grossmann rows 4 and 5, seed-pencil-city P17 to P21, P29, P39. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,8 @@ enum { SIDE = 256 };
 static bool take(shot *out, const char *keys, double darkness, double octave)
 {
     char surface[400];
-    snprintf(surface, sizeof surface, "tonal-art-map\",\"shadow\":%.9g,\"light\":%.9g,%s", 1 - darkness, 1 - darkness, keys);
+    snprintf(surface, sizeof surface, "tonal-art-map\",\"shadow\":%.9g,\"light\":%.9g,%s", 1 - darkness, 1 - darkness,
+             keys);
     return halftone_far(out, surface, octave, SIDE, 1);
 }
 
@@ -32,7 +34,8 @@ static void ramp(const char *keys, double octave, int count, double *out)
 
 static void tones_on_a_ramp(void)
 {
-    static const char *const keys[] = {"\"coordinates\":\"uv\"", "\"coordinates\":\"triplanar\"", "\"coordinates\":\"triplanar\",\"opacity\":0.4"};
+    static const char *const keys[] = {"\"coordinates\":\"uv\"", "\"coordinates\":\"triplanar\"",
+                                       "\"coordinates\":\"triplanar\",\"opacity\":0.4"};
     /* On texture coordinates of a unit of 100 px, triplanar at full octaves and where they hand over. */
     static const double octaves[] = {-1.35614381, 0, 0.25, 0.5, 0.75};
     for (int k = 0; k < 3; k++)
@@ -44,14 +47,17 @@ static void tones_on_a_ramp(void)
                 at = off > worst ? i / 16.0 : at;
                 worst = fmax(worst, off);
             }
-            check_at_most("P17", worst, 0.05, "%s at octave %.2f: ink off on a ramp of 17 tones (worst at %.3f)", keys[k], octaves[o], at);
+            check_at_most("P17", worst, 0.05, "%s at octave %.2f: ink off on a ramp of 17 tones (worst at %.3f)",
+                          keys[k], octaves[o], at);
         }
 }
 
 /* Streaks within strokes, and dots instead of them, give the same tones. */
 static void other_material_keeps_tones(void)
 {
-    static const char *const keys[] = {"\"coordinates\":\"triplanar\",\"grain\":0.8,\"darkest\":0.7", "\"coordinates\":\"triplanar\",\"strokes\":\"stipple\",\"width\":2.5,\"darkest\":0.7"};
+    static const char *const keys[] = {
+        "\"coordinates\":\"triplanar\",\"grain\":0.8,\"darkest\":0.7",
+        "\"coordinates\":\"triplanar\",\"strokes\":\"stipple\",\"width\":2.5,\"darkest\":0.7"};
     for (int k = 0; k < 2; k++) {
         double got[17], worst = 0;
         ramp(keys[k], 0, 17, got);
@@ -76,7 +82,7 @@ static double lying(const shot *s)
 static void dots_are_round_and_strokes_grained(void)
 {
     static const char *const surfaces[] = {"", ",\"strokes\":\"stipple\"", ",\"grain\":0.9"};
-    double solid[3] = {0};
+    double                   solid[3] = {0};
     for (int k = 0; k < 3; k++) {
         shot s;
         char keys[200];
@@ -94,7 +100,8 @@ static void dots_are_round_and_strokes_grained(void)
     check_at_most("P29", solid[2] / solid[0], 0.35, "share of full ink in strokes that grain leaves");
 }
 
-/* A wall with a window in its map: its bars are there from near, its frame a little longer, its storey and hatching always. */
+/* A wall with a window in its map: its bars are there from near, its frame a little longer, its storey and hatching
+ * always. */
 static void windows_are_there_from_near(void)
 {
     static const double octaves[] = {-1.35614381, -0.35614381, 0.64385619}; /* 256, 128 and 64 px a unit */
@@ -102,7 +109,10 @@ static void windows_are_there_from_near(void)
         shot   s;
         int    unit = SIDE >> k;
         double bars = 0, frame = 0, storey = 0, hatching = 0;
-        if (!take(&s, "\"coordinates\":\"uv\",\"repeat\":1,\"darkest\":0.5,\"strokes\":\"" LIMNER_SOURCE "/../examples/windows.stx\"", 0.5, octaves[k]))
+        if (!take(&s,
+                  "\"coordinates\":\"uv\",\"repeat\":1,\"darkest\":0.5,\"strokes\":\"" LIMNER_SOURCE
+                  "/../examples/windows.stx\"",
+                  0.5, octaves[k]))
             return;
         for (int y = unit * 3 / 10; y < unit * 5 / 10; y++)
             for (int x = -2; x <= 2; x++) {
@@ -112,8 +122,10 @@ static void windows_are_there_from_near(void)
         for (int y = 0; y < 5; y++)
             storey += halftone_ink(&s, unit * 9 / 10, SIDE - 1 - (int)(0.04 * unit) + 2 - y);
         hatching = halftone_mean(&s, 0, SIDE - unit, unit / 5, unit);
-        check_note("%d px a bay: bars %.2f px, frame %.2f px, storey %.2f px, hatching %.2f", unit, bars, frame, storey, hatching);
-        check_that("P39", k == 0 ? bars > 1.2 : bars < 0.05, "%d px a bay: the window has %s", unit, k ? "no bars" : "bars");
+        check_note("%d px a bay: bars %.2f px, frame %.2f px, storey %.2f px, hatching %.2f", unit, bars, frame, storey,
+                   hatching);
+        check_that("P39", k == 0 ? bars > 1.2 : bars < 0.05, "%d px a bay: the window has %s", unit,
+                   k ? "no bars" : "bars");
         check_that("P39", k < 2 ? frame > 1.2 : frame < 0.05, "it has %s", k < 2 ? "a frame" : "no frame");
         check_at_least("P39", storey, 1.2, "px of ink across the storey's line");
         check_at_least("P39", hatching, 0.2, "ink of the wall");
@@ -145,7 +157,8 @@ static void strokes_go_on(void)
             before = now;
         }
         shot_release(&before);
-        check_at_most("P18", lost, 0, "%s: pixels in 24 steps towards black that lose ink (at most %.4f)", blends[b], largest);
+        check_at_most("P18", lost, 0, "%s: pixels in 24 steps towards black that lose ink (at most %.4f)", blends[b],
+                      largest);
     }
 }
 
@@ -189,8 +202,13 @@ static void plateaus(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"tones", tones_on_a_ramp}, {"material", other_material_keeps_tones}, {"shapes", dots_are_round_and_strokes_grained},
-                                       {"windows", windows_are_there_from_near}, {"nested", strokes_go_on}, {"widths", widths_over_distance}, {"plateaus", plateaus}};
+    static const check_case cases[] = {{"tones", tones_on_a_ramp},
+                                       {"material", other_material_keeps_tones},
+                                       {"shapes", dots_are_round_and_strokes_grained},
+                                       {"windows", windows_are_there_from_near},
+                                       {"nested", strokes_go_on},
+                                       {"widths", widths_over_distance},
+                                       {"plateaus", plateaus}};
     halftone_begin();
     int status = check_main(argc, argv, "tonal_art_map", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -1,4 +1,5 @@
-/* Vector drawings as others show them: a page in a browser (headless Chromium) and a PDF page (pdftoppm) beside the picture that Limner itself draws of the same view with the same look. */
+/* Vector drawings as others show them: a page in a browser (headless Chromium) and a PDF page (pdftoppm) beside the
+ * picture that Limner itself draws of the same view with the same look. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,14 +25,16 @@ static bool run(const char *command)
 static bool draw(const char *model, const char *look, const char *options, const char *out)
 {
     char command[1024];
-    snprintf(command, sizeof command, "%s draw %s/%s --look %s %s --quiet -o %s 2>/dev/null", LIMNER_COMMAND, LIMNER_EXAMPLES, model, look, options, out);
+    snprintf(command, sizeof command, "%s draw %s/%s --look %s %s --quiet -o %s 2>/dev/null", LIMNER_COMMAND,
+             LIMNER_EXAMPLES, model, look, options, out);
     return run(command);
 }
 
-/* Pixels that differ from the ground at the corner; the picture is cut to SIDE by SIDE. NULL when it cannot be read. */
+/* Pixels that differ from the ground at the corner; the picture is cut to SIDE by SIDE. NULL when it cannot be
+ * read. */
 static bool *read_ink(const char *path)
 {
-    int width, height;
+    int      width, height;
     uint8_t *p = picture_read_rgba(path, &width, &height);
     if (!p || width < SIDE || height < SIDE) {
         free(p);
@@ -70,14 +73,17 @@ static void compare(const char *what, const char *model, const char *look, const
     bool *other = read_ink(path);
     if (!check_that("8", other != NULL, "%s shows %s as %s", what, model, look))
         return;
-    check_at_least("8", share_near(other, own), 0.99, "%s of %s, %s: ink that the picture has within 1.5 px", what, look, model);
-    check_at_least("8", share_near(own, other), 0.99, "%s of %s, %s: ink of the picture that it has within 1.5 px", what, look, model);
+    check_at_least("8", share_near(other, own), 0.99, "%s of %s, %s: ink that the picture has within 1.5 px", what,
+                   look, model);
+    check_at_least("8", share_near(own, other), 0.99, "%s of %s, %s: ink of the picture that it has within 1.5 px",
+                   what, look, model);
     free(other);
 }
 
 static void vectors_look_like_pictures(void)
 {
-    static const char *const models[] = {"pump.glb", "crank.glb", "gearbox.stl"}, *const looks[] = {"technical", "line"};
+    static const char *const models[] = {"pump.glb", "crank.glb", "gearbox.stl"}, *const looks[] = {"technical",
+                                                                                                    "line"};
     bool browser = has_program("chromium"), poppler = has_program("pdftoppm");
     if (!browser)
         check_note("chromium is not installed: pages are not shown in a browser");
@@ -93,15 +99,19 @@ static void vectors_look_like_pictures(void)
                 folder[0] = 0;
             snprintf(pdf, sizeof pdf, "%s", check_path("page.pdf"));
             snprintf(shot, sizeof shot, "%s", check_path("shot"));
-            check_that("8", draw(models[m], looks[l], "--samples 4", png) && draw(models[m], looks[l], "", svg) && draw(models[m], looks[l], "", pdf), "%s is drawn as %s",
-                       models[m], looks[l]);
+            check_that("8",
+                       draw(models[m], looks[l], "--samples 4", png) && draw(models[m], looks[l], "", svg) &&
+                           draw(models[m], looks[l], "", pdf),
+                       "%s is drawn as %s", models[m], looks[l]);
             bool *own = read_ink(png);
             if (!check_that("8", own != NULL, "the picture can be read"))
                 continue;
             /* As high as the window is, the page ends before it: some versions take bars off the window's height. */
             snprintf(command, sizeof command,
-                     "timeout 120 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --force-device-scale-factor=1 --user-data-dir=%s.profile --window-size=%d,%d "
-                     "--screenshot=%s.png file://%s/%s >/dev/null 2>&1", shot, SIDE, SIDE + 200, shot, svg[0] == '/' ? "" : folder, svg);
+                     "timeout 120 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars "
+                     "--force-device-scale-factor=1 --user-data-dir=%s.profile --window-size=%d,%d "
+                     "--screenshot=%s.png file://%s/%s >/dev/null 2>&1",
+                     shot, SIDE, SIDE + 200, shot, svg[0] == '/' ? "" : folder, svg);
             if (browser && run(command))
                 compare("the browser", models[m], looks[l], check_path("shot.png"), own);
             else

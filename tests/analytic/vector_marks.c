@@ -1,5 +1,6 @@
-/* Dots and strokes of surfaces as vectors, drawn by another program (rsvg-convert), beside the picture that the GPU draws of the same look and view: the same tone everywhere, and ink in the same places. Lines are left
- * out, for those of pictures are others. */
+/* Dots and strokes of surfaces as vectors, drawn by another program (rsvg-convert), beside the picture that the GPU
+ * draws of the same look and view: the same tone everywhere, and ink in the same places. Lines are left out, for
+ * those of pictures are others. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +29,8 @@ static bool write_look(const char *path, const char *surface)
 static bool draw(const char *model, const char *look, const char *options, const char *out)
 {
     char command[1024];
-    snprintf(command, sizeof command, "%s draw %s/%s --look %s --size %dx%d %s --quiet -o %s", LIMNER_COMMAND, LIMNER_EXAMPLES, model, look, SIDE, SIDE, options, out);
+    snprintf(command, sizeof command, "%s draw %s/%s --look %s --size %dx%d %s --quiet -o %s", LIMNER_COMMAND,
+             LIMNER_EXAMPLES, model, look, SIDE, SIDE, options, out);
     return run(command);
 }
 
@@ -41,8 +43,8 @@ static double share_of(double value, double paper, double ink)
 static double *cover_of(const char *path, int finer, bool linear)
 {
     static const uint8_t ink = 0x17;
-    int      width, height;
-    uint8_t *p = picture_read_rgba(path, &width, &height);
+    int                  width, height;
+    uint8_t             *p = picture_read_rgba(path, &width, &height);
     if (!check_that("8", p && width == SIDE * finer && height == SIDE * finer, "%s is a picture of that size", path)) {
         free(p);
         return NULL;
@@ -51,7 +53,7 @@ static double *cover_of(const char *path, int finer, bool linear)
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             uint8_t v = p[4 * ((size_t)y * (size_t)width + (size_t)x)];
-            double share = linear ? share_of(picture_linear(v), 1, picture_linear(ink)) : share_of(v, 255, ink);
+            double  share = linear ? share_of(picture_linear(v), 1, picture_linear(ink)) : share_of(v, 255, ink);
             out[y / finer * SIDE + x / finer] += share / (finer * finer);
         }
     free(p);
@@ -97,8 +99,10 @@ static double share_near(const double *a, const double *b)
 
 static void same_as_pictures(void)
 {
-    static const char *const models[] = {"spot.obj", "gearbox.stl", "house.glb"}, *const looks[] = {"stipple", "strokes"};
-    static const char *const surfaces[] = {"\"technique\":\"stipple\",\"shadow\":0.16,\"texture\":0.3", "\"technique\":\"strokes\""};
+    static const char *const models[] = {"spot.obj", "gearbox.stl", "house.glb"}, *const looks[] = {"stipple",
+                                                                                                    "strokes"};
+    static const char *const surfaces[] = {"\"technique\":\"stipple\",\"shadow\":0.16,\"texture\":0.3",
+                                           "\"technique\":\"strokes\""};
     if (!run("command -v rsvg-convert >/dev/null 2>&1")) {
         check_note("rsvg-convert is not installed: vector drawings are not compared with pictures");
         return;
@@ -110,14 +114,22 @@ static void same_as_pictures(void)
             snprintf(png, sizeof png, "%s", check_path("marks-%s-%s.png", models[m], looks[l]));
             snprintf(svg, sizeof svg, "%s", check_path("marks-%s-%s.svg", models[m], looks[l]));
             snprintf(shown, sizeof shown, "%s", check_path("marks-%s-%s-svg.png", models[m], looks[l]));
-            snprintf(command, sizeof command, "rsvg-convert -w %d -h %d %s -o %s", SIDE * FINER, SIDE * FINER, svg, shown);
-            if (!check_that("8", write_look(look, surfaces[l]) && draw(models[m], look, "--samples 4", png) && draw(models[m], look, "", svg) && run(command), "%s is drawn as %s", models[m], looks[l]))
+            snprintf(command, sizeof command, "rsvg-convert -w %d -h %d %s -o %s", SIDE * FINER, SIDE * FINER, svg,
+                     shown);
+            if (!check_that("8",
+                            write_look(look, surfaces[l]) && draw(models[m], look, "--samples 4", png) &&
+                                draw(models[m], look, "", svg) && run(command),
+                            "%s is drawn as %s", models[m], looks[l]))
                 continue;
             double *own = cover_of(png, 1, true), *other = cover_of(shown, FINER, false);
             if (own && other) {
-                check_at_most("EX-07", tone_off(own, other), 0.03, "%s, %s: tone of %dx%d pixels off, mean of those with ink", models[m], looks[l], BLOCK, BLOCK);
-                check_at_least("EX-07", share_near(other, own), 0.99, "%s, %s: ink that the picture has within 1.5 px", models[m], looks[l]);
-                check_at_least("EX-07", share_near(own, other), 0.99, "%s, %s: ink of the picture that vectors have within 1.5 px", models[m], looks[l]);
+                check_at_most("EX-07", tone_off(own, other), 0.03,
+                              "%s, %s: tone of %dx%d pixels off, mean of those with ink", models[m], looks[l], BLOCK,
+                              BLOCK);
+                check_at_least("EX-07", share_near(other, own), 0.99, "%s, %s: ink that the picture has within 1.5 px",
+                               models[m], looks[l]);
+                check_at_least("EX-07", share_near(own, other), 0.99,
+                               "%s, %s: ink of the picture that vectors have within 1.5 px", models[m], looks[l]);
             }
             free(own);
             free(other);

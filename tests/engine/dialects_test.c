@@ -29,9 +29,9 @@ static void check(lmn_status status, const lmn_error *error, const char *what)
 
 static int set_up(void **state)
 {
-    fixture *f = calloc(1, sizeof *f);
-    lmn_error error;
-    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    fixture          *f = calloc(1, sizeof *f);
+    lmn_error         error;
+    lmn_load_desc     load = LMN_LOAD_DESC_INIT;
     lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
     desc.debug = true;
     check(lmn_scene_create(&f->scene, &error), &error, "scene");
@@ -70,7 +70,7 @@ static void draw(fixture *f, int which, const lmn_look *look, const char *what)
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.width = desc.height = SIDE;
     lmn_drawing *drawing;
-    lmn_error error;
+    lmn_error    error;
     check(lmn_draw(&drawing, f->renderers[which], f->scene, look, &desc, &error), &error, what);
     memcpy(f->picture, lmn_drawing_pixels(drawing, NULL, NULL), sizeof f->picture);
     lmn_drawing_destroy(&drawing);
@@ -96,7 +96,7 @@ static void every_example_draws_the_same_in_both_dialects(void **state)
     for (int k = 0; k < KIND_COUNT; k++)
         for (size_t i = 0; i < kinds[k]->technique_count; i++) {
             const technique *t = kinds[k]->techniques[i];
-            lmn_look *look = example_look(t);
+            lmn_look        *look = example_look(t);
             assert_true(difference_of_dialects(*state, look, t->name) <= 1);
             lmn_look_destroy(&look);
         }

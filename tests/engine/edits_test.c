@@ -29,7 +29,7 @@ typedef struct fixture {
 
 static int set_up(void **state)
 {
-    static fixture f;
+    static fixture    f;
     lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
     f = (fixture){.scene = NULL};
     DO(lmn_renderer_create(&f.renderer, &desc, &error));
@@ -58,7 +58,7 @@ static int tear_down(void **state)
 static void draw(const fixture *f)
 {
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
-    lmn_drawing *drawing = NULL;
+    lmn_drawing  *drawing = NULL;
     desc.width = desc.height = 48;
     DO(lmn_draw(&drawing, f->renderer, f->scene, f->look, &desc, &error));
     lmn_drawing_destroy(&drawing);
@@ -73,7 +73,7 @@ typedef struct places {
 static places places_of(const fixture *f)
 {
     const upload *u = &f->renderer->up;
-    places p = {.solid_count = u->solid_count};
+    places        p = {.solid_count = u->solid_count};
     for (size_t i = 0; i < 2; i++) {
         p.parts[i] = u->meshes[f->scene->nodes[f->scene->parts[i].node].mesh].primitives[0];
         p.solids[i] = i < u->solid_count ? u->solids[i].mesh : NULL;
@@ -85,9 +85,9 @@ static places places_of(const fixture *f)
 
 static void one_solid_is_made_anew(void **state)
 {
-    fixture *f = *state;
+    fixture     *f = *state;
     const double aside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0, 0, 1};
-    const float red[4] = {1, 0, 0, 1};
+    const float  red[4] = {1, 0, 0, 1};
     draw(f);
     places before = places_of(f);
     assert_int_equal(before.solid_count, 2);
@@ -112,7 +112,7 @@ static void one_solid_is_made_anew(void **state)
 
 static void another_shape_makes_its_normals_alone(void **state)
 {
-    fixture *f = *state;
+    fixture  *f = *state;
     lmn_shape cone = lmn_shape_cylinder(2, 1, 0);
     draw(f);
     places before = places_of(f);

@@ -1,5 +1,7 @@
-/* The GLSL of every technique compiles, in the three dialects that it is written for: desktop GL 3.3, the floor; GL 4.3; and ES 3. Techniques draw their examples, tiny, shaded
- * with their geometry, later, and layer by layer, then with each value of each parameter that decides what is compiled, on the floor and on ES. What is drawn is looked at elsewhere. */
+/* The GLSL of every technique compiles, in the three dialects that it is written for: desktop GL 3.3, the floor; GL
+ * 4.3; and ES 3. Techniques draw their examples, tiny, shaded with their geometry, later, and layer by layer, then
+ * with each value of each parameter that decides what is compiled, on the floor and on ES. What is drawn is looked
+ * at elsewhere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +48,8 @@ static int set_up(void **state)
 {
     static fixture f;
     lmn_error      error = {0};
-    bool           done = make_scene(&f.scene, TEST_DATA "/two-parts.gltf", &error) && make_scene(&f.solid, EXAMPLES "/csg/widget.csg", &error);
+    bool           done = make_scene(&f.scene, TEST_DATA "/two-parts.gltf", &error) &&
+                make_scene(&f.solid, EXAMPLES "/csg/widget.csg", &error);
     for (int i = 0; i < DIALECTS && done; i++) {
         lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
         desc.es = i == ES;
@@ -122,7 +125,7 @@ static void every_technique_in_every_way(void **state)
                 char      what[WHAT_SIZE];
                 lmn_look *look = example_look(kinds[k]->techniques[n]);
                 hold_lighter(look, kinds[k], kinds[k]->techniques[n], "");
-                bool      fits = true; /* not every way goes together with every technique */
+                bool fits = true; /* not every way goes together with every technique */
                 for (size_t s = 0; ways[w].settings[s][0]; s++)
                     fits = lmn_look_set(look, ways[w].settings[s][0], ways[w].settings[s][1], NULL) == LMN_OK && fits;
                 snprintf(what, sizeof what, "%s.%s, %s", kinds[k]->name, kinds[k]->techniques[n]->name, ways[w].name);
@@ -158,7 +161,10 @@ static void draw_param(fixture *f, const kind *k, const technique *t, const para
     else if (p->type == PARAM_BOOL && p->variant)
         draw_value(f, k, t, p, p->def != 0 ? "false" : "true");
     else if (p->variant || p->toggles) {
-        snprintf(value, sizeof value, "%.6g", p->def != 0 || p->variant ? p->min : p->soft_max != 0 ? p->soft_max : p->max);
+        snprintf(value, sizeof value, "%.6g",
+                 p->def != 0 || p->variant ? p->min
+                 : p->soft_max != 0        ? p->soft_max
+                                           : p->max);
         draw_value(f, k, t, p, value);
     }
 }
@@ -180,7 +186,7 @@ static void every_value_that_compiles_something_else(void **state)
 /* Solids have shaders of their own, for each way to evaluate them. */
 static void every_evaluation_of_solids(void **state)
 {
-    fixture *f = *state;
+    fixture                 *f = *state;
     static const char *const evaluations[] = {"auto", "lists", "products"}, *const compositions[] = {"opaque", "xray"};
     for (size_t c = 0; c < 2; c++)
         for (size_t e = 0; e < 3; e++) {

@@ -1,8 +1,8 @@
-/* Random cancels: reading and drawing are stopped at random moments, and then done again. A stopped call says so and soon, and leaves nothing behind: the next picture of the
- * same renderer is the one that was never stopped, byte for byte.
- *   cancels N EXAMPLES [MODEL…]
- * Prints how long calls took to listen. Fails when a status or a picture is wrong, or when one of a hundred took longer than ALLOWED_MS; the driver's compiler is the one thing that
- * cannot be stopped, so programs are compiled before. */
+/* Random cancels: reading and drawing are stopped at random moments, and then done again. A stopped call says so and
+ * soon, and leaves nothing behind: the next picture of the same renderer is the one that was never stopped, byte for
+ * byte. cancels N EXAMPLES [MODEL…] Prints how long calls took to listen. Fails when a status or a picture is wrong, or
+ * when one of a hundred took longer than ALLOWED_MS; the driver's compiler is the one thing that cannot be stopped, so
+ * programs are compiled before. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,10 +49,10 @@ typedef struct job {
 /* Hash of all that the drawing gives. */
 static lmn_status run(job *j, uint64_t *hash, lmn_error *error)
 {
-    lmn_scene   *scene = NULL;
-    lmn_look    *look = NULL;
-    lmn_drawing *drawing = NULL;
-    lmn_sheet   *sheet = NULL;
+    lmn_scene    *scene = NULL;
+    lmn_look     *look = NULL;
+    lmn_drawing  *drawing = NULL;
+    lmn_sheet    *sheet = NULL;
     lmn_load_desc load = LMN_LOAD_DESC_INIT;
     lmn_draw_desc draw = LMN_DRAW_DESC_INIT;
     load.progress = draw.progress = go_on;
@@ -64,7 +64,8 @@ static lmn_status run(job *j, uint64_t *hash, lmn_error *error)
     if (status == LMN_OK)
         status = lmn_scene_add_file(scene, j->model, &load, error);
     if (status == LMN_OK)
-        status = j->vectors ? lmn_draw_sheet(&sheet, j->renderer, scene, look, &draw, NULL, error) : lmn_draw(&drawing, j->renderer, scene, look, &draw, error);
+        status = j->vectors ? lmn_draw_sheet(&sheet, j->renderer, scene, look, &draw, NULL, error)
+                            : lmn_draw(&drawing, j->renderer, scene, look, &draw, error);
     *hash = 1469598103934665603u;
     const uint8_t *pixels = drawing ? lmn_drawing_pixels(drawing, NULL, NULL) : NULL;
     for (size_t i = 0; pixels && i < (size_t)SIDE * SIDE * 4; i++)
@@ -84,7 +85,8 @@ static int compare(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The whole pair once or twice, then `count` times stopped at random, then whole again. Returns how many were wrong. */
+/* The whole pair once or twice, then `count` times stopped at random, then whole again. Returns how many were
+ * wrong. */
 static int test_pair(job *j, int count, double *latencies, size_t *latency_count)
 {
     uint64_t  wanted, got;
@@ -101,20 +103,22 @@ static int test_pair(job *j, int count, double *latencies, size_t *latency_count
     for (int i = 0; i < count && status == LMN_OK; i++) {
         j->moment = now_ms() + whole * random_below(1000) / 1000.0;
         lmn_status stopped = run(j, &got, &error);
-        double late = now_ms() - j->moment;
+        double     late = now_ms() - j->moment;
         if (stopped == LMN_CANCELLED) {
             latencies[(*latency_count)++] = late;
             if (late > ALLOWED_MS)
                 printf("%s, %s%s: %.0f ms after the cancel\n", j->model, j->look, j->vectors ? ", vectors" : "", late);
         } else if (stopped != LMN_OK) {
-            printf("%s, %s%s: status %d: %s\n", j->model, j->look, j->vectors ? ", vectors" : "", (int)stopped, error.message);
+            printf("%s, %s%s: status %d: %s\n", j->model, j->look, j->vectors ? ", vectors" : "", (int)stopped,
+                   error.message);
             wrong++;
         }
     }
     j->moment = 0;
     status = run(j, &got, &error);
     if (status != LMN_OK || (!j->vectors && got != wanted)) {
-        printf("%s, %s: the picture after the cancels is %s\n", j->model, j->look, status == LMN_OK ? "another one" : error.message);
+        printf("%s, %s: the picture after the cancels is %s\n", j->model, j->look,
+               status == LMN_OK ? "another one" : error.message);
         wrong++;
     }
     return wrong;
@@ -122,9 +126,10 @@ static int test_pair(job *j, int count, double *latencies, size_t *latency_count
 
 int main(int count, char **arguments)
 {
-    static const char *const own[] = {"spot.obj", "pump.glb", "crank.glb", "csg/valve.csg", "house.glb", "csg/widget.csg"};
-    char        paths[MODELS_MOST][1024];
-    int         models = 0, wrong = 0, wanted = count > 2 ? (int)strtol(arguments[1], NULL, 10) : 0;
+    static const char *const own[] = {"spot.obj",      "pump.glb",  "crank.glb",
+                                      "csg/valve.csg", "house.glb", "csg/widget.csg"};
+    char                     paths[MODELS_MOST][1024];
+    int                      models = 0, wrong = 0, wanted = count > 2 ? (int)strtol(arguments[1], NULL, 10) : 0;
     if (wanted < 1) {
         fprintf(stderr, "usage: cancels N EXAMPLES [MODEL…]\n");
         return 1;
@@ -134,10 +139,10 @@ int main(int count, char **arguments)
     for (int i = 3; i < count && models < MODELS_MOST; i++)
         snprintf(paths[models++], sizeof *paths, "%s", arguments[i]);
     enum { AT_ONCE = 10 };
-    double    *latencies = calloc((size_t)wanted + AT_ONCE, sizeof *latencies);
-    size_t     latency_count = 0;
-    lmn_error  error;
-    job        j = {0};
+    double   *latencies = calloc((size_t)wanted + AT_ONCE, sizeof *latencies);
+    size_t    latency_count = 0;
+    lmn_error error;
+    job       j = {0};
     if (!latencies || lmn_renderer_create(&j.renderer, NULL, &error) != LMN_OK) {
         fprintf(stderr, "%s\n", latencies ? error.message : "out of memory");
         return 1;
@@ -154,7 +159,8 @@ int main(int count, char **arguments)
     qsort(latencies, latency_count, sizeof *latencies, compare);
     if (latency_count) {
         double most = latencies[latency_count - 1], high = latencies[latency_count * 99 / 100];
-        printf("%zu cancels heard: median %.1f ms, 99 %% %.1f ms, most %.1f ms; %d wrong\n", latency_count, latencies[latency_count / 2], high, most, wrong);
+        printf("%zu cancels heard: median %.1f ms, 99 %% %.1f ms, most %.1f ms; %d wrong\n", latency_count,
+               latencies[latency_count / 2], high, most, wrong);
         wrong += high > ALLOWED_MS;
     }
     free(latencies);

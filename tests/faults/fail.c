@@ -1,11 +1,11 @@
 /* Loaded before a program (LD_PRELOAD), this library makes one call to the system fail, chosen by the environment:
  *   FAULT=write:17          the 17th write that Limner itself makes fails
  *   FAULT=write:17+         that and all later ones
- *   FAULT=write:17:EINTR    with this error (EINTR, EIO, ENOSPC, ENOMEM, EAGAIN, or `short`: half of the bytes and no error)
- *   FAULT_ALL=1             calls that libraries make count too
- *   FAULT_TRACE=1           where it was called from goes to standard error
- *   FAULT_REPORT=FILE       when the program ends, how many calls of each there were, a line each
- * Calls from inside the C library itself (fwrite, getline) are not seen. Of OpenGL and EGL those fail that libepoxy looks up: their names are theirs. */
+ *   FAULT=write:17:EINTR    with this error (EINTR, EIO, ENOSPC, ENOMEM, EAGAIN, or `short`: half of the bytes and no
+ * error) FAULT_ALL=1             calls that libraries make count too FAULT_TRACE=1           where it was called from
+ * goes to standard error FAULT_REPORT=FILE       when the program ends, how many calls of each there were, a line each
+ * Calls from inside the C library itself (fwrite, getline) are not seen. Of OpenGL and EGL those fail that libepoxy
+ * looks up: their names are theirs. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -47,8 +47,8 @@ const char *const call_names[CALLS] = {
 static int note_code(struct dl_phdr_info *info, size_t size, void *user)
 {
     (void)size;
-    int  *first = user;
-    bool  library = strstr(info->dlpi_name, "liblimner.so") != NULL;
+    int *first = user;
+    bool library = strstr(info->dlpi_name, "liblimner.so") != NULL;
     if (library || *first)
         for (int i = 0; i < info->dlpi_phnum; i++)
             if (info->dlpi_phdr[i].p_type == PT_LOAD && info->dlpi_phdr[i].p_flags & PF_X) {
@@ -82,7 +82,8 @@ __attribute__((constructor)) static void begin(void)
     state.report = getenv("FAULT_REPORT");
     const char *colon = fault ? strchr(fault, ':') : NULL;
     for (int i = 0; i < CALLS && colon; i++)
-        if (strlen(call_names[i]) == (size_t)(colon - fault) && strncmp(call_names[i], fault, (size_t)(colon - fault)) == 0)
+        if (strlen(call_names[i]) == (size_t)(colon - fault) &&
+            strncmp(call_names[i], fault, (size_t)(colon - fault)) == 0)
             state.chosen = i;
     if (colon) {
         char *rest;
@@ -111,7 +112,8 @@ __attribute__((destructor)) static void end(void)
 static bool fails(int call, const void *caller, int usual)
 {
     const uintptr_t place = (uintptr_t)caller;
-    const bool      ours = !caller || (place >= state.begin[0] && place < state.end[0]) || (place >= state.begin[1] && place < state.end[1]);
+    const bool      ours = !caller || (place >= state.begin[0] && place < state.end[0]) ||
+                      (place >= state.begin[1] && place < state.end[1]);
     if (!state.ready || (!ours && !state.all))
         return false;
     const long n = __atomic_add_fetch(&state.counts[call], 1, __ATOMIC_RELAXED);
@@ -127,8 +129,8 @@ static bool fails(int call, const void *caller, int usual)
     return true;
 }
 
-#define CALLER       __builtin_return_address(0)
-#define REAL(name)   ((__typeof__(&name))next(#name))
+#define CALLER     __builtin_return_address(0)
+#define REAL(name) ((__typeof__(&name))next(#name))
 
 /* dlsym is among what is replaced below. */
 static void *next(const char *name)
@@ -139,7 +141,7 @@ static void *next(const char *name)
     return look_up(RTLD_NEXT, name);
 }
 
-/* --- memory: the C library has other names for its own ------------------------------------------------------------------ */
+/* --- memory: the C library has other names for its own -------------------------------------------------- */
 
 extern void *__libc_malloc(size_t size);
 extern void *__libc_calloc(size_t count, size_t size);
@@ -160,7 +162,7 @@ void *realloc(void *block, size_t size)
     return fails(CALL_malloc, CALLER, ENOMEM) ? NULL : __libc_realloc(block, size);
 }
 
-/* --- files -------------------------------------------------------------------------------------------------------------- */
+/* --- files ---------------------------------------------------------------------------------------------- */
 
 ssize_t read(int descriptor, void *out, size_t size)
 {
@@ -202,14 +204,14 @@ ssize_t recv(int channel, void *out, size_t size, int flags)
     return REAL(recv)(channel, out, size, flags);
 }
 
-#define OPEN(name)                                            \
-    int name(const char *path, int flags, ...)                \
-    {                                                         \
-        va_list more;                                         \
-        va_start(more, flags);                                \
-        const mode_t mode = va_arg(more, mode_t);             \
-        va_end(more);                                         \
-        return fails(CALL_open, CALLER, EMFILE) ? -1 : REAL(name)(path, flags, mode); \
+#define OPEN(name)                                                                                                     \
+    int name(const char *path, int flags, ...)                                                                         \
+    {                                                                                                                  \
+        va_list more;                                                                                                  \
+        va_start(more, flags);                                                                                         \
+        const mode_t mode = va_arg(more, mode_t);                                                                      \
+        va_end(more);                                                                                                  \
+        return fails(CALL_open, CALLER, EMFILE) ? -1 : REAL(name)(path, flags, mode);                                  \
     }
 OPEN(open)
 OPEN(open64)
@@ -244,10 +246,10 @@ int close(int descriptor)
     return bad ? -1 : result;
 }
 
-#define SIMPLE(kind, name, usual, parameters, arguments)                 \
-    int name parameters                                                  \
-    {                                                                    \
-        return fails(CALL_##kind, CALLER, usual) ? -1 : REAL(name) arguments; \
+#define SIMPLE(kind, name, usual, parameters, arguments)                                                               \
+    int name parameters                                                                                                \
+    {                                                                                                                  \
+        return fails(CALL_##kind, CALLER, usual) ? -1 : REAL(name) arguments;                                          \
     }
 SIMPLE(fsync, fsync, EIO, (int descriptor), (descriptor))
 SIMPLE(fsync, fdatasync, EIO, (int descriptor), (descriptor))
@@ -266,7 +268,7 @@ void *mmap(void *at, size_t size, int protection, int flags, int descriptor, off
     return fails(CALL_mmap, CALLER, ENOMEM) ? MAP_FAILED : REAL(mmap)(at, size, protection, flags, descriptor, offset);
 }
 
-/* --- processes and threads ---------------------------------------------------------------------------------------------- */
+/* --- processes and threads ------------------------------------------------------------------------------ */
 
 pid_t fork(void)
 {
@@ -278,7 +280,7 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
     return fails(CALL_pthread_create, CALLER, EAGAIN) ? EAGAIN : REAL(pthread_create)(thread, attributes, run, user);
 }
 
-/* --- OpenGL: what libepoxy finds is replaced on its way there ------------------------------------------------------------ */
+/* --- OpenGL: what libepoxy finds is replaced on its way there ------------------------------------------- */
 
 enum { GL_OUT_OF_MEMORY_CODE = 0x0505, GL_UNSUPPORTED = 0x8CDD, GL_COMPILE = 0x8B81, GL_LINK = 0x8B82 };
 
@@ -290,23 +292,24 @@ static void *gl_nothing(int call)
     return fails(call, NULL, 0) ? NULL : real[call];
 }
 
-#define GL_ALLOCATES(name, parameters, arguments)    \
-    static void fail_##name parameters               \
-    {                                                \
-        if (gl_nothing(CALL_##name))                 \
-            ((void(*) parameters)real[CALL_##name]) arguments; \
-        else                                         \
-            memory_gone = true;                      \
+#define GL_ALLOCATES(name, parameters, arguments)                                                                      \
+    static void fail_##name parameters                                                                                 \
+    {                                                                                                                  \
+        if (gl_nothing(CALL_##name))                                                                                   \
+            ((void(*) parameters)real[CALL_##name]) arguments;                                                         \
+        else                                                                                                           \
+            memory_gone = true;                                                                                        \
     }
-GL_ALLOCATES(glTexImage2D, (unsigned a, int b, int c, int d, int e, int f, unsigned g, unsigned h, const void *i), (a, b, c, d, e, f, g, h, i))
+GL_ALLOCATES(glTexImage2D, (unsigned a, int b, int c, int d, int e, int f, unsigned g, unsigned h, const void *i),
+             (a, b, c, d, e, f, g, h, i))
 GL_ALLOCATES(glTexStorage2D, (unsigned a, int b, unsigned c, int d, int e), (a, b, c, d, e))
 GL_ALLOCATES(glBufferData, (unsigned a, long b, const void *c, unsigned d), (a, b, c, d))
 GL_ALLOCATES(glRenderbufferStorage, (unsigned a, unsigned b, int c, int d), (a, b, c, d))
 
-#define GL_ANSWERS(type, name, wrong, parameters, arguments)                                     \
-    static type fail_##name parameters                                                           \
-    {                                                                                            \
-        return gl_nothing(CALL_##name) ? ((type(*) parameters)real[CALL_##name]) arguments : wrong; \
+#define GL_ANSWERS(type, name, wrong, parameters, arguments)                                                           \
+    static type fail_##name parameters                                                                                 \
+    {                                                                                                                  \
+        return gl_nothing(CALL_##name) ? ((type(*) parameters)real[CALL_##name])arguments : wrong;                     \
     }
 GL_ANSWERS(unsigned, glCheckFramebufferStatus, GL_UNSUPPORTED, (unsigned a), (a))
 GL_ANSWERS(unsigned, glCreateShader, 0, (unsigned a), (a))
@@ -317,13 +320,13 @@ GL_ANSWERS(unsigned, eglInitialize, 0, (void *a, int *b, int *c), (a, b, c))
 GL_ANSWERS(unsigned, eglMakeCurrent, 0, (void *a, void *b, void *c, void *d), (a, b, c, d))
 GL_ANSWERS(unsigned, eglBindAPI, 0, (unsigned a), (a))
 
-#define GL_STATUS(name, asked)                                              \
-    static void fail_##name(unsigned object, unsigned what, int *out)       \
-    {                                                                       \
-        const bool bad = what == asked && !gl_nothing(CALL_##name);         \
-        ((void (*)(unsigned, unsigned, int *))real[CALL_##name])(object, what, out); \
-        if (bad)                                                            \
-            *out = 0;                                                       \
+#define GL_STATUS(name, asked)                                                                                         \
+    static void fail_##name(unsigned object, unsigned what, int *out)                                                  \
+    {                                                                                                                  \
+        const bool bad = what == asked && !gl_nothing(CALL_##name);                                                    \
+        ((void (*)(unsigned, unsigned, int *))real[CALL_##name])(object, what, out);                                   \
+        if (bad)                                                                                                       \
+            *out = 0;                                                                                                  \
     }
 GL_STATUS(glGetShaderiv, GL_COMPILE)
 GL_STATUS(glGetProgramiv, GL_LINK)
@@ -349,8 +352,11 @@ static void *replace(const char *name, void *found)
         void *ours;
     } rows[] = {
 #define ROW(name) {CALL_##name, (void *)fail_##name}
-        ROW(glTexImage2D), ROW(glTexStorage2D), ROW(glBufferData), ROW(glRenderbufferStorage), ROW(glCheckFramebufferStatus), ROW(glCreateShader), ROW(glCreateProgram),
-        ROW(glMapBufferRange), ROW(eglCreateContext), ROW(eglInitialize), ROW(eglMakeCurrent), ROW(eglBindAPI), ROW(glGetShaderiv), ROW(glGetProgramiv), ROW(glGetError),
+        ROW(glTexImage2D),          ROW(glTexStorage2D),           ROW(glBufferData),
+        ROW(glRenderbufferStorage), ROW(glCheckFramebufferStatus), ROW(glCreateShader),
+        ROW(glCreateProgram),       ROW(glMapBufferRange),         ROW(eglCreateContext),
+        ROW(eglInitialize),         ROW(eglMakeCurrent),           ROW(eglBindAPI),
+        ROW(glGetShaderiv),         ROW(glGetProgramiv),           ROW(glGetError),
         ROW(eglGetProcAddress),
 #undef ROW
     };
@@ -370,7 +376,8 @@ void *dlsym(void *handle, const char *name)
         look_up = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.2.5");
     void *found = look_up(handle, name);
     /* Libraries of the driver look each other up too; only libepoxy gets the replacements. */
-    Dl_info caller;
-    const bool epoxy = (strncmp(name, "gl", 2) == 0 || strncmp(name, "egl", 3) == 0) && dladdr(CALLER, &caller) && strstr(caller.dli_fname, "libepoxy");
+    Dl_info    caller;
+    const bool epoxy = (strncmp(name, "gl", 2) == 0 || strncmp(name, "egl", 3) == 0) && dladdr(CALLER, &caller) &&
+                       strstr(caller.dli_fname, "libepoxy");
     return epoxy ? replace(name, found) : found;
 }

@@ -1,7 +1,7 @@
-/* Runs the command again and again, each time with another call to the system failing, and holds what it does against its contract: an exit status of the right class,
- * a message, no signal, no hang, and the output whole or as it was before, with nothing beside it.
- *   faults short|long PROGRAM LIBRARY EXAMPLES FOLDER
- * short: few calls of each; long: all of them. LIBRARY is fail.c. */
+/* Runs the command again and again, each time with another call to the system failing, and holds what it does against
+ * its contract: an exit status of the right class, a message, no signal, no hang, and the output whole or as it was
+ * before, with nothing beside it. faults short|long PROGRAM LIBRARY EXAMPLES FOLDER short: few calls of each; long: all
+ * of them. LIBRARY is fail.c. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <errno.h>
@@ -34,11 +34,28 @@ typedef struct scenario {
 
 static const scenario scenarios[] = {
     {"picture", "out.png", true, false, {"draw", "box.glb", "--size", "48x48", "-o", "out.png"}},
-    {"maps", "out.png", true, true, {"draw", "box.glb", "--size", "48x48", "-o", "out.png", "--look", "sketch", "--aov", "maps"}},
-    {"solid", "out.png", true, true, {"draw", "widget.csg", "--size", "48x48", "-o", "out.png", "--report", "out.json"}},
+    {"maps",
+     "out.png",
+     true,
+     true,
+     {"draw", "box.glb", "--size", "48x48", "-o", "out.png", "--look", "sketch", "--aov", "maps"}},
+    {"solid",
+     "out.png",
+     true,
+     true,
+     {"draw", "widget.csg", "--size", "48x48", "-o", "out.png", "--report", "out.json"}},
     {"svg", "out.svg", false, false, {"draw", "box.glb", "--size", "48x48", "--look", "line", "-o", "out.svg"}},
-    {"pdf", "out.pdf", false, true, {"draw", "gearbox.stl", "--size", "48x48", "--look", "technical", "-o", "out.pdf", "--views", "front,top", "--frame"}},
-    {"dxf", "out.dxf", false, true, {"draw", "box.glb", "--size", "48x48", "--look", "line", "-o", "out.dxf", "--plotter"}},
+    {"pdf",
+     "out.pdf",
+     false,
+     true,
+     {"draw", "gearbox.stl", "--size", "48x48", "--look", "technical", "-o", "out.pdf", "--views", "front,top",
+      "--frame"}},
+    {"dxf",
+     "out.dxf",
+     false,
+     true,
+     {"draw", "box.glb", "--size", "48x48", "--look", "line", "-o", "out.dxf", "--plotter"}},
     {"info", NULL, false, false, {"info", "fox.glb", "--json"}},
     {"foreign", NULL, false, false, {"info", "plate.off"}},
     {"looks", NULL, false, false, {"looks", "hatch"}},
@@ -84,7 +101,7 @@ static void start(const runner *r, const scenario *s, const char *fault)
 
 static void read_said(result *out)
 {
-    FILE *file = fopen("../said", "r");
+    FILE  *file = fopen("../said", "r");
     size_t count = file ? fread(out->said, 1, sizeof out->said - 1, file) : 0;
     out->said[count] = '\0';
     if (file)
@@ -176,9 +193,11 @@ static char *read_file(const char *path, size_t *size)
 /* Files that should not be there: those made beside an output and left. */
 static bool leftover(char *name, size_t size)
 {
-    static const char *const known[] = {".", "..", "out.png", "out.svg", "out.pdf", "out.dxf", "out.json", "maps", "box.glb", "widget.csg", "gearbox.stl", "fox.glb", "plate.off"};
-    DIR  *folder = opendir(".");
-    bool  found = false;
+    static const char *const known[] = {".",           "..",       "out.png",  "out.svg", "out.pdf",
+                                        "out.dxf",     "out.json", "maps",     "box.glb", "widget.csg",
+                                        "gearbox.stl", "fox.glb",  "plate.off"};
+    DIR                     *folder = opendir(".");
+    bool                     found = false;
     for (struct dirent *entry; folder && !found && (entry = readdir(folder));) {
         bool expected = false;
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
@@ -196,12 +215,14 @@ static bool leftover(char *name, size_t size)
 
 static void complain(runner *r, const scenario *s, const char *fault, const result *result, const char *what)
 {
-    printf("%s with %s: %s (status %d, signal %d)\n    %s\n", s->name, fault, what, result->status, result->signal, result->said);
+    printf("%s with %s: %s (status %d, signal %d)\n    %s\n", s->name, fault, what, result->status, result->signal,
+           result->said);
     r->bad++;
 }
 
 /* Runs once and checks all that is promised. `good`: the output without faults. */
-static void try_fault(runner *r, const scenario *s, int call, const char *fault, const char *good, size_t good_size, bool existed)
+static void try_fault(runner *r, const scenario *s, int call, const char *fault, const char *good, size_t good_size,
+                      bool existed)
 {
     char   name[256];
     size_t size = 0;
@@ -220,10 +241,14 @@ static void try_fault(runner *r, const scenario *s, int call, const char *fault,
     else if (result.status != 0 && !strstr(result.said, "limner: "))
         complain(r, s, fault, &result, "fails without a message");
     else if (s->output && result.status == 0 && (!bytes || size != good_size || memcmp(bytes, good, size) != 0))
-        complain(r, s, fault, &result, bytes ? "writes another file than without the fault" : "writes nothing, yet says that all is well");
-    else if (s->output && result.status != 0 && existed && (!bytes || (size == sizeof before - 1 ? memcmp(bytes, before, size) != 0 : size != good_size || memcmp(bytes, good, size) != 0)))
+        complain(r, s, fault, &result,
+                 bytes ? "writes another file than without the fault" : "writes nothing, yet says that all is well");
+    else if (s->output && result.status != 0 && existed &&
+             (!bytes || (size == sizeof before - 1 ? memcmp(bytes, before, size) != 0
+                                                   : size != good_size || memcmp(bytes, good, size) != 0)))
         complain(r, s, fault, &result, "leaves half a file in place of what was there");
-    else if (s->output && result.status != 0 && !existed && bytes && (size != good_size || memcmp(bytes, good, size) != 0))
+    else if (s->output && result.status != 0 && !existed && bytes &&
+             (size != good_size || memcmp(bytes, good, size) != 0))
         complain(r, s, fault, &result, "leaves half a file");
     if (leftover(name, sizeof name)) {
         snprintf(name + strlen(name), sizeof name - strlen(name), " is left");
@@ -232,7 +257,8 @@ static void try_fault(runner *r, const scenario *s, int call, const char *fault,
     free(bytes);
 }
 
-/* Which calls are tried: all, or the first, the last and some between; the beginning of a run is where it is most diverse. */
+/* Which calls are tried: all, or the first, the last and some between; the beginning of a run is where it is most
+ * diverse. */
 static bool is_tried(const runner *r, long n, long count)
 {
     if (r->every || count <= SHORT_TRIES)
@@ -242,7 +268,7 @@ static bool is_tried(const runner *r, long n, long count)
 
 static void try_call(runner *r, const scenario *s, int call, long count, const char *good, size_t good_size)
 {
-    char fault[64];
+    char       fault[64];
     const bool driver = call >= CALL_glTexImage2D && call <= CALL_glMapBufferRange;
     if (s->large && !r->every && !driver)
         return;
@@ -279,8 +305,10 @@ static void try_scenario(runner *r, const scenario *s)
         return;
     }
     read_counts(counts);
-    if (counts[CALL_malloc] == 0 || (s->output && counts[CALL_write] == 0) || (s->draws && counts[CALL_glCreateShader] == 0))
-        complain(r, s, "no fault", &result, "makes no calls that could fail: the library that counts them does not see them");
+    if (counts[CALL_malloc] == 0 || (s->output && counts[CALL_write] == 0) ||
+        (s->draws && counts[CALL_glCreateShader] == 0))
+        complain(r, s, "no fault", &result,
+                 "makes no calls that could fail: the library that counts them does not see them");
     const long earlier = r->runs;
     for (int call = 0; call < CALLS; call++)
         try_call(r, s, call, counts[call], good, size);
@@ -291,7 +319,7 @@ static void try_scenario(runner *r, const scenario *s)
 
 static void link_example(const char *examples, const char *name)
 {
-    char path[4096];
+    char        path[4096];
     const char *slash = strrchr(name, '/');
     snprintf(path, sizeof path, "%s/%s", examples, name);
     remove(slash ? slash + 1 : name);
@@ -319,7 +347,8 @@ int main(int count, char **words)
         link_example(words[4], examples[i]);
     write_text("plate.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n");
     for (int i = 0; i < SCENARIOS; i++)
-        if ((count < 7 && (r.every || !scenarios[i].large || scenarios[i].draws)) || (count == 7 && strcmp(words[6], scenarios[i].name) == 0))
+        if ((count < 7 && (r.every || !scenarios[i].large || scenarios[i].draws)) ||
+            (count == 7 && strcmp(words[6], scenarios[i].name) == 0))
             try_scenario(&r, &scenarios[i]);
     printf("%ld runs, %ld bad\n", r.runs, r.bad);
     return r.bad > 0;

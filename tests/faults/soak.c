@@ -1,7 +1,7 @@
-/* A soak: many drawings of mixed models with mixed looks in one process, as pictures and as vectors; memory must stay where it was.
- *   soak N EXAMPLES [FOLDER…]
- * Resident memory is printed every 500 drawings. There are so few models that by the first of these each was drawn with every look: what the driver compiles for a pair it keeps, which is
- * growth, but no leak. Growth beyond 2 % since then fails. */
+/* A soak: many drawings of mixed models with mixed looks in one process, as pictures and as vectors; memory must stay
+ * where it was. soak N EXAMPLES [FOLDER…] Resident memory is printed every 500 drawings. There are so few models that
+ * by the first of these each was drawn with every look: what the driver compiles for a pair it keeps, which is growth,
+ * but no leak. Growth beyond 2 % since then fails. */
 #define _GNU_SOURCE
 #include <ftw.h>
 #include <malloc.h>
@@ -117,8 +117,9 @@ static int soak(lmn_renderer *renderer, long count)
     long first = 0, last = 0, failed = 0;
     for (long n = 0; n < count; n++) {
         /* All pairs come, each once in as many drawings as there are. */
-        const char *path = files[n % file_count], *look = lmn_look_name_at((size_t)(n + n / file_count) % lmn_look_count());
-        lmn_error   error;
+        const char *path = files[n % file_count],
+                   *look = lmn_look_name_at((size_t)(n + n / file_count) % lmn_look_count());
+        lmn_error error;
         if (draw_once(renderer, path, look, n, &error) != LMN_OK && failed++ < 10)
             printf("%s with %s: %s\n", path, look, error.message);
         if ((n + 1) % EVERY != 0)

@@ -1,4 +1,5 @@
-/* The fuzzer of drawing: a model of any format with any look, as a picture and as vectors. One renderer is kept for the process. */
+/* The fuzzer of drawing: a model of any format with any look, as a picture and as vectors. One renderer is kept for
+ * the process. */
 #include <limner/limner.h>
 
 #include "base/memory.h"
@@ -43,7 +44,8 @@ static void draw_picture(const lmn_scene *scene, const lmn_look *look, const lmn
 
 static void draw_sheet(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, unsigned choice)
 {
-    static lmn_status (*const writers[])(export_bytes *, const sheet *, lmn_error *) = {export_svg, export_pdf, export_dxf};
+    static lmn_status (*const writers[])(export_bytes *, const sheet *, lmn_error *) = {export_svg, export_pdf,
+                                                                                        export_dxf};
     lmn_sheet_desc how = LMN_SHEET_DESC_INIT;
     lmn_sheet     *drawn = NULL;
     lmn_error      error;
@@ -69,14 +71,15 @@ void fuzz_draw(const uint8_t *bytes, size_t size)
 {
     if (size <= DRAWING_CHOICES)
         return;
-    lmn_look *look = NULL;
-    lmn_error error;
+    lmn_look  *look = NULL;
+    lmn_error  error;
     lmn_scene *scene = read_model(bytes[0], bytes + DRAWING_CHOICES, size - DRAWING_CHOICES);
     if (!scene || lmn_look_load(&look, lmn_look_name_at(bytes[1] % lmn_look_count()), &error) != LMN_OK) {
         scene_free(scene);
         return;
     }
-    /* Looks that spread strokes over surfaces spread twenty thousand; with sanitizers these would take all the time. Other looks have no such number. */
+    /* Looks that spread strokes over surfaces spread twenty thousand; with sanitizers these would take all the
+     * time. Other looks have no such number. */
     lmn_look_set(look, "surface.count", "300", &error);
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.view = (lmn_view)(bytes[2] % 7);

@@ -1,4 +1,5 @@
-/* Fuzzers: one function a parser. Each takes bytes from libFuzzer and must come to an end without a defect whatever they are. */
+/* Fuzzers: one function a parser. Each takes bytes from libFuzzer and must come to an end without a defect whatever
+ * they are. */
 #ifndef LIMNER_TESTS_FUZZ_H
 #define LIMNER_TESTS_FUZZ_H
 
@@ -11,9 +12,9 @@
 typedef size_t (*fuzz_mutator)(uint8_t *bytes, size_t size, size_t most, unsigned seed);
 
 typedef struct fuzz_target {
-    const char *name; /* the program is called fuzz_NAME */
+    const char *name;                               /* the program is called fuzz_NAME */
     void (*run)(const uint8_t *bytes, size_t size); /* a NUL byte stands behind the bytes */
-    fuzz_mutator mutate; /* NULL: libFuzzer's own */
+    fuzz_mutator mutate;                            /* NULL: libFuzzer's own */
 } fuzz_target;
 
 /* --- models.c --- */

@@ -1,4 +1,5 @@
-/* Fuzzers of model files: what is accepted goes on through everything that is derived from meshes. Side files are looked for where there are none. */
+/* Fuzzers of model files: what is accepted goes on through everything that is derived from meshes. Side files are
+ * looked for where there are none. */
 #define _GNU_SOURCE /* memfd_create */
 #include <stdio.h>
 #include <string.h>
@@ -102,7 +103,9 @@ void fuzz_mtl(const uint8_t *bytes, size_t size)
         return;
     if (size == 0 || write(descriptor, bytes, size) == (ssize_t)size) {
         char model[128];
-        int  length = snprintf(model, sizeof model, "mtllib %d\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n", descriptor);
+        int  length =
+            snprintf(model, sizeof model,
+                     "mtllib %d\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n", descriptor);
         use(read_at("/proc/self/fd/model.obj", import_obj.read, 'y', (const uint8_t *)model, (size_t)length));
     }
     close(descriptor);
@@ -117,10 +120,12 @@ void fuzz_dxf(const uint8_t *bytes, size_t size)
     region_release(&figure);
 }
 
-/* Pictures that are large by their header alone are refused by a limit that other tests hold; here they would only take time. */
+/* Pictures that are large by their header alone are refused by a limit that other tests hold; here they would only
+ * take time. */
 static bool is_large_png(const uint8_t *bytes, size_t size)
 {
-    return size >= 24 && bytes[0] == 0x89 && (bytes[16] || bytes[17] || bytes[20] || bytes[21] || bytes[18] > 8 || bytes[22] > 8);
+    return size >= 24 && bytes[0] == 0x89 &&
+           (bytes[16] || bytes[17] || bytes[20] || bytes[21] || bytes[18] > 8 || bytes[22] > 8);
 }
 
 void fuzz_image(const uint8_t *bytes, size_t size)
@@ -147,7 +152,8 @@ static uint64_t draco_number(const uint8_t *bytes, size_t size, size_t *at, bool
     return number;
 }
 
-/* Draco makes room for what a header claims, so that a few bytes can ask for gigabytes. How much it may have is decided where it is called from, not here. */
+/* Draco makes room for what a header claims, so that a few bytes can ask for gigabytes. How much it may have is
+ * decided where it is called from, not here. */
 static bool claims_much(const uint8_t *bytes, size_t size)
 {
     enum { METHOD = 8, FLAGS = 10, COUNTS = 11, MOST = 100000 };

@@ -1,4 +1,5 @@
-/* Changes .csg files as trees: nodes are found by their brackets, then exchanged, repeated, left out, put below another operation, or told other numbers. */
+/* Changes .csg files as trees: nodes are found by their brackets, then exchanged, repeated, left out, put below
+ * another operation, or told other numbers. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,7 +88,8 @@ static void find_numbers(spans *found, const char *text, size_t size)
 {
     found->count = 0;
     for (size_t at = 0; at < size && found->count < SPANS_MOST;) {
-        const bool begins = (isdigit((unsigned char)text[at]) || text[at] == '-') && (at == 0 || strchr(" ,[=(", text[at - 1]));
+        const bool begins =
+            (isdigit((unsigned char)text[at]) || text[at] == '-') && (at == 0 || strchr(" ,[=(", text[at - 1]));
         const size_t begin = at++;
         if (!begins)
             continue;
@@ -107,20 +109,48 @@ static void find_vectors(spans *found, const char *text, size_t size)
 }
 
 static const char *const operations[] = {
-    "union() {", "difference() {", "intersection() {", "group() {", "hull() {", "minkowski(convexity = 0) {", "render(convexity = 1) {", "color([1, 0.5, 0, 0.5]) {",
-    "resize(newsize = [3, 0, 1], auto = [true, false, true]) {", "projection(cut = true, convexity = 0) {", "projection(cut = false) {", "offset(r = -0.5, $fn = 8) {",
-    "offset(delta = 1, chamfer = true) {", "linear_extrude(height = 4, center = true, scale = [0, 2], twist = 400, slices = 5, $fn = 9) {",
-    "linear_extrude(height = 1, scale = [1, 1]) {", "rotate_extrude(angle = 90, $fn = 7) {", "rotate_extrude($fn = 5) {",
-    "multmatrix([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {", "multmatrix([[1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {",
-    "multmatrix([[-1, 0, 0, 0], [0, 1e9, 0, 0], [0, 0, 1e-9, 0], [0, 0, 0, 1]]) {", "#", "%", "*", "!",
+    "union() {",
+    "difference() {",
+    "intersection() {",
+    "group() {",
+    "hull() {",
+    "minkowski(convexity = 0) {",
+    "render(convexity = 1) {",
+    "color([1, 0.5, 0, 0.5]) {",
+    "resize(newsize = [3, 0, 1], auto = [true, false, true]) {",
+    "projection(cut = true, convexity = 0) {",
+    "projection(cut = false) {",
+    "offset(r = -0.5, $fn = 8) {",
+    "offset(delta = 1, chamfer = true) {",
+    "linear_extrude(height = 4, center = true, scale = [0, 2], twist = 400, slices = 5, $fn = 9) {",
+    "linear_extrude(height = 1, scale = [1, 1]) {",
+    "rotate_extrude(angle = 90, $fn = 7) {",
+    "rotate_extrude($fn = 5) {",
+    "multmatrix([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {",
+    "multmatrix([[1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {",
+    "multmatrix([[-1, 0, 0, 0], [0, 1e9, 0, 0], [0, 0, 1e-9, 0], [0, 0, 0, 1]]) {",
+    "#",
+    "%",
+    "*",
+    "!",
 };
 
 static const char *const leaves[] = {
-    "cube(size = [1, 2, 3], center = true);", "sphere($fn = 6, r = 1);", "cylinder($fn = 5, h = 2, r1 = 1, r2 = 0, center = true);", "cylinder($fn = 0, $fa = 12, $fs = 2, h = 1, r1 = 0, r2 = 3);",
-    "square(size = [2, 1], center = true);", "circle($fn = 7, r = 2);", "text(text = \"a B\\\"\", size = 3, font = \"\", halign = \"center\");",
-    "polygon(points = [[0, 0], [2, 0], [0, 2], [2, 2]], paths = undef, convexity = 1);", "polygon(points = [[0, 0], [9, 0], [0, 9], [1, 1], [3, 1], [1, 3]], paths = [[0, 1, 2], [3, 4, 5]]);",
-    "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]], convexity = 1);",
-    "surface(file = \"none.dat\", center = true);", "import(file = \"none.stl\");", "group();", "unknown(a = 1);",
+    "cube(size = [1, 2, 3], center = true);",
+    "sphere($fn = 6, r = 1);",
+    "cylinder($fn = 5, h = 2, r1 = 1, r2 = 0, center = true);",
+    "cylinder($fn = 0, $fa = 12, $fs = 2, h = 1, r1 = 0, r2 = 3);",
+    "square(size = [2, 1], center = true);",
+    "circle($fn = 7, r = 2);",
+    "text(text = \"a B\\\"\", size = 3, font = \"\", halign = \"center\");",
+    "polygon(points = [[0, 0], [2, 0], [0, 2], [2, 2]], paths = undef, convexity = 1);",
+    "polygon(points = [[0, 0], [9, 0], [0, 9], [1, 1], [3, 1], [1, 3]], paths = [[0, 1, 2], [3, 4, 5]]);",
+    "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, "
+    "3, 0]], convexity = 1);",
+    "surface(file = \"none.dat\", center = true);",
+    "import(file = \"none.stl\");",
+    "group();",
+    "unknown(a = 1);",
 };
 
 static span pick(const spans *s, uint32_t *state)
@@ -154,9 +184,7 @@ static void change_nodes(draft *d, const char *text, size_t size, const spans *n
 {
     const span a = pick(nodes, state), b = pick(nodes, state);
     switch (fuzz_random(state, 6)) {
-    case 0:
-        exchange(d, text, size, a, b);
-        break;
+    case 0: exchange(d, text, size, a, b); break;
     case 1: /* below an operation */
         add(d, text, a.begin);
         add_text(d, operations[fuzz_random(state, sizeof operations / sizeof *operations)]);
@@ -165,9 +193,7 @@ static void change_nodes(draft *d, const char *text, size_t size, const spans *n
             add_text(d, "}");
         add(d, text + a.end, size - a.end);
         break;
-    case 2:
-        replace(d, text, size, a, "", 0);
-        break;
+    case 2: replace(d, text, size, a, "", 0); break;
     case 3: { /* a leaf before it */
         const char *leaf = leaves[fuzz_random(state, sizeof leaves / sizeof *leaves)];
         replace(d, text, size, (span){a.begin, a.begin}, leaf, strlen(leaf));
@@ -176,9 +202,7 @@ static void change_nodes(draft *d, const char *text, size_t size, const spans *n
     case 4: /* b also where a is */
         replace(d, text, size, (span){a.begin, a.begin}, text + b.begin, b.end - b.begin);
         break;
-    default:
-        replace(d, text, size, a, text + b.begin, b.end - b.begin);
-        break;
+    default: replace(d, text, size, a, text + b.begin, b.end - b.begin); break;
     }
 }
 

@@ -1,5 +1,5 @@
-/* Changes JSON as JSON, so that most of what comes out is read beyond its first byte: numbers, indices, whole members; and the bytes of glTF's buffers
- * behind their base64. */
+/* Changes JSON as JSON, so that most of what comes out is read beyond its first byte: numbers, indices, whole
+ * members; and the bytes of glTF's buffers behind their base64. */
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@ enum { VALUES_MOST = 4096, BUFFER_MOST = 16384, DEPTH_MOST = 64 };
 /* A value and where it hangs. */
 typedef struct place {
     json_t     *parent, *value;
-    const char *key; /* of objects */
+    const char *key;   /* of objects */
     size_t      index; /* of arrays */
 } place;
 
@@ -28,7 +28,8 @@ static void collect(places *p, json_t *value, int depth)
     if (json_is_object(value)) {
         const char *key;
         json_t     *child;
-        json_object_foreach(value, key, child) {
+        json_object_foreach(value, key, child)
+        {
             if (p->count < VALUES_MOST)
                 p->items[p->count++] = (place){value, child, key, 0};
             collect(p, child, depth + 1);
@@ -55,11 +56,12 @@ static json_t *number(uint32_t *state, const json_t *before)
 {
     const double value = fuzz_number(state, json_number_value(before));
     if (json_is_integer(before) && fuzz_random(state, 8) != 0)
-        return json_integer(fuzz_random(state, 2) || !(fabs(value) < 1e18) ? (json_int_t)fuzz_random(state, 8) : (json_int_t)value);
+        return json_integer(fuzz_random(state, 2) || !(fabs(value) < 1e18) ? (json_int_t)fuzz_random(state, 8)
+                                                                           : (json_int_t)value);
     return json_real(value);
 }
 
-/* --- buffers in base64 ------------------------------------------------------------------------------------------------- */
+/* --- buffers in base64 ---------------------------------------------------------------------------------- */
 
 static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -86,7 +88,8 @@ static void encode(const uint8_t *bytes, size_t size, char *out)
 {
     for (size_t i = 0; i < size; i += 3) {
         const uint32_t left = (uint32_t)(size - i);
-        const uint32_t bits = (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0u);
+        const uint32_t bits =
+            (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0u);
         *out++ = letters[bits >> 18];
         *out++ = letters[bits >> 12 & 63];
         *out++ = left > 1 ? letters[bits >> 6 & 63] : '=';
@@ -111,7 +114,8 @@ static void change_buffer(const place *at, uint32_t *state)
             const size_t       offset = fuzz_random(state, (uint32_t)(size / 4)) * 4;
             memcpy(bytes + offset, &floats[fuzz_random(state, sizeof floats / sizeof *floats)], 4);
         } else {
-            const size_t now = LLVMFuzzerMutate(bytes, size, size + (fuzz_random(state, 4) ? 0 : 16) < BUFFER_MOST ? size + 16 : BUFFER_MOST);
+            const size_t now = LLVMFuzzerMutate(
+                bytes, size, size + (fuzz_random(state, 4) ? 0 : 16) < BUFFER_MOST ? size + 16 : BUFFER_MOST);
             /* Buffers that get shorter are all refused in the same way. */
             size = now > size || fuzz_random(state, 16) == 0 ? now : size;
         }
@@ -123,23 +127,39 @@ static void change_buffer(const place *at, uint32_t *state)
     mem_free(whole);
 }
 
-/* --- one change -------------------------------------------------------------------------------------------------------- */
+/* --- one change ----------------------------------------------------------------------------------------- */
 
 /* Extensions and members that models may have in many places. */
 static const char *const members[][2] = {
     {"sparse", "{\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}"},
     {"extensions", "{\"KHR_mesh_quantization\":{}}"},
-    {"extensions", "{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteLength\":16,\"byteStride\":4,\"count\":4,\"mode\":\"ATTRIBUTES\"}}"},
+    {"extensions", "{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteLength\":16,\"byteStride\":4,\"count\":4,\"mode\":"
+                   "\"ATTRIBUTES\"}}"},
     {"extensions", "{\"KHR_draco_mesh_compression\":{\"bufferView\":0,\"attributes\":{\"POSITION\":0}}}"},
     {"extensions", "{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":0}}}"},
     {"extensions", "{\"KHR_texture_transform\":{\"offset\":[1,2],\"rotation\":3,\"scale\":[0,1e9],\"texCoord\":1}}"},
     {"extensions", "{\"KHR_lights_punctual\":{\"light\":0}}"},
     {"extensions", "{\"EXT_texture_webp\":{\"source\":0}}"},
     {"extensions", "{\"KHR_materials_variants\":{\"variants\":[{\"name\":\"a\"}]}}"},
-    {"children", "[0]"}, {"mesh", "0"}, {"skin", "0"}, {"camera", "0"}, {"mode", "5"}, {"targets", "[{\"POSITION\":0}]"}, {"weights", "[0.5,1e30]"},
-    {"indices", "0"}, {"material", "0"}, {"byteStride", "4"}, {"byteOffset", "4"}, {"normalized", "true"}, {"matrix", "[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1]"},
-    {"scale", "[0,-1,1e30]"}, {"rotation", "[0,0,0,0]"}, {"translation", "[1e300,0,0]"}, {"interpolation", "\"CUBICSPLINE\""},
-    {"extras", "{\"a\":{\"b\":[1,\"c\"]}}"}, {"name", "\"a/b, \\\"c\\\"\""},
+    {"children", "[0]"},
+    {"mesh", "0"},
+    {"skin", "0"},
+    {"camera", "0"},
+    {"mode", "5"},
+    {"targets", "[{\"POSITION\":0}]"},
+    {"weights", "[0.5,1e30]"},
+    {"indices", "0"},
+    {"material", "0"},
+    {"byteStride", "4"},
+    {"byteOffset", "4"},
+    {"normalized", "true"},
+    {"matrix", "[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1]"},
+    {"scale", "[0,-1,1e30]"},
+    {"rotation", "[0,0,0,0]"},
+    {"translation", "[1e300,0,0]"},
+    {"interpolation", "\"CUBICSPLINE\""},
+    {"extras", "{\"a\":{\"b\":[1,\"c\"]}}"},
+    {"name", "\"a/b, \\\"c\\\"\""},
 };
 
 static void add_member(const place *at, uint32_t *state)
@@ -159,15 +179,14 @@ static void change_once(places *p, json_t *root, uint32_t *state)
     collect(p, root, 0);
     if (p->count == 0)
         return;
-    const place at = p->items[fuzz_random(state, (uint32_t)p->count)], other = p->items[fuzz_random(state, (uint32_t)p->count)];
+    const place at = p->items[fuzz_random(state, (uint32_t)p->count)],
+                other = p->items[fuzz_random(state, (uint32_t)p->count)];
     if (json_is_string(at.value) && strchr(json_string_value(at.value), ',')) {
         change_buffer(&at, state);
         return;
     }
     switch (fuzz_random(state, 12)) {
-    case 0: /* the other value instead: swaps accessors, views, types */
-        put(&at, json_deep_copy(other.value));
-        break;
+    case 0: /* the other value instead: swaps accessors, views, types */ put(&at, json_deep_copy(other.value)); break;
     case 1:
         if (at.key)
             json_object_del(at.parent, at.key);
@@ -180,15 +199,14 @@ static void change_once(places *p, json_t *root, uint32_t *state)
         else if (!at.key)
             json_array_append_new(at.parent, json_deep_copy(at.value));
         break;
-    case 3:
-        add_member(&at, state);
-        break;
-    case 4: /* one deeper */
-        put(&at, json_pack("[O]", at.value));
-        break;
+    case 3: add_member(&at, state); break;
+    case 4: /* one deeper */ put(&at, json_pack("[O]", at.value)); break;
     case 5: {
-        static const char *const words[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT4", "STEP", "LINEAR", "CUBICSPLINE", "translation", "rotation", "scale", "weights", ""};
-        put(&at, json_is_string(at.value) ? json_string(words[fuzz_random(state, sizeof words / sizeof *words)]) : json_null());
+        static const char *const words[] = {"SCALAR", "VEC2",        "VEC3",        "VEC4",     "MAT4",  "STEP",
+                                            "LINEAR", "CUBICSPLINE", "translation", "rotation", "scale", "weights",
+                                            ""};
+        put(&at, json_is_string(at.value) ? json_string(words[fuzz_random(state, sizeof words / sizeof *words)])
+                                          : json_null());
         break;
     }
     default:
@@ -209,7 +227,7 @@ static size_t change_json(uint8_t *bytes, size_t size, size_t most, uint32_t *st
     if (root && p) {
         for (uint32_t n = 1 + fuzz_random(state, 3); n > 0; n--)
             change_once(p, root, state);
-        now = json_dumpb(root, (char *)bytes, 0, JSON_COMPACT) ;
+        now = json_dumpb(root, (char *)bytes, 0, JSON_COMPACT);
         /* json_dumpb says what it needs; only what fits is written. */
         now = now > 0 && now <= most ? json_dumpb(root, (char *)bytes, most, JSON_COMPACT) : 0;
     }
@@ -232,7 +250,7 @@ size_t fuzz_mutate_gltf(uint8_t *bytes, size_t size, size_t most, unsigned seed)
     return now ? now : LLVMFuzzerMutate(bytes, size, most);
 }
 
-/* --- the binary container ---------------------------------------------------------------------------------------------- */
+/* --- the binary container ------------------------------------------------------------------------------- */
 
 enum { GLB_HEAD = 12, GLB_CHUNK = 8 };
 
@@ -247,7 +265,8 @@ static size_t get_word(const uint8_t *at)
     return at[0] | (size_t)at[1] << 8 | (size_t)at[2] << 16 | (size_t)at[3] << 24;
 }
 
-/* The JSON or the binary chunk is changed and the lengths are set right; one time in eight the container itself is changed. */
+/* The JSON or the binary chunk is changed and the lengths are set right; one time in eight the container itself is
+ * changed. */
 size_t fuzz_mutate_glb(uint8_t *bytes, size_t size, size_t most, unsigned seed)
 {
     uint32_t     state = seed;
@@ -263,7 +282,9 @@ size_t fuzz_mutate_glb(uint8_t *bytes, size_t size, size_t most, unsigned seed)
         memcpy(rest, bytes + begin + json, tail);
         if (tail > GLB_CHUNK && fuzz_random(&state, 3) == 0) {
             now = json;
-            rest_size = GLB_CHUNK + LLVMFuzzerMutate(rest + GLB_CHUNK, tail - GLB_CHUNK, tail - GLB_CHUNK + 64 < most - GLB_CHUNK ? tail - GLB_CHUNK + 64 : most - GLB_CHUNK);
+            rest_size = GLB_CHUNK + LLVMFuzzerMutate(rest + GLB_CHUNK, tail - GLB_CHUNK,
+                                                     tail - GLB_CHUNK + 64 < most - GLB_CHUNK ? tail - GLB_CHUNK + 64
+                                                                                              : most - GLB_CHUNK);
             put_word(rest, rest_size - GLB_CHUNK);
         } else {
             now = change_json(copy, json, most - 4, &state);

@@ -46,10 +46,13 @@ void fuzz_set(const uint8_t *bytes, size_t size)
 
 /* Three parts, one below another, with attributes. */
 static const char few_parts[] =
-    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,3]}],\"nodes\":[{\"name\":\"Truck\",\"children\":[1,2],\"extras\":{\"layer\":\"road\"}},"
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,3]}],\"nodes\":[{\"name\":\"Truck\","
+    "\"children\":[1,2],\"extras\":{\"layer\":\"road\"}},"
     "{\"name\":\"Front Axle\",\"mesh\":0},{\"name\":\"Wheel, left\",\"mesh\":0,\"extras\":{\"size\":3}},{\"mesh\":0}],"
-    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],"
-    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"
+    "\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
 
 void fuzz_selector(const uint8_t *bytes, size_t size)
 {
@@ -71,11 +74,13 @@ void fuzz_selector(const uint8_t *bytes, size_t size)
 void fuzz_cut(const uint8_t *bytes, size_t size)
 {
     (void)size;
-    static const vec3 corners[8] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}};
-    static const uint32_t indices[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
-    const box3 bounds = {{-1, -1, -1}, {1, 1, 1}};
-    cut        c;
-    lmn_error  error;
+    static const vec3     corners[8] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
+                                        {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+    static const uint32_t indices[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                         2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    const box3            bounds = {{-1, -1, -1}, {1, 1, 1}};
+    cut                   c;
+    lmn_error             error;
     if (cut_parse(&c, (const char *)bytes, bounds, &error) != LMN_OK)
         return;
     const mat4 world = mat4_identity();

@@ -11,7 +11,8 @@ static void use_strokes(strokes *s, lmn_status status)
         strokes again = {0};
         strokes_wrap(s);
         strokes_write(&written, s);
-        if (written.data && strokes_read(&again, "again", written.data, written.size, &error) == LMN_OK && again.count != s->count)
+        if (written.data && strokes_read(&again, "again", written.data, written.size, &error) == LMN_OK &&
+            again.count != s->count)
             __builtin_trap();
         strokes_release(&again);
         text_release(&written);

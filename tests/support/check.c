@@ -23,7 +23,7 @@ static bool judge(bool holds, const char *row, const char *numbers, const char *
 
 bool check_at_most(const char *row, double got, double limit, const char *what, ...)
 {
-    char numbers[64];
+    char    numbers[64];
     va_list arguments;
     snprintf(numbers, sizeof numbers, "%.6g <= %.6g", got, limit);
     va_start(arguments, what);
@@ -34,7 +34,7 @@ bool check_at_most(const char *row, double got, double limit, const char *what, 
 
 bool check_at_least(const char *row, double got, double limit, const char *what, ...)
 {
-    char numbers[64];
+    char    numbers[64];
     va_list arguments;
     snprintf(numbers, sizeof numbers, "%.6g >= %.6g", got, limit);
     va_start(arguments, what);
@@ -45,7 +45,7 @@ bool check_at_least(const char *row, double got, double limit, const char *what,
 
 bool check_near(const char *row, double got, double wanted, double tolerance, const char *what, ...)
 {
-    char numbers[96];
+    char    numbers[96];
     va_list arguments;
     snprintf(numbers, sizeof numbers, "%.6g, wanted %.6g +- %.3g", got, wanted, tolerance);
     va_start(arguments, what);

@@ -1,5 +1,5 @@
-/* Checks that print their numbers: a row of the feature tables, what was measured, the value and the limit. A failed check
- * does not end the program, so that one run shows everything. */
+/* Checks that print their numbers: a row of the feature tables, what was measured, the value and the limit. A
+ * failed check does not end the program, so that one run shows everything. */
 #ifndef TRUTH_CHECK_H
 #define TRUTH_CHECK_H
 
@@ -14,8 +14,10 @@ typedef struct check_case {
 /* Runs the cases named on the command line, or all. The exit status: 0 when every check held. */
 int check_main(int argc, char **argv, const char *program, const check_case *cases, size_t count);
 
-bool check_at_most(const char *row, double got, double limit, const char *what, ...) __attribute__((format(printf, 4, 5)));
-bool check_at_least(const char *row, double got, double limit, const char *what, ...) __attribute__((format(printf, 4, 5)));
+bool check_at_most(const char *row, double got, double limit, const char *what, ...)
+    __attribute__((format(printf, 4, 5)));
+bool check_at_least(const char *row, double got, double limit, const char *what, ...)
+    __attribute__((format(printf, 4, 5)));
 bool check_near(const char *row, double got, double wanted, double tolerance, const char *what, ...)
     __attribute__((format(printf, 5, 6)));
 bool check_that(const char *row, bool holds, const char *what, ...) __attribute__((format(printf, 3, 4)));

@@ -8,7 +8,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* How far a rasteriser may move what it draws, in pixels: it rounds corners to 1/256. For what must not lie near, more. */
+/* How far a rasteriser may move what it draws, in pixels: it rounds corners to 1/256. For what must not lie near,
+ * more. */
 static const double moved = 1.0 / 256, reach = 1.0 / 100;
 
 static const double corners[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
@@ -52,8 +53,9 @@ static bool is_sharp(csg_rays *r, const shot *view, int x, int y, const csg_hit 
         if (fabs(own[k].depth - view->near_depth) <= 1e-3 * view->near_depth)
             return false;
     for (int k = 0; k < 4; k++)
-        if (csg_trace_pixel(r, view, x + 0.5 + corners[k][0] * reach, y + 0.5 + corners[k][1] * reach, other, &way) != count || way.close ||
-            way.crossings != crossings || !same_structure(own, other, count))
+        if (csg_trace_pixel(r, view, x + 0.5 + corners[k][0] * reach, y + 0.5 + corners[k][1] * reach, other, &way) !=
+                count ||
+            way.close || way.crossings != crossings || !same_structure(own, other, count))
             return false;
     return true;
 }
@@ -129,7 +131,7 @@ bool csg_map_border(const csg_map *m, int x, int y, size_t layers)
     return false;
 }
 
-/* --- comparison -------------------------------------------------------------------------------------------------------- */
+/* --- comparison ----------------------------------------------------------------------------------------- */
 
 /* One layer's maps; a drawing without layer maps has those of its front. */
 static shot_layer layer_of(const shot *s, size_t k)
@@ -160,15 +162,17 @@ static double facet_depth(const shot *s, const csg_hit *h, double from_x, double
     return -shot_to_eye(s, dvec_add(origin, dvec_scale(direction, t)), 1).z;
 }
 
-/* The least errors where the rasteriser may have moved the surface from; its place in the order is the same there. Near an edge between
- * facets it may carry either on to the pixel's centre. */
-static void judge_again(csg_rays *r, const shot *s, int x, int y, size_t k, double depth, dvec normal, double *depth_error, double *normal_error)
+/* The least errors where the rasteriser may have moved the surface from; its place in the order is the same there.
+ * Near an edge between facets it may carry either on to the pixel's centre. */
+static void judge_again(csg_rays *r, const shot *s, int x, int y, size_t k, double depth, dvec normal,
+                        double *depth_error, double *normal_error)
 {
     csg_hit other[CSG_HITS_MAX];
     csg_way way;
     double  low = INFINITY, high = 0;
     for (int c = 0; c < 5; c++) {
-        double shift = c < 4 ? moved : 0, at_x = x + 0.5 + corners[c % 4][0] * shift, at_y = y + 0.5 + corners[c % 4][1] * shift;
+        double shift = c < 4 ? moved : 0, at_x = x + 0.5 + corners[c % 4][0] * shift,
+               at_y = y + 0.5 + corners[c % 4][1] * shift;
         if (k >= csg_trace_pixel(r, s, at_x, at_y, other, &way))
             continue;
         double carried = facet_depth(s, &other[k], at_x, at_y, x + 0.5, y + 0.5);
@@ -275,18 +279,20 @@ csg_score csg_compare(const csg_map *m, csg_rays *r, const shot *s, size_t layer
 void csg_explain(const csg_map *m, csg_rays *r, const shot *s, int x, int y)
 {
     int i = y * m->width + x;
-    check_note("pixel %d, %d: %s, %zu surfaces by rays; clip planes at %.6g and %.6g", x, y, m->sharp[i] ? "sharp" : "not sharp", csg_count(m, i),
-               s->near_depth, s->far_depth);
+    check_note("pixel %d, %d: %s, %zu surfaces by rays; clip planes at %.6g and %.6g", x, y,
+               m->sharp[i] ? "sharp" : "not sharp", csg_count(m, i), s->near_depth, s->far_depth);
     for (size_t k = 0; k < csg_count(m, i); k++) {
         const csg_hit *h = &csg_at(m, i)[k];
         const uint8_t *c = csg_rays_colour(r, h->leaf);
-        check_note("  ray   %2zu %s leaf %2d (%3d %3d %3d) depth %.9g normal %.4f %.4f %.4f%s", k, h->front ? "front" : "back ", h->leaf, c[0], c[1], c[2],
-                   h->depth, h->normal.x, h->normal.y, h->normal.z, h->coplanar ? ", coplanar" : "");
+        check_note("  ray   %2zu %s leaf %2d (%3d %3d %3d) depth %.9g normal %.4f %.4f %.4f%s", k,
+                   h->front ? "front" : "back ", h->leaf, c[0], c[1], c[2], h->depth, h->normal.x, h->normal.y,
+                   h->normal.z, h->coplanar ? ", coplanar" : "");
     }
     for (size_t k = 0; k < layers_of(s); k++) {
         shot_layer l = layer_of(s, k);
         if (!isinf(l.depth[i]))
-            check_note("  drawn %2zu id %d (%3d %3d %3d) depth %.9g normal %.4f %.4f %.4f", k, l.id[i], l.shade[4 * i], l.shade[4 * i + 1], l.shade[4 * i + 2],
-                       (double)l.depth[i], (double)l.normal[i][0], (double)l.normal[i][1], (double)l.normal[i][2]);
+            check_note("  drawn %2zu id %d (%3d %3d %3d) depth %.9g normal %.4f %.4f %.4f", k, l.id[i], l.shade[4 * i],
+                       l.shade[4 * i + 1], l.shade[4 * i + 2], (double)l.depth[i], (double)l.normal[i][0],
+                       (double)l.normal[i][1], (double)l.normal[i][2]);
     }
 }

@@ -10,7 +10,7 @@ static const double pi = 3.14159265358979323846;
 
 const char *const csg_scene_names[CSG_SCENES] = {"convex", "concave", "deep", "many", "coincident"};
 
-/* --- leaves ---------------------------------------------------------------------------------------------------------- */
+/* --- leaves --------------------------------------------------------------------------------------------- */
 
 static csg_mesh *new_mesh(csg *c, int parent, size_t points, size_t faces)
 {
@@ -42,8 +42,9 @@ static void put_quad(csg_mesh *m, size_t a, size_t b, size_t c, size_t d)
 
 int csg_box(csg *c, int parent, dvec low, dvec high)
 {
-    static const uint32_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    csg_mesh *m = new_mesh(c, parent, 8, 12);
+    static const uint32_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    csg_mesh             *m = new_mesh(c, parent, 8, 12);
     for (int i = 0; i < 8; i++)
         put_point(m, i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
     for (int i = 0; i < 6; i++)
@@ -74,7 +75,7 @@ int csg_turned(csg *c, int parent, const double (*profile)[2], int count, int sl
 
 int csg_ball(csg *c, int parent, double radius, int stacks, int slices)
 {
-    double (*profile)[2] = check_alloc((size_t)stacks + 1, sizeof *profile);
+    double(*profile)[2] = check_alloc((size_t)stacks + 1, sizeof *profile);
     for (int i = 0; i <= stacks; i++) {
         profile[i][0] = radius * sin(pi * i / stacks);
         profile[i][1] = -radius * cos(pi * i / stacks);
@@ -99,7 +100,8 @@ int csg_cylinder(csg *c, int parent, double bottom, double top, double height, i
 
 int csg_cup(csg *c, int parent, double radius, double height, double wall, int slices)
 {
-    double profile[6][2] = {{0, 0}, {radius, 0}, {radius, height}, {radius - wall, height}, {radius - wall, wall}, {0, wall}};
+    double profile[6][2] = {{0, 0},   {radius, 0}, {radius, height}, {radius - wall, height}, {radius - wall, wall},
+                            {0, wall}};
     return csg_turned(c, parent, (const double(*)[2])profile, 6, slices);
 }
 
@@ -137,13 +139,14 @@ int csg_prism(csg *c, int parent, const double (*outline)[2], int count, const d
 
 int csg_angle(csg *c, int parent, double side, double thick, double height)
 {
-    double outline[6][2] = {{0, 0}, {side, 0}, {side, thick}, {thick, thick}, {thick, side}, {0, side}}, centre[2] = {0.4 * thick, 0.6 * thick};
+    double outline[6][2] = {{0, 0}, {side, 0}, {side, thick}, {thick, thick}, {thick, side}, {0, side}},
+           centre[2] = {0.4 * thick, 0.6 * thick};
     return csg_prism(c, parent, (const double(*)[2])outline, 6, centre, height);
 }
 
 int csg_star(csg *c, int parent, double outer, double inner, int points, double height)
 {
-    double (*outline)[2] = check_alloc(2 * (size_t)points, sizeof *outline), centre[2] = {0, 0};
+    double(*outline)[2] = check_alloc(2 * (size_t)points, sizeof *outline), centre[2] = {0, 0};
     for (int i = 0; i < 2 * points; i++) {
         double radius = i % 2 ? inner : outer;
         outline[i][0] = radius * cos(pi * i / points);
@@ -223,14 +226,16 @@ void csg_spanner(csg *c)
     csg_box(c, body, dvec_of(-1.2, -0.18, -0.1), dvec_of(1.2, 0.18, 0.1));
     put_cylinder(c, body, 0.55, -1.3, 0, -0.16, 0.32, 48);
     put_cylinder(c, body, 0.45, 1.35, 0, -0.16, 0.32, 48);
-    csg_place(c, csg_box(c, root, dvec_of(-0.9, -0.24, -1), dvec_of(0.1, 0.24, 1)), dvec_of(1, 1, 1), dvec_of(0, 0, 1), 15, dvec_of(-1.3, 0, 0));
+    csg_place(c, csg_box(c, root, dvec_of(-0.9, -0.24, -1), dvec_of(0.1, 0.24, 1)), dvec_of(1, 1, 1), dvec_of(0, 0, 1),
+              15, dvec_of(-1.3, 0, 0));
     put_cylinder(c, root, 0.28, 1.35, 0, -1, 2, 6);
     for (int side = -1; side <= 1; side += 2)
         csg_box(c, root, dvec_of(-0.6, -0.1, side > 0 ? 0.05 : -1), dvec_of(0.75, 0.1, side > 0 ? 1 : -0.05));
-    csg_place(c, csg_cylinder(c, root, 0.05, 0.05, 2.6, 16), dvec_of(1, 1, 1), dvec_of(0, 1, 0), 90, dvec_of(-1.3, 0.14, 0));
+    csg_place(c, csg_cylinder(c, root, 0.05, 0.05, 2.6, 16), dvec_of(1, 1, 1), dvec_of(0, 1, 0), 90,
+              dvec_of(-1.3, 0.14, 0));
 }
 
-/* --- trees from seeds ------------------------------------------------------------------------------------------------ */
+/* --- trees from seeds ----------------------------------------------------------------------------------- */
 
 typedef struct maker {
     csg     *c;
@@ -249,16 +254,11 @@ static int convex_leaf(maker *m, int parent, double size)
 {
     double a = size * scene_between(&m->state, 0.6, 1), b = size * scene_between(&m->state, 0.6, 1);
     switch (whole(m, 0, 4)) {
-    case 0:
-        return csg_box(m->c, parent, dvec_of(-a, -b, -size), dvec_of(b, a, size));
-    case 1:
-        return csg_ball(m->c, parent, a, 8, 14);
-    case 2:
-        return csg_cylinder(m->c, parent, 0.7 * a, 0.7 * a, 1.5 * b, 16);
-    case 3:
-        return csg_cylinder(m->c, parent, a, whole(m, 0, 1) ? 0 : 0.4 * b, 1.6 * b, 14);
-    default:
-        return csg_hull(m->c, parent, size, whole(m, 7, 12), &m->state);
+    case 0: return csg_box(m->c, parent, dvec_of(-a, -b, -size), dvec_of(b, a, size));
+    case 1: return csg_ball(m->c, parent, a, 8, 14);
+    case 2: return csg_cylinder(m->c, parent, 0.7 * a, 0.7 * a, 1.5 * b, 16);
+    case 3: return csg_cylinder(m->c, parent, a, whole(m, 0, 1) ? 0 : 0.4 * b, 1.6 * b, 14);
+    default: return csg_hull(m->c, parent, size, whole(m, 7, 12), &m->state);
     }
 }
 
@@ -266,14 +266,10 @@ static int concave_leaf(maker *m, int parent, double size)
 {
     double a = size * scene_between(&m->state, 0.6, 1), b = size * scene_between(&m->state, 0.3, 0.45);
     switch (whole(m, 0, 3)) {
-    case 0:
-        return csg_torus(m->c, parent, a, b, 18, 10);
-    case 1:
-        return csg_angle(m->c, parent, 1.6 * a, 1.5 * b, a);
-    case 2:
-        return csg_star(m->c, parent, 1.3 * a, b, whole(m, 4, 6), a);
-    default:
-        return csg_cup(m->c, parent, a, 1.3 * a, 0.6 * b, 16);
+    case 0: return csg_torus(m->c, parent, a, b, 18, 10);
+    case 1: return csg_angle(m->c, parent, 1.6 * a, 1.5 * b, a);
+    case 2: return csg_star(m->c, parent, 1.3 * a, b, whole(m, 4, 6), a);
+    default: return csg_cup(m->c, parent, a, 1.3 * a, 0.6 * b, 16);
     }
 }
 
@@ -282,8 +278,9 @@ static void any_leaf(maker *m, int parent, bool large)
     double size = m->size * (large ? 1.3 : 1);
     bool   concave = scene_random(&m->state) < m->concave;
     int    node = concave ? concave_leaf(m, parent, size) : convex_leaf(m, parent, size);
-    double x = scene_between(&m->state, -1, 1), y = scene_between(&m->state, -1, 1), z = scene_between(&m->state, -1, 1);
-    dvec   axis = dvec_of(y + 0.01, z + 0.02, x + 0.03), scale = {1, 1, 1};
+    double x = scene_between(&m->state, -1, 1), y = scene_between(&m->state, -1, 1),
+           z = scene_between(&m->state, -1, 1);
+    dvec axis = dvec_of(y + 0.01, z + 0.02, x + 0.03), scale = {1, 1, 1};
     if (scene_random(&m->state) < 0.25)
         scale = dvec_of(scene_random(&m->state) < 0.5 ? -1 : 1, scene_between(&m->state, 0.7, 1), 1);
     double far = m->spread * (large ? 0.5 : 1);
@@ -313,7 +310,8 @@ static void lattice_leaf(maker *m, int parent, bool large)
         int node = csg_ball(m->c, parent, span / 2.2, 8, 16);
         csg_move(m->c, node, low[0] / 2.0, low[1] / 2.0, low[2] / 2.0);
     } else {
-        csg_box(m->c, parent, dvec_of(low[0] / 2.0, low[1] / 2.0, low[2] / 2.0), dvec_of(high[0] / 2.0, high[1] / 2.0, high[2] / 2.0));
+        csg_box(m->c, parent, dvec_of(low[0] / 2.0, low[1] / 2.0, low[2] / 2.0),
+                dvec_of(high[0] / 2.0, high[1] / 2.0, high[2] / 2.0));
     }
 }
 
@@ -338,7 +336,8 @@ static void grow(maker *m, int parent, int leaves, int depth, bool large)
     if (children > leaves || depth <= 1)
         children = leaves;
     if (scene_random(&m->state) < 0.2)
-        csg_place(m->c, node, dvec_of(1, 1, m->lattice ? -1 : 0.9), dvec_of(0, 0, 1), m->lattice ? 90 : 40, dvec_of(0, 0, 0));
+        csg_place(m->c, node, dvec_of(1, 1, m->lattice ? -1 : 0.9), dvec_of(0, 0, 1), m->lattice ? 90 : 40,
+                  dvec_of(0, 0, 0));
     for (int k = 0; k < children; k++) {
         int share = k == children - 1 ? leaves : 1 + whole(m, 0, 2 * (leaves - children + k) / (children - k));
         share = share > leaves - (children - 1 - k) ? leaves - (children - 1 - k) : share;
@@ -368,14 +367,23 @@ void csg_random(csg *c, csg_scene kind, uint32_t seed)
     static const struct {
         int    least, most, depth;
         double size, spread, concave;
-    } of[CSG_SCENES] = {{2, 8, 3, 0.8, 0.6, 0}, {2, 8, 3, 0.8, 0.6, 0.75}, {7, 14, 6, 0.8, 0.6, 0.3}, {40, 60, 4, 0.5, 0.95, 0.3}, {3, 10, 3, 0, 0, 0}};
-    maker m = {.c = c, .state = seed * 2654435761u + (uint32_t)kind * 40503u, .size = of[kind].size, .spread = of[kind].spread,
-               .concave = of[kind].concave, .lattice = kind == CSG_COINCIDENT};
+    } of[CSG_SCENES] = {{2, 8, 3, 0.8, 0.6, 0},
+                        {2, 8, 3, 0.8, 0.6, 0.75},
+                        {7, 14, 6, 0.8, 0.6, 0.3},
+                        {40, 60, 4, 0.5, 0.95, 0.3},
+                        {3, 10, 3, 0, 0, 0}};
+    maker m = {.c = c,
+               .state = seed * 2654435761u + (uint32_t)kind * 40503u,
+               .size = of[kind].size,
+               .spread = of[kind].spread,
+               .concave = of[kind].concave,
+               .lattice = kind == CSG_COINCIDENT};
     do {
         csg_release(c);
         grow(&m, -1, whole(&m, of[kind].least, of[kind].most), of[kind].depth, true);
         if (m.lattice)
-            csg_place(c, 0, dvec_of(1, 1, 1), dvec_of(1, 2, 0.5), scene_between(&m.state, 10, 350), dvec_of(0.05, -0.03, 0.02));
+            csg_place(c, 0, dvec_of(1, 1, 1), dvec_of(1, 2, 0.5), scene_between(&m.state, 10, 350),
+                      dvec_of(0.05, -0.03, 0.02));
     } while (!worth_drawing(c));
     csg_colour(c);
 }
@@ -383,8 +391,8 @@ void csg_random(csg *c, csg_scene kind, uint32_t seed)
 bool csg_find_place(csg_rays *r, bool in_solid, uint32_t seed, dvec *out)
 {
     static const dvec around[] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    dvec     low, high;
-    uint32_t state = seed;
+    dvec              low, high;
+    uint32_t          state = seed;
     csg_rays_box(r, &low, &high);
     for (int k = 0; k < 2000; k++) {
         double x = scene_between(&state, low.x, high.x), y = scene_between(&state, low.y, high.y);

@@ -27,7 +27,8 @@ void csg_move(csg *c, int node, double x, double y, double z);
 /* A colour of its own for each leaf, in the leaves. */
 void csg_colour(csg *c);
 
-/* A double-ended spanner: a jaw, a ring with a hexagonal hole, a recessed shaft with a bore along it. Two units long. */
+/* A double-ended spanner: a jaw, a ring with a hexagonal hole, a recessed shaft with a bore along it. Two units
+ * long. */
 void csg_spanner(csg *c);
 
 typedef enum csg_scene {
@@ -44,7 +45,8 @@ extern const char *const csg_scene_names[CSG_SCENES];
 /* Fits into a ball of radius 2; never empty. */
 void csg_random(csg *c, csg_scene kind, uint32_t seed);
 
-/* A point inside the solid (or inside some leaf and outside of the solid), some way from all surfaces. False when there is none. */
+/* A point inside the solid (or inside some leaf and outside of the solid), some way from all surfaces. False when
+ * there is none. */
 bool csg_find_place(csg_rays *r, bool in_solid, uint32_t seed, dvec *out);
 
 #endif

@@ -8,13 +8,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Shares of the extent: crossings in one plane are one event up to the first; others that are closer than the second may have
- * either order in floats; twice the same edge of one leaf. */
+/* Shares of the extent: crossings in one plane are one event up to the first; others that are closer than the
+ * second may have either order in floats; twice the same edge of one leaf. */
 static const double coplanar_share = 1e-6, close_share = 1e-5, twice_share = 1e-10;
 
 enum { CROSSINGS_MAX = 1024 };
 
-/* --- trees ----------------------------------------------------------------------------------------------------------- */
+/* --- trees ---------------------------------------------------------------------------------------------- */
 
 int csg_add(csg *c, int parent, csg_kind kind)
 {
@@ -51,8 +51,8 @@ int csg_leaf_count(const csg *c)
 
 int csg_copy(csg *c, int parent, const csg *from, int node)
 {
-    csg_node source = from->nodes[node];
-    int      own = csg_add(c, parent, source.kind);
+    csg_node  source = from->nodes[node];
+    int       own = csg_add(c, parent, source.kind);
     csg_node *n = &c->nodes[own];
     memcpy(n->matrix, source.matrix, sizeof n->matrix);
     n->has_colour = source.has_colour;
@@ -94,17 +94,19 @@ static bool is_identity(const double m[16])
 static void write_node(FILE *file, const csg *c, int node, int depth)
 {
     static const char *const names[] = {"", "union() {", "intersection() {", "difference() {"};
-    const csg_node *n = &c->nodes[node];
-    bool  placed = !is_identity(n->matrix);
+    const csg_node          *n = &c->nodes[node];
+    bool                     placed = !is_identity(n->matrix);
     fprintf(file, "%*s", 2 * depth, "");
     if (placed) {
         fprintf(file, "multmatrix([");
         for (int row = 0; row < 4; row++)
-            fprintf(file, "%s[%.17g, %.17g, %.17g, %.17g]", row ? ", " : "", n->matrix[row], n->matrix[4 + row], n->matrix[8 + row], n->matrix[12 + row]);
+            fprintf(file, "%s[%.17g, %.17g, %.17g, %.17g]", row ? ", " : "", n->matrix[row], n->matrix[4 + row],
+                    n->matrix[8 + row], n->matrix[12 + row]);
         fprintf(file, "]) {\n%*s", 2 * depth, "");
     }
     if (n->has_colour)
-        fprintf(file, "color([%.17g, %.17g, %.17g, 1]) {\n%*s", n->colour[0] / 255.0, n->colour[1] / 255.0, n->colour[2] / 255.0, 2 * depth, "");
+        fprintf(file, "color([%.17g, %.17g, %.17g, 1]) {\n%*s", n->colour[0] / 255.0, n->colour[1] / 255.0,
+                n->colour[2] / 255.0, 2 * depth, "");
     if (n->kind == CSG_LEAF) {
         write_leaf(file, &n->mesh);
     } else {
@@ -128,7 +130,7 @@ bool csg_write(const csg *c, const char *path)
     return fclose(file) == 0;
 }
 
-/* --- leaves in the scene's axes -------------------------------------------------------------------------------------- */
+/* --- leaves in the scene's axes ------------------------------------------------------------------------- */
 
 typedef struct leaf {
     int     node;
@@ -144,8 +146,8 @@ struct csg_rays {
     tracer *tracer;
     dvec    low, high;
     double  extent;
-    int    *order;   /* of a node among its siblings */
-    int    *trues;   /* children of a node that hold now; of a difference without its first */
+    int    *order; /* of a node among its siblings */
+    int    *trues; /* children of a node that hold now; of a difference without its first */
     int    *children;
     bool   *first, *value;
 };
@@ -165,19 +167,22 @@ static void multiply(const double a[16], const double b[16], double out[16])
 /* Rows of the inverse's transpose, but for a factor: what turns normals. */
 static dvec turn_normal(const double m[16], dvec n)
 {
-    dvec x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]}, z = {m[8], m[9], m[10]};
+    dvec   x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]}, z = {m[8], m[9], m[10]};
     double sign = dvec_dot(x, dvec_cross(y, z)) < 0 ? -1 : 1;
-    dvec sum = dvec_add(dvec_scale(dvec_cross(y, z), n.x), dvec_add(dvec_scale(dvec_cross(z, x), n.y), dvec_scale(dvec_cross(x, y), n.z)));
+    dvec   sum = dvec_add(dvec_scale(dvec_cross(y, z), n.x),
+                          dvec_add(dvec_scale(dvec_cross(z, x), n.y), dvec_scale(dvec_cross(x, y), n.z)));
     return dvec_unit(dvec_scale(sum, sign));
 }
 
 static dvec face_area(const csg_mesh *m, size_t face)
 {
-    dvec a = m->points[m->faces[3 * face]], b = m->points[m->faces[3 * face + 1]], c = m->points[m->faces[3 * face + 2]];
+    dvec a = m->points[m->faces[3 * face]], b = m->points[m->faces[3 * face + 1]],
+         c = m->points[m->faces[3 * face + 2]];
     return dvec_cross(dvec_sub(b, a), dvec_sub(c, a));
 }
 
-/* At each corner the area-weighted mean of the faces at its point that meet its own face at less than the crease angle. */
+/* At each corner the area-weighted mean of the faces at its point that meet its own face at less than the crease
+ * angle. */
 static void corner_normals(const csg_mesh *m, double crease, dvec *out)
 {
     size_t    corners = 3 * m->face_count;
@@ -205,8 +210,8 @@ static void corner_normals(const csg_mesh *m, double crease, dvec *out)
 static void place_leaf(csg_rays *r, const csg *c, const leaf *l, uint32_t index, double crease, trace_triangle *out)
 {
     const csg_mesh *m = &c->nodes[l->node].mesh;
-    dvec  *normals = check_alloc(3 * m->face_count, sizeof *normals);
-    double world[16];
+    dvec           *normals = check_alloc(3 * m->face_count, sizeof *normals);
+    double          world[16];
     memcpy(world, c->nodes[l->node].matrix, sizeof world);
     for (int n = c->nodes[l->node].parent; n >= 0; n = c->nodes[n].parent)
         multiply(c->nodes[n].matrix, world, world);
@@ -275,7 +280,7 @@ csg_rays *csg_rays_create(const csg *c, double crease)
     if (c->count)
         collect_leaves(c, 0, r);
     trace_triangle *all = check_alloc(triangles, sizeof *all);
-    size_t at = 0;
+    size_t          at = 0;
     for (size_t k = 0; k < r->leaf_count; k++) {
         leaf *l = &r->leaves[k];
         inherit(c, l, r->order);
@@ -327,19 +332,15 @@ const uint8_t *csg_rays_colour(const csg_rays *r, int index)
     return r->leaves[index].colour;
 }
 
-/* --- the tree along a ray -------------------------------------------------------------------------------------------- */
+/* --- the tree along a ray ------------------------------------------------------------------------------- */
 
 static bool holds(const csg_rays *r, int node)
 {
     switch (r->tree->nodes[node].kind) {
-    case CSG_UNION:
-        return r->trues[node] > 0 || r->first[node];
-    case CSG_INTERSECTION:
-        return r->children[node] > 0 && r->trues[node] + r->first[node] == r->children[node];
-    case CSG_DIFFERENCE:
-        return r->first[node] && r->trues[node] == 0;
-    default:
-        return r->value[node];
+    case CSG_UNION: return r->trues[node] > 0 || r->first[node];
+    case CSG_INTERSECTION: return r->children[node] > 0 && r->trues[node] + r->first[node] == r->children[node];
+    case CSG_DIFFERENCE: return r->first[node] && r->trues[node] == 0;
+    default: return r->value[node];
     }
 }
 
@@ -382,8 +383,10 @@ static bool in_one_plane(const csg_rays *r, const trace_triangle *a, const trace
     return true;
 }
 
-/* An edge between two facets is hit twice. Two crossings of one leaf are the same where their triangles face the same way. */
-static bool is_twice(const csg_rays *r, const trace_triangle *f, dvec direction, const crossing *c, size_t count, const trace_hit *hit)
+/* An edge between two facets is hit twice. Two crossings of one leaf are the same where their triangles face the
+ * same way. */
+static bool is_twice(const csg_rays *r, const trace_triangle *f, dvec direction, const crossing *c, size_t count,
+                     const trace_hit *hit)
 {
     double length = dvec_length(direction);
     for (size_t k = count; k-- > 0 && (hit->t - c[k].hit.t) * length <= twice_share * r->extent;)
@@ -403,7 +406,8 @@ static void find_events(const csg_rays *r, const trace_triangle *f, double lengt
             continue;
         c[k].event = (int)k;
         for (size_t j = k + 1; j < count && (c[j].hit.t - c[k].hit.t) * length <= 100 * coplanar_share * r->extent; j++)
-            if (c[j].event < 0 && c[j].leaf != c[k].leaf && in_one_plane(r, &f[c[k].hit.triangle], &f[c[j].hit.triangle]))
+            if (c[j].event < 0 && c[j].leaf != c[k].leaf &&
+                in_one_plane(r, &f[c[k].hit.triangle], &f[c[j].hit.triangle]))
                 c[j].event = (int)k;
     }
 }
@@ -431,21 +435,21 @@ static bool order_matters(csg_rays *r, const crossing *c, size_t count, int one,
     return !(one_idle || other_idle || all_idle);
 }
 
-/* When a crossing's turn comes among those of its event: ends of the solid before beginnings; among ends what is kept first, among
- * beginnings what is taken away; then the order of the tree. */
+/* When a crossing's turn comes among those of its event: ends of the solid before beginnings; among ends what is
+ * kept first, among beginnings what is taken away; then the order of the tree. */
 static int turn_of(const csg_rays *r, const crossing *c)
 {
     const leaf *l = &r->leaves[c->leaf];
-    bool entered = !r->value[l->node], begins = entered != l->taken_away;
+    bool        entered = !r->value[l->node], begins = entered != l->taken_away;
     return ((begins ? 2 : 0) + (entered ? 1 : 0)) * 65536 + c->leaf;
 }
 
-/* Goes through the crossings of an event and returns the one at which the solid last changed. Its own crossing goes the way of the
- * solid, for no leaf occurs twice in a tree. */
+/* Goes through the crossings of an event and returns the one at which the solid last changed. Its own crossing goes
+ * the way of the solid, for no leaf occurs twice in a tree. */
 static const crossing *go_through(csg_rays *r, const crossing *c, size_t count, int event)
 {
     const crossing *owner = NULL;
-    int  turns[CROSSINGS_MAX];
+    int             turns[CROSSINGS_MAX];
     for (size_t k = (size_t)event; k < count; k++)
         turns[k] = c[k].event == event ? turn_of(r, &c[k]) : -1;
     for (;;) {
@@ -465,17 +469,22 @@ static const crossing *go_through(csg_rays *r, const crossing *c, size_t count, 
 static csg_hit hit_of(const trace_triangle *f, const crossing *c, dvec direction, bool entering)
 {
     const trace_triangle *t = &f[c->hit.triangle];
-    double u = c->hit.u, v = c->hit.v;
+    double                u = c->hit.u, v = c->hit.v;
     dvec   n = dvec_add(dvec_scale(t->n[0], 1 - u - v), dvec_add(dvec_scale(t->n[1], u), dvec_scale(t->n[2], v)));
     double sign = (dvec_dot(t->flat, direction) < 0) == entering ? 1 : -1;
-    return (csg_hit){.t = c->hit.t, .normal = dvec_scale(dvec_unit(n), sign), .flat = dvec_scale(t->flat, sign), .leaf = c->leaf, .front = entering};
+    return (csg_hit){.t = c->hit.t,
+                     .normal = dvec_scale(dvec_unit(n), sign),
+                     .flat = dvec_scale(t->flat, sign),
+                     .leaf = c->leaf,
+                     .front = entering};
 }
 
 /* Crossings of the whole line with their events, sorted. */
 static size_t find_crossings(csg_rays *r, dvec origin, dvec direction, crossing out[CROSSINGS_MAX])
 {
     trace_hit raw[CROSSINGS_MAX];
-    size_t    triangles, count = 0, found = tracer_hits(r->tracer, origin, direction, -INFINITY, INFINITY, raw, CROSSINGS_MAX);
+    size_t    triangles, count = 0,
+                      found = tracer_hits(r->tracer, origin, direction, -INFINITY, INFINITY, raw, CROSSINGS_MAX);
     const trace_triangle *f = tracer_triangles(r->tracer, &triangles);
     if (found > CROSSINGS_MAX)
         check_that("self", false, "%zu crossings on a ray: more than the tests have room for", found);
@@ -496,9 +505,9 @@ static bool any_close(csg_rays *r, const crossing *c, size_t count, size_t k, do
 
 size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way)
 {
-    crossing c[CROSSINGS_MAX];
-    size_t   triangles, count = find_crossings(r, origin, direction, c), kept = 0;
-    double   length = dvec_length(direction);
+    crossing              c[CROSSINGS_MAX];
+    size_t                triangles, count = find_crossings(r, origin, direction, c), kept = 0;
+    double                length = dvec_length(direction);
     const trace_triangle *f = tracer_triangles(r->tracer, &triangles);
     *way = (csg_way){0};
     reset(r);
@@ -551,7 +560,8 @@ bool csg_inside_leaf(csg_rays *r, int index, dvec point)
 
 double csg_volume(csg_rays *r, int axis, int cells)
 {
-    double low[3] = {r->low.x, r->low.y, r->low.z}, size[3] = {r->high.x - low[0], r->high.y - low[1], r->high.z - low[2]};
+    double low[3] = {r->low.x, r->low.y, r->low.z},
+           size[3] = {r->high.x - low[0], r->high.y - low[1], r->high.z - low[2]};
     double length = 0, d[3] = {0, 0, 0};
     int    a = (axis + 1) % 3, b = (axis + 2) % 3;
     d[axis] = 1;

@@ -1,5 +1,6 @@
-/* The surface of a solid, found on rays in double precision: trees of set operations over closed triangle meshes. Nothing of the
- * engine is used, and no surface is ever computed: a ray crosses the leaves, and where the tree's value changes is the solid. */
+/* The surface of a solid, found on rays in double precision: trees of set operations over closed triangle meshes.
+ * Nothing of the engine is used, and no surface is ever computed: a ray crosses the leaves, and where the tree's
+ * value changes is the solid. */
 #ifndef TRUTH_CSG_TRUTH_H
 #define TRUTH_CSG_TRUTH_H
 
@@ -33,45 +34,46 @@ int  csg_add(csg *c, int parent, csg_kind kind);
 void csg_release(csg *c);
 int  csg_leaf_count(const csg *c);
 /* Appends a copy of what is at and below a node. */
-int  csg_copy(csg *c, int parent, const csg *from, int node);
+int csg_copy(csg *c, int parent, const csg *from, int node);
 
 /* As text that OpenSCAD reads: leaves are polyhedra with 17 digits, so that everybody has the same triangles. */
 bool csg_write(const csg *c, const char *path);
 
-/* --- rays ---------------------------------------------------------------------------------------------------------- */
+/* --- rays ----------------------------------------------------------------------------------------------- */
 
 typedef struct csg_rays csg_rays;
 
 /* Corner normals of leaves are those of a crease angle, in degrees. */
-csg_rays *csg_rays_create(const csg *c, double crease);
-void      csg_rays_destroy(csg_rays *r);
-double    csg_rays_extent(const csg_rays *r); /* diagonal of the leaves' box */
-void      csg_rays_box(const csg_rays *r, dvec *low, dvec *high);
-size_t    csg_rays_leaves(const csg_rays *r);
+csg_rays      *csg_rays_create(const csg *c, double crease);
+void           csg_rays_destroy(csg_rays *r);
+double         csg_rays_extent(const csg_rays *r); /* diagonal of the leaves' box */
+void           csg_rays_box(const csg_rays *r, dvec *low, dvec *high);
+size_t         csg_rays_leaves(const csg_rays *r);
 const uint8_t *csg_rays_colour(const csg_rays *r, int leaf);
 
 /* One surface of the solid on a ray. */
 typedef struct csg_hit {
-    double t;      /* in lengths of the direction */
-    double depth;  /* eye depth; only of rays through pictures */
-    dvec   normal; /* unit, outward of the solid, interpolated; of rays through pictures: eye space */
-    dvec   flat;   /* the triangle's own */
-    int    leaf;   /* whose surface it is */
-    bool   front;  /* the ray goes into the solid */
+    double t;        /* in lengths of the direction */
+    double depth;    /* eye depth; only of rays through pictures */
+    dvec   normal;   /* unit, outward of the solid, interpolated; of rays through pictures: eye space */
+    dvec   flat;     /* the triangle's own */
+    int    leaf;     /* whose surface it is */
+    bool   front;    /* the ray goes into the solid */
     bool   coplanar; /* leaves of one plane meet here */
 } csg_hit;
 
 enum { CSG_HITS_MAX = 256 };
 
 typedef struct csg_way {
-    bool     close;     /* somewhere the order of two crossings that are not in one plane matters, and they are closer than 1e-5 of the extent */
+    bool close; /* somewhere the order of two crossings that are not in one plane matters, and they are closer than 1e-5
+                   of the extent */
     uint64_t crossings; /* stands for all crossings in their order, whether the solid changes there or not */
 } csg_way;
 
-/* On a whole line, nearest first. Crossings of different leaves in one plane are one event: there is a surface when the tree's
- * value before all of them is not that after. Within it, ends of the solid come before beginnings; among ends leaves that are kept and
- * then those that are taken away, among beginnings the other way round; then the order of the tree. The one at which the tree's value
- * changes owns the surface. */
+/* On a whole line, nearest first. Crossings of different leaves in one plane are one event: there is a surface when
+ * the tree's value before all of them is not that after. Within it, ends of the solid come before beginnings; among
+ * ends leaves that are kept and then those that are taken away, among beginnings the other way round; then the
+ * order of the tree. The one at which the tree's value changes owns the surface. */
 size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way);
 
 bool csg_inside(csg_rays *r, dvec point);

@@ -7,15 +7,20 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace
+{
 
-class collector : public DL_CreationAdapter {
-public:
+class collector : public DL_CreationAdapter
+{
+  public:
     std::vector<dxf_entity> entities;
     std::vector<double>     numbers;
     size_t                  layers = 0;
 
-    void addLayer(const DL_LayerData &) override { layers++; }
+    void addLayer(const DL_LayerData &) override
+    {
+        layers++;
+    }
 
     void addLine(const DL_LineData &line) override
     {
@@ -30,7 +35,10 @@ public:
         entities.back().closed = (line.flags & 1) != 0;
     }
 
-    void addVertex(const DL_VertexData &vertex) override { point(vertex.x, vertex.y); }
+    void addVertex(const DL_VertexData &vertex) override
+    {
+        point(vertex.x, vertex.y);
+    }
 
     void addCircle(const DL_CircleData &circle) override
     {
@@ -47,7 +55,7 @@ public:
         std::strncpy(entities.back().words, text.text.c_str(), sizeof entities.back().words - 1);
     }
 
-private:
+  private:
     void begin(dxf_kind kind)
     {
         dxf_entity e;
@@ -66,7 +74,7 @@ private:
     }
 };
 
-}
+} // namespace
 
 bool dxf_read(dxf_file *out, const char *path)
 {
@@ -78,7 +86,7 @@ bool dxf_read(dxf_file *out, const char *path)
     out->point_count = found.numbers.size() / 2;
     out->layer_count = found.layers;
     out->entities = static_cast<dxf_entity *>(std::malloc((found.entities.size() + 1) * sizeof(dxf_entity)));
-    out->points = static_cast<double (*)[2]>(std::malloc((found.numbers.size() + 2) * sizeof(double)));
+    out->points = static_cast<double(*)[2]>(std::malloc((found.numbers.size() + 2) * sizeof(double)));
     std::memcpy(out->entities, found.entities.data(), found.entities.size() * sizeof(dxf_entity));
     std::memcpy(out->points, found.numbers.data(), found.numbers.size() * sizeof(double));
     return true;

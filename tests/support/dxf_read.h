@@ -16,13 +16,13 @@ typedef struct dxf_entity {
     char     layer[64], words[128];
     bool     closed;
     size_t   first, count; /* points */
-    double   size; /* radius or height */
+    double   size;         /* radius or height */
 } dxf_entity;
 
 typedef struct dxf_file {
     dxf_entity *entities;
-    double    (*points)[2];
-    size_t      entity_count, point_count, layer_count;
+    double (*points)[2];
+    size_t entity_count, point_count, layer_count;
 } dxf_file;
 
 /* False when it cannot be read. End with dxf_release. */

@@ -35,7 +35,7 @@ static void add_edge(feature_lines *f, dvec a, dvec b, int64_t first, int64_t se
     f->edges[f->edge_count++] = (feature){a, b, {first, second}, kind};
 }
 
-/* --- edges of the mesh ------------------------------------------------------------------------------------------- */
+/* --- edges of the mesh ---------------------------------------------------------------------------------- */
 
 /* A triangle's side, its ends ordered, so that the two sides of an edge compare equal. */
 typedef struct side {
@@ -78,8 +78,10 @@ static bool is_concave(const trace_triangle *a, const trace_triangle *b)
     return dvec_dot(a->flat, dvec_sub(middle, a->p[0])) > 0;
 }
 
-/* What an edge of two triangles is; FEATURE_CLASSES: nothing. On a closed mesh a concave fold hides its own silhouette. */
-static feature_class classify(const trace_triangle *a, const trace_triangle *b, dvec viewer, double w, double crease, bool closed)
+/* What an edge of two triangles is; FEATURE_CLASSES: nothing. On a closed mesh a concave fold hides its own
+ * silhouette. */
+static feature_class classify(const trace_triangle *a, const trace_triangle *b, dvec viewer, double w, double crease,
+                              bool closed)
 {
     double fa = facing(a, viewer, w), fb = facing(b, viewer, w);
     if (fa * fb < 0)
@@ -92,21 +94,21 @@ static side *sorted_sides(const trace_triangle *triangles, size_t count)
     side *sides = check_alloc(3 * count, sizeof *sides);
     for (size_t i = 0; i < 3 * count; i++) {
         const trace_triangle *f = &triangles[i / 3];
-        dvec a = f->p[i % 3], b = f->p[(i + 1) % 3];
-        bool turned = compare_points(a, b) > 0;
+        dvec                  a = f->p[i % 3], b = f->p[(i + 1) % 3];
+        bool                  turned = compare_points(a, b) > 0;
         sides[i] = (side){turned ? b : a, turned ? a : b, f->part, (uint32_t)(i / 3)};
     }
     qsort(sides, 3 * count, sizeof *sides, compare_sides);
     return sides;
 }
 
-static void find_mesh_edges(feature_lines *out, const shape *s, const trace_triangle *triangles, size_t count, const shot *view,
-                            double crease)
+static void find_mesh_edges(feature_lines *out, const shape *s, const trace_triangle *triangles, size_t count,
+                            const shot *view, double crease)
 {
-    side *sides = sorted_sides(triangles, count);
-    bool *closed = check_alloc(s->count, sizeof *closed);
+    side  *sides = sorted_sides(triangles, count);
+    bool  *closed = check_alloc(s->count, sizeof *closed);
     double w;
-    dvec viewer = shot_viewer(view, &w);
+    dvec   viewer = shot_viewer(view, &w);
     memset(closed, true, s->count);
     for (int round = 0; round < 2; round++)
         for (size_t i = 0, next; i < 3 * count; i = next) {
@@ -118,8 +120,8 @@ static void find_mesh_edges(feature_lines *out, const shape *s, const trace_tria
             } else if (next - i != 2) {
                 add_edge(out, e->low, e->high, e->triangle, TRACE_NONE, FEATURE_BORDER);
             } else {
-                feature_class kind = classify(&triangles[e->triangle], &triangles[sides[i + 1].triangle], viewer, w, crease,
-                                              closed[e->part]);
+                feature_class kind = classify(&triangles[e->triangle], &triangles[sides[i + 1].triangle], viewer, w,
+                                              crease, closed[e->part]);
                 if (kind != FEATURE_CLASSES)
                     add_edge(out, e->low, e->high, e->triangle, sides[i + 1].triangle, kind);
             }
@@ -128,13 +130,13 @@ static void find_mesh_edges(feature_lines *out, const shape *s, const trace_tria
     free(sides);
 }
 
-/* --- where triangles cut each other ------------------------------------------------------------------------------ */
+/* --- where triangles cut each other --------------------------------------------------------------------- */
 
 /* Points where the sides of `a` pass through `b`. */
 static int pierce(const trace_triangle *a, const trace_triangle *b, dvec *points, int count)
 {
     for (int k = 0; k < 3; k++) {
-        dvec p = a->p[k], q = a->p[(k + 1) % 3];
+        dvec   p = a->p[k], q = a->p[(k + 1) % 3];
         double dp = dvec_dot(b->flat, dvec_sub(p, b->p[0])), dq = dvec_dot(b->flat, dvec_sub(q, b->p[0]));
         if (dp * dq >= 0)
             continue;
@@ -162,8 +164,8 @@ static bool share_corner(const trace_triangle *a, const trace_triangle *b)
 static void cut(feature_lines *out, const trace_triangle *triangles, uint32_t i, uint32_t j)
 {
     const trace_triangle *a = &triangles[i], *b = &triangles[j];
-    dvec points[6];
-    int  from = 0, to = 0;
+    dvec                  points[6];
+    int                   from = 0, to = 0;
     if (a->part == b->part && share_corner(a, b))
         return;
     int count = pierce(b, a, points, pierce(a, b, points, 0));
@@ -193,8 +195,10 @@ static void find_cuts(feature_lines *out, const trace_triangle *triangles, size_
     extent *boxes = check_alloc(count, sizeof *boxes);
     for (size_t i = 0; i < count; i++) {
         const dvec *p = triangles[i].p;
-        boxes[i] = (extent){{fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)), fmin(p[0].z, fmin(p[1].z, p[2].z))},
-                            {fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)), fmax(p[0].z, fmax(p[1].z, p[2].z))},
+        boxes[i] = (extent){{fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
+                             fmin(p[0].z, fmin(p[1].z, p[2].z))},
+                            {fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)),
+                             fmax(p[0].z, fmax(p[1].z, p[2].z))},
                             (uint32_t)i};
     }
     qsort(boxes, count, sizeof *boxes, compare_extents);
@@ -209,7 +213,7 @@ static void find_cuts(feature_lines *out, const trace_triangle *triangles, size_
     free(boxes);
 }
 
-/* --- visibility -------------------------------------------------------------------------------------------------- */
+/* --- visibility ----------------------------------------------------------------------------------------- */
 
 static bool is_visible(const tracer *t, const feature *e, dvec point, dvec viewer, double w)
 {
@@ -245,18 +249,18 @@ static void sample_edge(feature_lines *out, const tracer *t, const shot *view, c
 
 void feature_find(feature_lines *out, const shape *s, const tracer *t, const shot *view, double crease_degrees)
 {
-    size_t count;
+    size_t                count;
     const trace_triangle *triangles = tracer_triangles(t, &count);
     *out = (feature_lines){0};
     find_mesh_edges(out, s, triangles, count, view, cos(crease_degrees * 3.14159265358979323846 / 180) + 1e-9);
     find_cuts(out, triangles, count);
     double w;
-    dvec viewer = shot_viewer(view, &w);
+    dvec   viewer = shot_viewer(view, &w);
     for (size_t i = 0; i < out->edge_count; i++)
         sample_edge(out, t, view, &out->edges[i], viewer, w);
 }
 
-/* --- score ------------------------------------------------------------------------------------------------------- */
+/* --- score ---------------------------------------------------------------------------------------------- */
 
 static bool ink_within(const shot *s, double x, double y, double radius)
 {
@@ -286,7 +290,7 @@ static void put_pixel(uint8_t *pixels, const shot *s, double x, double y, const 
 feature_score feature_compare(const feature_lines *f, const shot *s, const char *path)
 {
     static const uint8_t black[] = {0, 0, 0}, green[] = {0, 190, 0}, red[] = {255, 0, 0}, blue[] = {0, 0, 255};
-    feature_score score = {0};
+    feature_score        score = {0};
     size_t   count = (size_t)s->width * (size_t)s->height, found = 0, wrong = 0, found_of[FEATURE_CLASSES] = {0};
     bool    *near = check_alloc(count, sizeof *near);
     uint8_t *pixels = check_alloc(count, 4);

@@ -5,7 +5,13 @@
 
 #include "trace.h"
 
-typedef enum feature_class { FEATURE_SILHOUETTE, FEATURE_BORDER, FEATURE_CREASE, FEATURE_INTERSECTION, FEATURE_CLASSES } feature_class;
+typedef enum feature_class {
+    FEATURE_SILHOUETTE,
+    FEATURE_BORDER,
+    FEATURE_CREASE,
+    FEATURE_INTERSECTION,
+    FEATURE_CLASSES
+} feature_class;
 
 extern const char *const feature_names[FEATURE_CLASSES];
 
@@ -39,8 +45,8 @@ typedef struct feature_score {
     size_t samples_of[FEATURE_CLASSES];
 } feature_score;
 
-/* Recall: the share of samples with ink within 1.5 px. False ink: the share of ink pixels farther than 2.5 px from every
- * sample. Writes a picture when `path` is not NULL: lines green, ink black, missed lines red, false ink blue. */
+/* Recall: the share of samples with ink within 1.5 px. False ink: the share of ink pixels farther than 2.5 px from
+ * every sample. Writes a picture when `path` is not NULL: lines green, ink black, missed lines red, false ink blue. */
 feature_score feature_compare(const feature_lines *f, const shot *s, const char *path);
 
 #endif

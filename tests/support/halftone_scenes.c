@@ -14,7 +14,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place place, const void *user)
+halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place place,
+                            const void *user)
 {
     halftone_part *grown = check_alloc(s->count + 1, sizeof *grown);
     if (s->count)
@@ -39,7 +40,7 @@ void halftone_release(halftone_scene *s)
     *s = (halftone_scene){0};
 }
 
-/* --- surfaces ---------------------------------------------------------------------------------------------------- */
+/* --- surfaces ------------------------------------------------------------------------------------------- */
 
 static void set3(float out[3], double x, double y, double z)
 {
@@ -51,7 +52,7 @@ static void set3(float out[3], double x, double y, double z)
 static void place_wall(double s, double t, const void *user, halftone_corner *out)
 {
     const halftone_wall *w = user;
-    double x = w->x + s * w->width, y = w->y + t * w->height;
+    double               x = w->x + s * w->width, y = w->y + t * w->height;
     set3(out->at, x, y, w->z);
     set3(out->normal, 0, 0, 1);
     out->uv[0] = (float)(x * w->uv);
@@ -68,7 +69,7 @@ halftone_part *halftone_add_wall(halftone_scene *s, const char *name, halftone_w
 static void place_floor(double s, double t, const void *user, halftone_corner *out)
 {
     const halftone_floor *f = user;
-    double x = (2 * s - 1) * f->half, z = f->near + t * (f->far - f->near);
+    double                x = (2 * s - 1) * f->half, z = f->near + t * (f->far - f->near);
     set3(out->at, x, 0, z);
     set3(out->normal, 0, 1, 0);
     out->uv[f->turned] = (float)(x * f->uv);
@@ -85,7 +86,7 @@ halftone_part *halftone_add_floor(halftone_scene *s, const char *name, halftone_
 static void place_tube(double s, double t, const void *user, halftone_corner *out)
 {
     const halftone_tube *c = user;
-    double angle = 2 * pi * s;
+    double               angle = 2 * pi * s;
     set3(out->at, c->radius * sin(angle), c->height * t, c->radius * cos(angle));
     set3(out->normal, sin(angle), 0, cos(angle));
     out->uv[0] = (float)(s * c->around);
@@ -99,13 +100,14 @@ halftone_part *halftone_add_tube(halftone_scene *s, const char *name, halftone_t
     return halftone_add(s, name, 128, 1, place_tube, &tube);
 }
 
-/* --- files ------------------------------------------------------------------------------------------------------- */
+/* --- files ---------------------------------------------------------------------------------------------- */
 
 static void put_base64(FILE *file, const uint8_t *bytes, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < size; i += 3) {
-        uint32_t word = (uint32_t)bytes[i] << 16 | (i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < size ? bytes[i + 2] : 0);
+        uint32_t word = (uint32_t)bytes[i] << 16 | (i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0) |
+                        (i + 2 < size ? bytes[i + 2] : 0);
         fputc(digits[word >> 18], file);
         fputc(digits[word >> 12 & 63], file);
         fputc(i + 1 < size ? digits[word >> 6 & 63] : '=', file);
@@ -119,7 +121,7 @@ static int triangles_of(const halftone_part *p, uint32_t *out)
     int count = 0, row = p->across + 1;
     for (int y = 0; y < p->up; y++)
         for (int x = 0; x < p->across; x++) {
-            int a = y * row + x;
+            int       a = y * row + x;
             const int corners[6] = {a, a + 1, a + row + 1, a, a + row + 1, a + row};
             for (int k = 0; k < 6; k++)
                 out[count++] = (uint32_t)corners[k];
@@ -146,9 +148,9 @@ static void put_bytes(FILE *bin, const halftone_part *p)
 static void put_accessors(FILE *file, const halftone_part *p, size_t at, size_t index)
 {
     static const char *const types[] = {"VEC3", "VEC3", "VEC2", "VEC2"};
-    static const size_t offsets[] = {0, 12, 24, 32};
-    int corners = (p->across + 1) * (p->up + 1);
-    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    static const size_t      offsets[] = {0, 12, 24, 32};
+    int                      corners = (p->across + 1) * (p->up + 1);
+    float                    low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int i = 0; i < corners; i++)
         for (int k = 0; k < 3; k++) {
             low[k] = fminf(low[k], p->corners[i].at[k]);
@@ -156,14 +158,15 @@ static void put_accessors(FILE *file, const halftone_part *p, size_t at, size_t 
         }
     (void)at;
     for (int k = 0; k < 4; k++) {
-        fprintf(file, "%s{\"bufferView\":%zu,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%d,\"type\":\"%s\"", index || k ? "," : "", 2 * index, offsets[k], corners,
-                types[k]);
+        fprintf(file, "%s{\"bufferView\":%zu,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%d,\"type\":\"%s\"",
+                index || k ? "," : "", 2 * index, offsets[k], corners, types[k]);
         if (k == 0)
-            fprintf(file, ",\"min\":[%.9g,%.9g,%.9g],\"max\":[%.9g,%.9g,%.9g]", (double)low[0], (double)low[1], (double)low[2], (double)high[0], (double)high[1],
-                    (double)high[2]);
+            fprintf(file, ",\"min\":[%.9g,%.9g,%.9g],\"max\":[%.9g,%.9g,%.9g]", (double)low[0], (double)low[1],
+                    (double)low[2], (double)high[0], (double)high[1], (double)high[2]);
         fputc('}', file);
     }
-    fprintf(file, ",{\"bufferView\":%zu,\"componentType\":5125,\"count\":%d,\"type\":\"SCALAR\"}", 2 * index + 1, p->across * p->up * 6);
+    fprintf(file, ",{\"bufferView\":%zu,\"componentType\":5125,\"count\":%d,\"type\":\"SCALAR\"}", 2 * index + 1,
+            p->across * p->up * 6);
 }
 
 static void put_nodes(FILE *file, const halftone_scene *s)
@@ -175,10 +178,12 @@ static void put_nodes(FILE *file, const halftone_scene *s)
     for (size_t i = 0; i < s->count; i++)
         fprintf(file, "%s{\"name\":\"%s\",\"mesh\":%zu}", i ? "," : "", s->parts[i].name, i);
     for (int i = 0; i < s->light_count; i++)
-        fprintf(file, ",{\"translation\":[%.9g,%.9g,%.9g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}", s->lights[i][0], s->lights[i][1], s->lights[i][2]);
+        fprintf(file, ",{\"translation\":[%.9g,%.9g,%.9g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
+                s->lights[i][0], s->lights[i][1], s->lights[i][2]);
     fprintf(file, "],");
     if (s->light_count)
-        fprintf(file, "\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":1}]}},");
+        fprintf(file, "\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":{\"KHR_lights_punctual\":{"
+                      "\"lights\":[{\"type\":\"point\",\"intensity\":1}]}},");
 }
 
 static void put_materials(FILE *file, const halftone_scene *s)
@@ -187,8 +192,8 @@ static void put_materials(FILE *file, const halftone_scene *s)
     fprintf(file, "\"materials\":[");
     for (size_t i = 0; i < s->count; i++) {
         const halftone_part *p = &s->parts[i];
-        fprintf(file, "%s{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.9g,%.9g,%.9g,1]", i ? "," : "", (double)p->colour[0], (double)p->colour[1],
-                (double)p->colour[2]);
+        fprintf(file, "%s{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.9g,%.9g,%.9g,1]",
+                i ? "," : "", (double)p->colour[0], (double)p->colour[1], (double)p->colour[2]);
         if (p->picture[0])
             fprintf(file, ",\"baseColorTexture\":{\"index\":%d}", images++);
         fprintf(file, "}}");
@@ -219,8 +224,10 @@ static bool write_gltf(const char *path, const halftone_scene *s)
     put_materials(file, s);
     fprintf(file, "\"meshes\":[");
     for (size_t i = 0; i < s->count; i++) {
-        fprintf(file, "%s{\"primitives\":[{\"material\":%zu,\"indices\":%zu,\"attributes\":{\"POSITION\":%zu,\"NORMAL\":%zu,\"TEXCOORD_0\":%zu", i ? "," : "", i, 5 * i + 4,
-                5 * i, 5 * i + 1, 5 * i + 2);
+        fprintf(file,
+                "%s{\"primitives\":[{\"material\":%zu,\"indices\":%zu,\"attributes\":{\"POSITION\":%zu,\"NORMAL\":%zu,"
+                "\"TEXCOORD_0\":%zu",
+                i ? "," : "", i, 5 * i + 4, 5 * i, 5 * i + 1, 5 * i + 2);
         fprintf(file, s->parts[i].second ? ",\"TEXCOORD_1\":%zu}}]}" : "}}]}", 5 * i + 3);
     }
     fprintf(file, "],\"accessors\":[");
@@ -229,9 +236,12 @@ static bool write_gltf(const char *path, const halftone_scene *s)
     fprintf(file, "],\"bufferViews\":[");
     for (size_t i = 0; i < s->count; i++) {
         const halftone_part *p = &s->parts[i];
-        size_t corners = (size_t)((p->across + 1) * (p->up + 1)) * sizeof(halftone_corner), indices = (size_t)(p->across * p->up * 6) * 4;
-        fprintf(file, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu,\"byteStride\":%zu},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}", i ? "," : "", at, corners,
-                sizeof(halftone_corner), at + corners, indices);
+        size_t               corners = (size_t)((p->across + 1) * (p->up + 1)) * sizeof(halftone_corner),
+               indices = (size_t)(p->across * p->up * 6) * 4;
+        fprintf(file,
+                "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu,\"byteStride\":%zu},{\"buffer\":0,"
+                "\"byteOffset\":%zu,\"byteLength\":%zu}",
+                i ? "," : "", at, corners, sizeof(halftone_corner), at + corners, indices);
         at += corners + indices;
         put_bytes(bin, p);
     }
@@ -248,27 +258,30 @@ static bool write_obj(const char *path, const halftone_scene *s)
     char mtl[512];
     snprintf(mtl, sizeof mtl, "%.*s.mtl", (int)(strlen(path) - 4), path);
     const char *name = strrchr(mtl, '/') ? strrchr(mtl, '/') + 1 : mtl;
-    FILE *file = fopen(path, "wb"), *materials = fopen(mtl, "wb");
+    FILE       *file = fopen(path, "wb"), *materials = fopen(mtl, "wb");
     if (!file || !materials)
         return false;
     fprintf(file, "mtllib %s\n", name);
     int first = 1;
     for (size_t i = 0; i < s->count; i++) {
         const halftone_part *p = &s->parts[i];
-        int count = (p->across + 1) * (p->up + 1);
-        fprintf(materials, "newmtl m%zu\nKd %g %g %g\n", i, (double)p->colour[0], (double)p->colour[1], (double)p->colour[2]);
+        int                  count = (p->across + 1) * (p->up + 1);
+        fprintf(materials, "newmtl m%zu\nKd %g %g %g\n", i, (double)p->colour[0], (double)p->colour[1],
+                (double)p->colour[2]);
         if (p->picture[0])
             fprintf(materials, "map_Kd %s\n", p->picture);
         fprintf(file, "o %s\nusemtl m%zu\n", p->name, i);
         for (int k = 0; k < count; k++) {
             const halftone_corner *c = &p->corners[k];
-            fprintf(file, "v %.9g %.9g %.9g\nvn %.9g %.9g %.9g\nvt %.9g %.9g\n", (double)c->at[0], (double)c->at[1], (double)c->at[2], (double)c->normal[0],
-                    (double)c->normal[1], (double)c->normal[2], (double)c->uv[0], (double)c->uv[1]);
+            fprintf(file, "v %.9g %.9g %.9g\nvn %.9g %.9g %.9g\nvt %.9g %.9g\n", (double)c->at[0], (double)c->at[1],
+                    (double)c->at[2], (double)c->normal[0], (double)c->normal[1], (double)c->normal[2],
+                    (double)c->uv[0], (double)c->uv[1]);
         }
         uint32_t *indices = check_alloc((size_t)(p->across * p->up * 6), sizeof *indices);
         int       n = triangles_of(p, indices);
         for (int k = 0; k < n; k++)
-            fprintf(file, "%s%d/%d/%d%s", k % 3 ? " " : "f ", (int)indices[k] + first, (int)indices[k] + first, (int)indices[k] + first, k % 3 == 2 ? "\n" : "");
+            fprintf(file, "%s%d/%d/%d%s", k % 3 ? " " : "f ", (int)indices[k] + first, (int)indices[k] + first,
+                    (int)indices[k] + first, k % 3 == 2 ? "\n" : "");
         free(indices);
         first += count;
     }
@@ -282,13 +295,19 @@ bool halftone_write(const char *path, const halftone_scene *s)
     return ending && strcmp(ending, ".obj") == 0 ? write_obj(path, s) : write_gltf(path, s);
 }
 
-/* --- drawings ---------------------------------------------------------------------------------------------------- */
+/* --- drawings ------------------------------------------------------------------------------------------- */
 
 shot_view halftone_view(int width, int height, double pixels)
 {
     double x = width / pixels / 2, y = height / pixels / 2, distance = 10;
-    return (shot_view){.width = width, .height = height, .eye = {x, y, distance}, .target = {x, y, 0}, .up = {0, 1, 0}, .orthographic = true,
-                       .fov_deg = atan(y / distance) * 360 / pi, .without_maps = true};
+    return (shot_view){.width = width,
+                       .height = height,
+                       .eye = {x, y, distance},
+                       .target = {x, y, 0},
+                       .up = {0, 1, 0},
+                       .orthographic = true,
+                       .fov_deg = atan(y / distance) * 360 / pi,
+                       .without_maps = true};
 }
 
 const char *halftone_look_with(const char *surface, const char *scene, const char *more)
@@ -298,8 +317,13 @@ const char *halftone_look_with(const char *surface, const char *scene, const cha
     char       *text = texts[next];
     next = (next + 1) % 4;
     snprintf(text, sizeof texts[0],
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{%s},\"rules\":[{\"surface\":{%s\"technique\":\"%s}%s}]}", scene,
-             strncmp(surface, "textured", 8) == 0 || strstr(surface, "\"ink\"") ? "" : "\"ink\":\"#000000\",\"paper\":\"#ffffff\",", surface, more);
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{%s},\"rules\":[{\"surface\":"
+             "{%s\"technique\":\"%s}%s}]}",
+             scene,
+             strncmp(surface, "textured", 8) == 0 || strstr(surface, "\"ink\"")
+                 ? ""
+                 : "\"ink\":\"#000000\",\"paper\":\"#ffffff\",",
+             surface, more);
     return text;
 }
 
@@ -378,10 +402,12 @@ double halftone_sample(const mip_chain *chain, int layer, double u, double v, do
     }
     int    low = (int)floor(level), high = low + 1 < chain->levels ? low + 1 : low;
     double share = level - low;
-    return bilinear(chain, layer, u, v, low) * (1 - share) + (share > 0 ? bilinear(chain, layer, u, v, high) * share : 0);
+    return bilinear(chain, layer, u, v, low) * (1 - share) +
+           (share > 0 ? bilinear(chain, layer, u, v, high) * share : 0);
 }
 
-bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const char *look, const char *const *changes, const shot_view *view)
+bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const char *look, const char *const *changes,
+                   const shot_view *view)
 {
     char path[512];
     snprintf(path, sizeof path, "%s", check_path("%s", file));

@@ -1,5 +1,6 @@
-/* Surfaces for halftone screens, with two sets of texture coordinates each and lights from the file, written as glTF; pictures whose
- * pixels lie on a known grid of the world; and a sampler of given mip chains that knows nothing of shaders. */
+/* Surfaces for halftone screens, with two sets of texture coordinates each and lights from the file, written as
+ * glTF; pictures whose pixels lie on a known grid of the world; and a sampler of given mip chains that knows
+ * nothing of shaders. */
 #ifndef TRUTH_HALFTONE_SCENES_H
 #define TRUTH_HALFTONE_SCENES_H
 
@@ -33,10 +34,11 @@ typedef struct halftone_scene {
     int            light_count;
 } halftone_scene;
 
-halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place place, const void *user);
+halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place place,
+                            const void *user);
 void           halftone_release(halftone_scene *s);
 /* FILE.gltf with its bytes inside, or .obj (one set of coordinates, colours and pictures in a .mtl beside). */
-bool           halftone_write(const char *path, const halftone_scene *s);
+bool halftone_write(const char *path, const halftone_scene *s);
 
 /* A rectangle in the plane z from a corner, facing +z; texture coordinates are the place times `uv`. */
 typedef struct halftone_wall {
@@ -49,16 +51,19 @@ typedef struct halftone_floor {
     bool   turned;
 } halftone_floor;
 halftone_part *halftone_add_floor(halftone_scene *s, const char *name, halftone_floor floor);
-/* A cylinder around the y axis from 0 to height; u around (`around` times the screen), v up. Unique: 0 … 1 around and up. */
+/* A cylinder around the y axis from 0 to height; u around (`around` times the screen), v up. Unique: 0 … 1 around
+ * and up. */
 typedef struct halftone_tube {
     double radius, height, around, up;
 } halftone_tube;
 halftone_part *halftone_add_tube(halftone_scene *s, const char *name, halftone_tube tube);
 
-/* Parallel rays along -z: the middle of pixel (x, y from the bottom) is at ((x + 0.5), (y + 0.5)) / pixels of the world. */
+/* Parallel rays along -z: the middle of pixel (x, y from the bottom) is at ((x + 0.5), (y + 0.5)) / pixels of the
+ * world. */
 shot_view halftone_view(int width, int height, double pixels);
 
-/* A look with black ink on white paper, unless it names an ink; `surface` begins with the technique's name, then more keys: "screen\",\"x\":1". */
+/* A look with black ink on white paper, unless it names an ink; `surface` begins with the technique's name, then
+ * more keys: "screen\",\"x\":1". */
 const char *halftone_look(const char *surface);
 /* The same with a scene's JSON (without braces) as well, and everything after the surface in the rule. */
 const char *halftone_look_with(const char *surface, const char *scene, const char *more);
@@ -73,23 +78,27 @@ double halftone_box(const shot *s, double x, double y, double width, double heig
 /* Mean difference of the light of two pictures of one size. */
 double halftone_difference(const shot *a, const shot *b);
 
-/* The value 0 … 1 of a chain that repeats, trilinear (or of the nearest texel of the nearest level, as the chain says); v upwards. */
+/* The value 0 … 1 of a chain that repeats, trilinear (or of the nearest texel of the nearest level, as the chain
+ * says); v upwards. */
 double halftone_sample(const mip_chain *chain, int layer, double u, double v, double level);
 
 /* Draws; the file is written to the program's folder first. */
-bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const char *look, const char *const *changes, const shot_view *view);
+bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const char *look, const char *const *changes,
+                   const shot_view *view);
 
 /* A wall that fills the picture however far it is: `octave` 0 is 100 px a unit. */
 bool halftone_far(shot *out, const char *surface, double octave, int side, double uv);
 /* Mean height of runs of ink in columns whose middle is dark, and the share of those of 0.5 to 1.5 px. */
 double halftone_width(const shot *s, double *within);
 
-/* Runs the command with these arguments; what it says on both streams (at most room - 1 bytes). The exit status, -1 when it did not end by itself. */
+/* Runs the command with these arguments; what it says on both streams (at most room - 1 bytes). The exit status, -1
+ * when it did not end by itself. */
 int halftone_command(const char *command, const char *arguments, char *out, size_t room);
 
 /* Screens are made here and not taken from earlier runs. Call first. */
 void halftone_begin(void);
-/* The same, but what is made once is found again by later drawings of this run: for tests of what is drawn with textures that take long to make. */
+/* The same, but what is made once is found again by later drawings of this run: for tests of what is drawn with
+ * textures that take long to make. */
 void halftone_begin_kept(const char *program);
 
 #endif

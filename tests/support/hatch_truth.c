@@ -8,17 +8,19 @@
 #include "check.h"
 #include "picture.h"
 
-/* --- formulas ------------------------------------------------------------------------------------------------------ */
+/* --- formulas ------------------------------------------------------------------------------------------- */
 
-/* By number lines are `width` wide, so that darkness asks for a distance of width / darkness, and the old ones stand as close or up to twice as far apart; by width
- * from scale/√2 to scale·√2. What they leave of the tone is given by new ones halfway between. */
+/* By number lines are `width` wide, so that darkness asks for a distance of width / darkness, and the old ones
+ * stand as close or up to twice as far apart; by width from scale/√2 to scale·√2. What they leave of the tone is
+ * given by new ones halfway between. */
 hatch_octave hatch_octave_of(const hatch_rule *r, double rate, double darkness)
 {
     hatch_octave o = {0};
     /* By number they come no closer than three pixels: what is darker has wider ones. */
-    double       spread = r->by_width ? darkness : fmin(darkness, r->width / 3);
-    double       most = r->by_width ? r->scale * sqrt(2) : 2 * r->width / spread; /* the old lines' distance is below, and at least half of it */
-    double       period = 1 / rate;                                                 /* of octave 0 */
+    double spread = r->by_width ? darkness : fmin(darkness, r->width / 3);
+    double most = r->by_width ? r->scale * sqrt(2)
+                              : 2 * r->width / spread; /* the old lines' distance is below, and at least half of it */
+    double period = 1 / rate;                          /* of octave 0 */
     for (; period >= most; o.octave++)
         period /= 2;
     for (; 2 * period < most; o.octave--)
@@ -26,7 +28,8 @@ hatch_octave hatch_octave_of(const hatch_rule *r, double rate, double darkness)
     o.period = period;
     double ink = darkness * period;
     if (r->by_width) {
-        /* New lines grow while the distance of the old ones goes from scale/√2 to scale·√2: from nothing to their width. */
+        /* New lines grow while the distance of the old ones goes from scale/√2 to scale·√2: from nothing to their
+         * width. */
         double grown = log2(period * sqrt(2) / r->scale);
         o.old_width = ink / (1 + grown);
         o.new_width = ink - o.old_width;
@@ -57,7 +60,7 @@ double hatch_cover(const hatch_rule *r, double coordinate, double rate, double d
     return fmin(sum, 1);
 }
 
-/* --- looks and scenes ---------------------------------------------------------------------------------------------- */
+/* --- looks and scenes ----------------------------------------------------------------------------------- */
 
 const char *hatch_look(const char *light, const char *rule, const char *settings, ...)
 {
@@ -70,9 +73,11 @@ const char *hatch_look(const char *light, const char *rule, const char *settings
     vsnprintf(own, sizeof own, settings, arguments);
     va_end(arguments);
     snprintf(text, sizeof texts[0],
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\",\"fill\":0},"
+             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\","
+             "\"fill\":0},"
              "\"rules\":[{%s\"surface\":{\"technique\":\"hatch\",%s%s%s%s}}]}",
-             light, rule, strstr(own, "\"ink\"") ? "" : "\"ink\":\"#000000\",", strstr(own, "\"paper\"") ? "" : "\"paper\":\"#ffffff\",",
+             light, rule, strstr(own, "\"ink\"") ? "" : "\"ink\":\"#000000\",",
+             strstr(own, "\"paper\"") ? "" : "\"paper\":\"#ffffff\",",
              strstr(own, "\"texture\"") ? "" : "\"texture\":0,", own);
     return text;
 }
@@ -101,10 +106,16 @@ void hatch_model(shape *s)
 
 shot_view hatch_front(int side, double half)
 {
-    return (shot_view){.width = side, .height = side, .eye = {0, 0, 2 * half}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 53.13010235415598, .without_maps = true};
+    return (shot_view){.width = side,
+                       .height = side,
+                       .eye = {0, 0, 2 * half},
+                       .up = {0, 1, 0},
+                       .orthographic = true,
+                       .fov_deg = 53.13010235415598,
+                       .without_maps = true};
 }
 
-/* --- measuring ----------------------------------------------------------------------------------------------------- */
+/* --- measuring ------------------------------------------------------------------------------------------ */
 
 double hatch_ink(const shot *s, int x, int y)
 {
@@ -166,7 +177,8 @@ static bool crossed_by(const shot *s, double *cosine)
     double xx = 0, yy = 0, xy = 0;
     for (int y = 1; y + 1 < s->height; y++)
         for (int x = 1; x + 1 < s->width; x++) {
-            double dx = hatch_ink(s, x + 1, y) - hatch_ink(s, x - 1, y), dy = hatch_ink(s, x, y + 1) - hatch_ink(s, x, y - 1);
+            double dx = hatch_ink(s, x + 1, y) - hatch_ink(s, x - 1, y),
+                   dy = hatch_ink(s, x, y + 1) - hatch_ink(s, x, y - 1);
             xx += dx * dx;
             yy += dy * dy;
             xy += dx * dy;
@@ -216,7 +228,8 @@ hatch_count hatch_count_lines(const shot *s)
     hatch_count out = {.mean = hatch_mean(s, 0, 0, s->width, s->height)};
     double      cosine = 1;
     bool        turned = crossed_by(s, &cosine);
-    found_lines f = {check_alloc(LINES_MAX, sizeof(double)), check_alloc(LINES_MAX, sizeof(double)), check_alloc(LINES_MAX, sizeof(int)), 0};
+    found_lines f = {check_alloc(LINES_MAX, sizeof(double)), check_alloc(LINES_MAX, sizeof(double)),
+                     check_alloc(LINES_MAX, sizeof(int)), 0};
     for (int row = 2; row < (turned ? s->width : s->height); row += ROWS_BETWEEN)
         find_lines(&f, s, turned, row, cosine);
     double *values = check_alloc(LINES_MAX, sizeof *values), sum = 0, squares = 0;
@@ -267,14 +280,15 @@ double hatch_edge_width(const shot *s, int x0, int y0, int x1, int y1)
     double area = 0, variation = 0;
     for (int y = y0; y + 1 < y1; y++)
         for (int x = x0; x + 1 < x1; x++) {
-            double here = hatch_ink(s, x, y), right = hatch_ink(s, x + 1, y) - here, down = hatch_ink(s, x, y + 1) - here;
+            double here = hatch_ink(s, x, y), right = hatch_ink(s, x + 1, y) - here,
+                   down = hatch_ink(s, x, y + 1) - here;
             area += here > 0.1 && here < 0.9;
             variation += hypot(right, down);
         }
     return variation > 0 ? area / variation : 0;
 }
 
-/* --- from frame to frame ------------------------------------------------------------------------------------------- */
+/* --- from frame to frame -------------------------------------------------------------------------------- */
 
 static double depth_at(const shot *s, int x, int y)
 {
@@ -335,14 +349,16 @@ static bool in_the_open(const shot *s, int x, int y)
     return s->normal[y * s->width + x][2] > 0.4f;
 }
 
-static void compare_block(hatch_change *out, double sums[5], const shot *to, const shot *from, const double *now, const double *then, int left, int top)
+static void compare_block(hatch_change *out, double sums[5], const shot *to, const shot *from, const double *now,
+                          const double *then, int left, int top)
 {
     double block = 0;
     int    whole = 0;
     for (int k = 0; k < 256; k++) {
         int    x = left + k % 16, y = top + k / 16;
         double fx, fy;
-        if (!in_the_open(to, x, y) || !hatch_was_at(to, from, x, y, &fx, &fy) || !in_the_open(from, (int)(fx + 0.5), (int)(fy + 0.5)))
+        if (!in_the_open(to, x, y) || !hatch_was_at(to, from, x, y, &fx, &fy) ||
+            !in_the_open(from, (int)(fx + 0.5), (int)(fy + 0.5)))
             continue;
         double a = now[y * to->width + x], b = between(then, from->width, fx, fy);
         out->changed += fabs(a - b) > 0.25;
@@ -366,7 +382,8 @@ hatch_change hatch_compare(const shot *to, const shot *from)
     double n = out.pixels ? out.pixels : 1;
     out.changed /= n;
     out.mean /= n;
-    out.correlation = (sums[4] - sums[0] * sums[1] / n) / sqrt(fmax((sums[2] - sums[0] * sums[0] / n) * (sums[3] - sums[1] * sums[1] / n), 1e-12));
+    out.correlation = (sums[4] - sums[0] * sums[1] / n) /
+                      sqrt(fmax((sums[2] - sums[0] * sums[0] / n) * (sums[3] - sums[1] * sums[1] / n), 1e-12));
     free(now);
     free(then);
     return out;

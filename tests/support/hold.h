@@ -8,8 +8,9 @@
 enum { HOLD_KEY_SIZE = 192 };
 void hold_key(char key[HOLD_KEY_SIZE], const kind *k, const char *param_key);
 
-/* Sets parameters of the technique so that each term of the condition holds (NULL: nothing to do): "key", "key=word,word", "key>number",
- * "key<number". A term that cannot be made to hold is a failure of the test that runs. */
+/* Sets parameters of the technique so that each term of the condition holds (NULL: nothing to do): "key",
+ * "key=word,word", "key>number", "key<number". A term that cannot be made to hold is a failure of the test that
+ * runs. */
 void hold_condition(lmn_look *look, const kind *k, const technique *t, const char *condition);
 
 /* Leaves out of a technique's example what only takes time, but for the parameter with this key. */

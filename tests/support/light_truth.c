@@ -14,7 +14,8 @@ enum { STRONG = 40 }; /* sRGB; darker pixels say too little */
 /* The light as the viewer sees it. */
 static dvec seen_from(const shot_view *view, dvec direction)
 {
-    dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back)), up = dvec_cross(back, right);
+    dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back)),
+         up = dvec_cross(back, right);
     return dvec_of(dvec_dot(right, direction), dvec_dot(up, direction), dvec_dot(back, direction));
 }
 
@@ -23,9 +24,11 @@ bool light_shot(shot *out, const light_scene *l, bool kept_off)
     char look[1024];
     dvec eye = seen_from(&l->view, l->towards);
     snprintf(look, sizeof look,
-             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":%g,\"light_scale\":0.99,\"light_direction\":\"%.9f,%.9f,%.9f\",\"shadows\":%s,\"shadow_softness\":%g,\"occlusion\":%g,"
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":%g,\"light_scale\":0.99,\"light_direction\":\"%.9f,%."
+             "9f,%.9f\",\"shadows\":%s,\"shadow_softness\":%g,\"occlusion\":%g,"
              "\"occlusion_radius\":%g},\"rules\":[{\"surface\":{\"technique\":\"lambert\",\"ambient\":0}%s}]}",
-             l->fill, eye.x, eye.y, eye.z, kept_off && l->softness >= 0 ? "true" : "false", l->softness > 0 && kept_off ? l->softness : 0, kept_off ? l->occlusion : 0,
+             l->fill, eye.x, eye.y, eye.z, kept_off && l->softness >= 0 ? "true" : "false",
+             l->softness > 0 && kept_off ? l->softness : 0, kept_off ? l->occlusion : 0,
              l->radius > 0 ? l->radius : 0.1, l->layers ? l->layers : "");
     if (strstr(l->file, ".csg"))
         return shot_take(out, l->file, look, NULL, &l->view);
@@ -35,10 +38,14 @@ bool light_shot(shot *out, const light_scene *l, bool kept_off)
 void light_map_drawn(light_map *out, const shot *with, const shot *without)
 {
     size_t count = (size_t)with->width * (size_t)with->height;
-    *out = (light_map){.width = with->width, .height = with->height, .drawn = check_alloc(count, sizeof(float)), .truth = check_alloc(count, sizeof(float))};
+    *out = (light_map){.width = with->width,
+                       .height = with->height,
+                       .drawn = check_alloc(count, sizeof(float)),
+                       .truth = check_alloc(count, sizeof(float))};
     for (size_t i = 0; i < count; i++) {
         bool tells = without->depth[i] < INFINITY && without->picture[4 * i] >= STRONG && without->picture[4 * i] < 255;
-        out->drawn[i] = tells ? (float)(picture_linear(with->picture[4 * i]) / picture_linear(without->picture[4 * i])) : -1;
+        out->drawn[i] =
+            tells ? (float)(picture_linear(with->picture[4 * i]) / picture_linear(without->picture[4 * i])) : -1;
         out->truth[i] = -1;
     }
 }
@@ -59,10 +66,10 @@ static void axes_of(dvec along, dvec *a, dvec *b)
 
 double light_of_disc(const tracer *t, dvec place, dvec normal, dvec towards, double degrees, int rays)
 {
-    dvec      along = dvec_unit(towards), a, b, origin = dvec_add(place, dvec_scale(normal, 1e-5));
-    int       seen = 0;
-    uint32_t  last = UINT32_MAX;
-    double    half = tan(degrees / 2 * pi / 180);
+    dvec     along = dvec_unit(towards), a, b, origin = dvec_add(place, dvec_scale(normal, 1e-5));
+    int      seen = 0;
+    uint32_t last = UINT32_MAX;
+    double   half = tan(degrees / 2 * pi / 180);
     axes_of(along, &a, &b);
     for (int i = 0; i < rays; i++) {
         double x, y;
@@ -109,11 +116,12 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
     trace_map seen;
     double    w;
     trace_map_make(&seen, t, s);
-    size_t count;
+    size_t                count;
     const trace_triangle *triangles = tracer_triangles(t, &count);
-    dvec viewer = shot_viewer(s, &w);
+    dvec                  viewer = shot_viewer(s, &w);
     for (int y = 0; y < m->height; y++)
-        for (int x = 2 * y % step; x < m->width; x += step) { /* shifted from row to row, so that odd places come up as often as even ones */
+        for (int x = 2 * y % step; x < m->width;
+             x += step) { /* shifted from row to row, so that odd places come up as often as even ones */
             dvec      origin, direction;
             trace_hit hit;
             size_t    at = (size_t)y * (size_t)m->width + (size_t)x;
@@ -127,7 +135,8 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
                 normal = dvec_scale(normal, -1);
             if (!sky && dvec_dot(normal, dvec_unit(l->towards)) < 0.12)
                 continue;
-            m->truth[at] = (float)(sky ? sky_of(t, place, normal, l->radius * diagonal_of(&l->s), rays) : light_of_disc(t, place, normal, l->towards, l->softness, rays));
+            m->truth[at] = (float)(sky ? sky_of(t, place, normal, l->radius * diagonal_of(&l->s), rays)
+                                       : light_of_disc(t, place, normal, l->towards, l->softness, rays));
         }
     trace_map_release(&seen);
     tracer_destroy(t);
@@ -175,7 +184,7 @@ void light_map_write(const light_map *m, const char *name)
     uint8_t *rgba = check_alloc(4 * 2 * row * (size_t)m->height, 1);
     for (size_t y = 0; y < (size_t)m->height; y++)
         for (size_t x = 0; x < 2 * row; x++) {
-            float value = x < row ? m->drawn[y * row + x] : m->truth[y * row + x - row];
+            float    value = x < row ? m->drawn[y * row + x] : m->truth[y * row + x - row];
             uint8_t *out = &rgba[4 * (y * 2 * row + x)];
             memset(out, value < 0 ? 0 : (int)lrintf(255 * fminf(value, 1)), 3);
             out[2] = value < 0 ? 90 : out[2];

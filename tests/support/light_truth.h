@@ -1,4 +1,5 @@
-/* Light by counting rays: how much of a disc and of a sky is seen from a place, against what a drawing says. It knows nothing of shaders. */
+/* Light by counting rays: how much of a disc and of a sky is seen from a place, against what a drawing says. It
+ * knows nothing of shaders. */
 #ifndef TRUTH_LIGHT_TRUTH_H
 #define TRUTH_LIGHT_TRUTH_H
 
@@ -11,19 +12,20 @@ typedef struct light_scene {
     shape       s;
     const char *file;
     shot_view   view;
-    dvec        towards;  /* the light, world axes */
-    double      softness; /* degrees across */
+    dvec        towards;           /* the light, world axes */
+    double      softness;          /* degrees across */
     double      occlusion, radius; /* strength; share of the box's diagonal */
-    const char *layers;   /* the rule's, JSON behind a comma; NULL: none */
-    double      fill;     /* strength of a second light */
+    const char *layers;            /* the rule's, JSON behind a comma; NULL: none */
+    double      fill;              /* strength of a second light */
 } light_scene;
 
 /* With or without what keeps light off. */
 bool light_shot(shot *out, const light_scene *l, bool kept_off);
 
 typedef struct light_map {
-    int       width, height;
-    float    *drawn, *truth; /* shares of light, row 0 on top; below 0 where nothing can be told: empty, borders, turned away */
+    int    width, height;
+    float *drawn,
+        *truth; /* shares of light, row 0 on top; below 0 where nothing can be told: empty, borders, turned away */
 } light_map;
 
 /* What the drawing says, for pixels whose light alone is strong enough: with over without. */

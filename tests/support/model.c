@@ -57,7 +57,9 @@ bool model_write_ply(const char *path, const shape *s)
     FILE *file = fopen(path, "wb");
     if (!file)
         return false;
-    fprintf(file, "ply\nformat binary_little_endian 1.0\nelement vertex %u\nproperty float x\nproperty float y\nproperty float z\n",
+    fprintf(file,
+            "ply\nformat binary_little_endian 1.0\nelement vertex %u\nproperty float x\nproperty float y\nproperty "
+            "float z\n",
             vertices);
     if (normals)
         fprintf(file, "property float nx\nproperty float ny\nproperty float nz\n");
@@ -90,7 +92,7 @@ bool model_write_stl(const char *path, const shape *s)
     return fclose(file) == 0;
 }
 
-/* --- GLB --------------------------------------------------------------------------------------------------------- */
+/* --- GLB ------------------------------------------------------------------------------------------------ */
 
 /* JSON pieces in one stream each, and the binary chunk. */
 typedef struct glb {
@@ -109,7 +111,7 @@ static void separate(FILE *list)
 static int put_view(glb *g, const void *data, size_t size)
 {
     static const char zeros[4];
-    long at = ftell(g->bin);
+    long              at = ftell(g->bin);
     fwrite(data, 1, size, g->bin);
     fwrite(zeros, 1, (4 - size % 4) % 4, g->bin);
     separate(g->views);
@@ -119,7 +121,7 @@ static int put_view(glb *g, const void *data, size_t size)
 
 static int put_floats(glb *g, const float *values, uint32_t count, int components)
 {
-    int view = put_view(g, values, (size_t)count * (size_t)components * sizeof *values);
+    int   view = put_view(g, values, (size_t)count * (size_t)components * sizeof *values);
     float low[3], high[3];
     for (int k = 0; k < components; k++) {
         low[k] = high[k] = values[k];
@@ -130,8 +132,8 @@ static int put_floats(glb *g, const float *values, uint32_t count, int component
         }
     }
     separate(g->accessors);
-    fprintf(g->accessors, "{\"bufferView\":%d,\"componentType\":5126,\"count\":%u,\"type\":\"VEC%d\",\"min\":[", view, count,
-            components);
+    fprintf(g->accessors, "{\"bufferView\":%d,\"componentType\":5126,\"count\":%u,\"type\":\"VEC%d\",\"min\":[", view,
+            count, components);
     for (int k = 0; k < components; k++)
         fprintf(g->accessors, "%s%.9g", k ? "," : "", (double)low[k]);
     fprintf(g->accessors, "],\"max\":[");
@@ -176,7 +178,8 @@ static void put_part(glb *g, const shape_part *p, size_t index)
     int uvs = p->uvs ? put_floats(g, p->uvs[0], p->vertex_count, 2) : -1;
     int view = put_view(g, p->indices, p->index_count * sizeof *p->indices);
     separate(g->accessors);
-    fprintf(g->accessors, "{\"bufferView\":%d,\"componentType\":5125,\"count\":%u,\"type\":\"SCALAR\"}", view, p->index_count);
+    fprintf(g->accessors, "{\"bufferView\":%d,\"componentType\":5125,\"count\":%u,\"type\":\"SCALAR\"}", view,
+            p->index_count);
     int indices = g->accessor_count++;
     separate(g->meshes);
     fprintf(g->meshes, "{\"primitives\":[{\"attributes\":{\"POSITION\":%d", positions);
@@ -226,8 +229,8 @@ bool model_write_glb(const char *path, const shape *s)
     fprintf(out, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[");
     for (size_t i = 0; i < s->count; i++)
         fprintf(out, "%s%zu", i ? "," : "", i);
-    fprintf(out, "]}],\"nodes\":[%s],\"meshes\":[%s],\"materials\":[%s],\"accessors\":[%s],\"bufferViews\":[%s],", g.text[3],
-            g.text[2], g.text[4], g.text[1], g.text[0]);
+    fprintf(out, "]}],\"nodes\":[%s],\"meshes\":[%s],\"materials\":[%s],\"accessors\":[%s],\"bufferViews\":[%s],",
+            g.text[3], g.text[2], g.text[4], g.text[1], g.text[0]);
     if (g.image_count)
         fprintf(out, "\"images\":[%s],\"textures\":[%s],", g.text[5], g.text[6]);
     fprintf(out, "\"buffers\":[{\"byteLength\":%zu}]}", g.size[7]);

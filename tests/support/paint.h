@@ -25,7 +25,8 @@ static inline void put_over(paint *under, paint p)
 
 static inline int levels_off(const uint8_t *drawn, paint wanted)
 {
-    double off = fmax(fabs(drawn[0] - picture_srgb(wanted.r)), fmax(fabs(drawn[1] - picture_srgb(wanted.g)), fabs(drawn[2] - picture_srgb(wanted.b))));
+    double off = fmax(fabs(drawn[0] - picture_srgb(wanted.r)),
+                      fmax(fabs(drawn[1] - picture_srgb(wanted.g)), fabs(drawn[2] - picture_srgb(wanted.b))));
     return (int)ceil(off - 0.5);
 }
 

@@ -26,8 +26,8 @@ uint8_t *picture_read_rgba(const char *path, int *width, int *height)
 /* The simplified interface would apply a transfer curve to 16-bit greys, so ids take the long way. */
 static uint16_t *read_grey16(FILE *file, png_structp png, png_infop info, int *width, int *height)
 {
-    uint16_t   *volatile pixels = NULL;
-    png_bytep  *volatile rows = NULL;
+    uint16_t *volatile pixels = NULL;
+    png_bytep *volatile rows = NULL;
     if (setjmp(png_jmpbuf(png))) {
         free(pixels);
         free((void *)rows);
@@ -92,7 +92,9 @@ float *picture_read_pfm(const char *path, int channels, int *width, int *height)
 
 static png_image image_of(int width, int height)
 {
-    return (png_image){.version = PNG_IMAGE_VERSION, .width = (png_uint_32)width, .height = (png_uint_32)height,
+    return (png_image){.version = PNG_IMAGE_VERSION,
+                       .width = (png_uint_32)width,
+                       .height = (png_uint_32)height,
                        .format = PNG_FORMAT_RGBA};
 }
 
@@ -104,9 +106,9 @@ bool picture_write_rgba(const char *path, const uint8_t *rgba, int width, int he
 
 uint8_t *picture_encode_rgba(const uint8_t *rgba, int width, int height, size_t *size)
 {
-    png_image image = image_of(width, height);
+    png_image        image = image_of(width, height);
     png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
-    uint8_t *out = malloc(bytes);
+    uint8_t         *out = malloc(bytes);
     if (!out || !png_image_write_to_memory(&image, out, &bytes, 0, rgba, 0, NULL)) {
         free(out);
         return NULL;

@@ -12,7 +12,8 @@ uint8_t *picture_read_rgba(const char *path, int *width, int *height);
 /* Reads a 16-bit grey PNG. NULL when it is something else. Free with free. */
 uint16_t *picture_read_grey16(const char *path, int *width, int *height);
 
-/* Reads a PFM with the given number of channels and turns it upside down. NULL when it is something else. Free with free. */
+/* Reads a PFM with the given number of channels and turns it upside down. NULL when it is something else. Free with
+ * free. */
 float *picture_read_pfm(const char *path, int channels, int *width, int *height);
 
 bool picture_write_rgba(const char *path, const uint8_t *rgba, int width, int height);

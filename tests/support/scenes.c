@@ -40,7 +40,8 @@ static void closed(shape *s, uint32_t *state)
     char name[32];
     for (int i = 0; i < 6; i++) {
         snprintf(name, sizeof name, "closed%d", i);
-        double a = scene_between(state, 0.3, 0.8), b = scene_between(state, 0.2, 0.7), c = scene_between(state, 0.2, 0.7);
+        double a = scene_between(state, 0.3, 0.8), b = scene_between(state, 0.2, 0.7),
+               c = scene_between(state, 0.2, 0.7);
         if (i % 3 == 0)
             shape_box(s, name, dvec_of(-a, -b, -c), dvec_of(a, b, c));
         else if (i % 3 == 1)
@@ -67,8 +68,8 @@ void scene_holed_sphere(shape *s, const char *name, double radius, int stacks, i
 {
     shape_sphere(s, name, dvec_of(0, 0, 0), radius, stacks, slices, true);
     shape_part *p = &s->parts[s->count - 1];
-    bool  *kept = check_alloc(p->index_count / 3, sizeof *kept);
-    double limit = cos(pole_degrees / 57.29577951308232);
+    bool       *kept = check_alloc(p->index_count / 3, sizeof *kept);
+    double      limit = cos(pole_degrees / 57.29577951308232);
     for (uint32_t k = 0; k < p->index_count; k += 3) {
         double height = 0;
         for (uint32_t c = 0; c < 3; c++)
@@ -101,7 +102,8 @@ static void crossing(shape *s, uint32_t *state)
     char name[32];
     for (int i = 0; i < 7; i++) {
         snprintf(name, sizeof name, "cross%d", i);
-        double a = scene_between(state, 0.8, 1.3), b = scene_between(state, 0.05, 0.5), c = scene_between(state, 0.05, 0.2);
+        double a = scene_between(state, 0.8, 1.3), b = scene_between(state, 0.05, 0.5),
+               c = scene_between(state, 0.05, 0.2);
         if (i == 6)
             shape_torus(s, name, 0.7, 0.25, 48, 24);
         else if (i % 3 == 2)
@@ -117,7 +119,8 @@ void scene_double(shape *s, bool turned)
     shape_part *p = &s->parts[s->count - 1];
     shape_part  before = *p;
     shape       grown = {0};
-    shape_part *n = shape_add(&grown, before.name, 2 * before.vertex_count, 2 * before.index_count, before.normals != NULL, false);
+    shape_part *n =
+        shape_add(&grown, before.name, 2 * before.vertex_count, 2 * before.index_count, before.normals != NULL, false);
     for (uint32_t v = 0; v < 2 * before.vertex_count; v++) {
         uint32_t from = v % before.vertex_count;
         memcpy(n->positions[v], before.positions[from], sizeof *n->positions);
@@ -166,8 +169,8 @@ void scene_reorder(shape *out, const shape *s, const size_t *order)
         add_copy(out, &s->parts[order[i]], s->parts[order[i]].name);
 }
 
-/* Boxes that touch: a and b share a whole face, c is flush with a's side and lies on part of it. A ball twice at one place; a
- * sheet with two sides; a sheet that lies there twice the same way round, which is one surface. */
+/* Boxes that touch: a and b share a whole face, c is flush with a's side and lies on part of it. A ball twice at
+ * one place; a sheet with two sides; a sheet that lies there twice the same way round, which is one surface. */
 static void coincident(shape *s, uint32_t *state)
 {
     double x = scene_between(state, -0.3, 0.3), y = scene_between(state, 0.3, 0.6), z = scene_between(state, 0.3, 0.6);

@@ -49,10 +49,10 @@ void shape_place(shape *s, dvec axis, double degrees, dvec translation)
     shape_part *p = &s->parts[s->count - 1];
     dvec        a = dvec_unit(axis);
     double      c = cos(degrees * pi / 180), n = sin(degrees * pi / 180), t = 1 - c;
-    double m[16] = {t * a.x * a.x + c,       t * a.x * a.y + n * a.z, t * a.x * a.z - n * a.y, 0,
-                    t * a.x * a.y - n * a.z, t * a.y * a.y + c,       t * a.y * a.z + n * a.x, 0,
-                    t * a.x * a.z + n * a.y, t * a.y * a.z - n * a.x, t * a.z * a.z + c,       0,
-                    translation.x,           translation.y,           translation.z,           1};
+    double      m[16] = {t * a.x * a.x + c,       t * a.x * a.y + n * a.z, t * a.x * a.z - n * a.y, 0,
+                         t * a.x * a.y - n * a.z, t * a.y * a.y + c,       t * a.y * a.z + n * a.x, 0,
+                         t * a.x * a.z + n * a.y, t * a.y * a.z - n * a.x, t * a.z * a.z + c,       0,
+                         translation.x,           translation.y,           translation.z,           1};
     memcpy(p->matrix, m, sizeof m);
     p->has_matrix = true;
 }
@@ -92,15 +92,17 @@ static uint32_t put_quad(shape_part *p, uint32_t at, uint32_t a, uint32_t b, uin
 
 void shape_box(shape *s, const char *name, dvec low, dvec high)
 {
-    static const uint32_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    shape_part *p = shape_add(s, name, 8, 36, false, false);
+    static const uint32_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    shape_part           *p = shape_add(s, name, 8, 36, false, false);
     for (uint32_t i = 0; i < 8; i++)
         set3(p->positions[i], i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
     for (uint32_t i = 0, at = 0; i < 6; i++)
         at = put_quad(p, at, faces[i][0], faces[i][1], faces[i][2], faces[i][3]);
 }
 
-/* Vertices of a staircase are looked up by place, so that neighbouring columns share them and no edge ends inside another. */
+/* Vertices of a staircase are looked up by place, so that neighbouring columns share them and no edge ends inside
+ * another. */
 static uint32_t vertex_at(shape_part *p, double x, double y, double z)
 {
     float v[3];
@@ -115,11 +117,11 @@ static uint32_t vertex_at(shape_part *p, double x, double y, double z)
 /* One end cap of a column as a fan around its middle; `ring` runs anticlockwise seen from +z. */
 static uint32_t put_cap(shape_part *p, uint32_t at, double (*ring)[2], int count, double z, bool front)
 {
-    double x = (ring[0][0] + ring[1][0]) / 2, y = ring[count - 1][1] / 2;
+    double   x = (ring[0][0] + ring[1][0]) / 2, y = ring[count - 1][1] / 2;
     uint32_t middle = vertex_at(p, x, y, z);
     for (int i = 0; i < count; i++) {
         const double *a = ring[i], *b = ring[(i + 1) % count];
-        uint32_t va = vertex_at(p, a[0], a[1], z), vb = vertex_at(p, b[0], b[1], z);
+        uint32_t      va = vertex_at(p, a[0], a[1], z), vb = vertex_at(p, b[0], b[1], z);
         at = front ? put_triangle(p, at, middle, va, vb) : put_triangle(p, at, middle, vb, va);
     }
     return at;
@@ -133,7 +135,7 @@ static uint32_t put_wall(shape_part *p, uint32_t at, double x0, double y0, doubl
 
 void shape_steps(shape *s, const char *name, const double *edges, const double *heights, int columns, double depth)
 {
-    uint32_t room = (uint32_t)columns * 80;
+    uint32_t    room = (uint32_t)columns * 80;
     shape_part *p = shape_add(s, name, room, room, false, false);
     p->vertex_count = 0;
     uint32_t at = 0;
@@ -163,12 +165,12 @@ void shape_steps(shape *s, const char *name, const double *edges, const double *
 
 void shape_sphere(shape *s, const char *name, dvec centre, double radius, int stacks, int slices, bool normals)
 {
-    uint32_t rings = (uint32_t)stacks - 1, n = (uint32_t)slices, south = rings * n + 1;
+    uint32_t    rings = (uint32_t)stacks - 1, n = (uint32_t)slices, south = rings * n + 1;
     shape_part *p = shape_add(s, name, south + 1, 6 * n * rings, normals, false);
     for (uint32_t i = 0; i <= south; i++) {
         double latitude = i == 0 ? 0 : i == south ? pi : pi * ((i - 1) / n + 1) / stacks;
         double longitude = i == 0 || i == south ? 0 : 2 * pi * ((i - 1) % n) / slices;
-        dvec d = {sin(latitude) * cos(longitude), cos(latitude), -sin(latitude) * sin(longitude)};
+        dvec   d = {sin(latitude) * cos(longitude), cos(latitude), -sin(latitude) * sin(longitude)};
         if (i == south)
             d = dvec_of(0, -1, 0);
         set3(p->positions[i], centre.x + radius * d.x, centre.y + radius * d.y, centre.z + radius * d.z);
@@ -187,12 +189,12 @@ void shape_sphere(shape *s, const char *name, dvec centre, double radius, int st
 
 void shape_torus(shape *s, const char *name, double major, double minor, int around, int across)
 {
-    uint32_t u = (uint32_t)around, v = (uint32_t)across;
+    uint32_t    u = (uint32_t)around, v = (uint32_t)across;
     shape_part *p = shape_add(s, name, u * v, 6 * u * v, true, false);
     for (uint32_t i = 0, at = 0; i < u; i++)
         for (uint32_t j = 0; j < v; j++) {
             double a = 2 * pi * i / around, b = 2 * pi * j / across;
-            dvec n = {cos(a) * cos(b), sin(b), -sin(a) * cos(b)};
+            dvec   n = {cos(a) * cos(b), sin(b), -sin(a) * cos(b)};
             set3(p->positions[i * v + j], cos(a) * major + minor * n.x, minor * n.y, -sin(a) * major + minor * n.z);
             set3(p->normals[i * v + j], n.x, n.y, n.z);
             uint32_t i1 = (i + 1) % u, j1 = (j + 1) % v;
@@ -215,7 +217,8 @@ static double hill(double x, double z, uint32_t seed)
     u = u * u * u * (u * (6 * u - 15) + 10);
     v = v * v * v * (v * (6 * v - 15) + 10);
     int32_t i = (int32_t)x0, j = (int32_t)z0;
-    double a = lattice(i, j, seed), b = lattice(i + 1, j, seed), c = lattice(i, j + 1, seed), d = lattice(i + 1, j + 1, seed);
+    double  a = lattice(i, j, seed), b = lattice(i + 1, j, seed), c = lattice(i, j + 1, seed),
+           d = lattice(i + 1, j + 1, seed);
     return (a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v;
 }
 
@@ -226,13 +229,14 @@ static double terrain_height(double x, double z, double height, uint32_t seed)
 
 void shape_terrain(shape *s, const char *name, double half, double height, int cells, uint32_t seed)
 {
-    uint32_t n = (uint32_t)cells + 1;
+    uint32_t    n = (uint32_t)cells + 1;
     shape_part *p = shape_add(s, name, n * n, 6 * (uint32_t)(cells * cells), true, false);
     for (uint32_t j = 0, at = 0; j < n; j++)
         for (uint32_t i = 0; i < n; i++) {
             double x = half * (2.0 * i / cells - 1), z = half * (2.0 * j / cells - 1), e = 1e-4;
             set3(p->positions[j * n + i], x, terrain_height(x, z, height, seed), z);
-            dvec slope = {(terrain_height(x - e, z, height, seed) - terrain_height(x + e, z, height, seed)) / (2 * e), 1,
+            dvec slope = {(terrain_height(x - e, z, height, seed) - terrain_height(x + e, z, height, seed)) / (2 * e),
+                          1,
                           (terrain_height(x, z - e, height, seed) - terrain_height(x, z + e, height, seed)) / (2 * e)};
             slope = dvec_unit(slope);
             set3(p->normals[j * n + i], slope.x, slope.y, slope.z);
@@ -244,9 +248,9 @@ void shape_terrain(shape *s, const char *name, double half, double height, int c
 void shape_wedge(shape *s, const char *name, double degrees)
 {
     shape_part *p = shape_add(s, name, 8, 12, true, false);
-    double half = degrees * pi / 360, x = cos(half), z = -sin(half);
+    double      half = degrees * pi / 360, x = cos(half), z = -sin(half);
     for (uint32_t side = 0; side < 2; side++) {
-        double sign = side ? 1 : -1;
+        double   sign = side ? 1 : -1;
         uint32_t v = 4 * side;
         set3(p->positions[v], 0, -0.5, 0);
         set3(p->positions[v + 1], sign * x, -0.5, z);
@@ -261,7 +265,7 @@ void shape_wedge(shape *s, const char *name, double degrees)
 void shape_quad(shape *s, const char *name, double half, double z)
 {
     static const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    shape_part *p = shape_add(s, name, 4, 6, true, true);
+    shape_part         *p = shape_add(s, name, 4, 6, true, true);
     for (int i = 0; i < 4; i++) {
         set3(p->positions[i], half * corner[i][0], half * corner[i][1], z);
         set3(p->normals[i], 0, 0, 1);
@@ -281,12 +285,12 @@ static dvec area_normal(const shape_part *p, uint32_t face)
 /* Every corner against every other: slow, and hard to get wrong. */
 static dvec corner_normal(const shape_part *p, uint32_t corner, double limit)
 {
-    dvec own = dvec_unit(area_normal(p, corner / 3)), sum = {0, 0, 0};
+    dvec         own = dvec_unit(area_normal(p, corner / 3)), sum = {0, 0, 0};
     const float *place = p->positions[p->indices[corner]];
     for (uint32_t k = 0; k < p->index_count; k++) {
         const float *other = p->positions[p->indices[k]];
-        if (place[0] < other[0] || place[0] > other[0] || place[1] < other[1] || place[1] > other[1] || place[2] < other[2] ||
-            place[2] > other[2])
+        if (place[0] < other[0] || place[0] > other[0] || place[1] < other[1] || place[1] > other[1] ||
+            place[2] < other[2] || place[2] > other[2])
             continue;
         dvec n = area_normal(p, k / 3);
         if (dvec_dot(own, dvec_unit(n)) >= limit)
@@ -300,7 +304,8 @@ void shape_make_normals(shape *s, double crease_degrees)
     for (size_t i = 0; i < s->count; i++) {
         shape_part *p = &s->parts[i];
         uint32_t    count = p->index_count;
-        float (*positions)[3] = check_alloc(count, sizeof *positions), (*normals)[3] = check_alloc(count, sizeof *normals);
+        float(*positions)[3] = check_alloc(count, sizeof *positions),
+        (*normals)[3] = check_alloc(count, sizeof *normals);
         for (uint32_t k = 0; k < count; k++) {
             dvec n = corner_normal(p, k, cos(crease_degrees * pi / 180));
             memcpy(positions[k], p->positions[p->indices[k]], sizeof *positions);
@@ -326,7 +331,7 @@ void shape_join(shape *out, const char *name, const shape *s)
         indices += s->parts[i].index_count;
     }
     shape_part *p = shape_add(out, name, vertices, indices, false, false);
-    uint32_t base = 0, at = 0;
+    uint32_t    base = 0, at = 0;
     for (size_t i = 0; i < s->count; i++) {
         const shape_part *q = &s->parts[i];
         for (uint32_t v = 0; v < q->vertex_count; v++) {

@@ -1,4 +1,5 @@
-/* Scenes whose answer is known: parts of triangles, made in memory, written to model files and given to the references. */
+/* Scenes whose answer is known: parts of triangles, made in memory, written to model files and given to the
+ * references. */
 #ifndef TRUTH_SHAPE_H
 #define TRUTH_SHAPE_H
 
@@ -9,15 +10,15 @@
 #include "vec.h"
 
 typedef struct shape_part {
-    char      name[32];
-    uint32_t  vertex_count, index_count;
+    char     name[32];
+    uint32_t vertex_count, index_count;
     float (*positions)[3];
     float (*normals)[3]; /* NULL: the reader makes them */
     float (*uvs)[2];     /* NULL: none */
     uint32_t *indices;
     double    matrix[16];
     bool      has_matrix;
-    float     colour[4];  /* linear base colour */
+    float     colour[4];            /* linear base colour */
     uint8_t  *texture, *normal_map; /* RGBA8, owned; NULL: none */
     int       texture_size;         /* both are squares of this side */
 } shape_part;
@@ -30,7 +31,8 @@ typedef struct shape {
 
 void shape_release(shape *s);
 
-/* An empty part with room for the given counts; normals and uvs on demand. Vertices and indices are filled by the caller. */
+/* An empty part with room for the given counts; normals and uvs on demand. Vertices and indices are filled by the
+ * caller. */
 shape_part *shape_add(shape *s, const char *name, uint32_t vertices, uint32_t indices, bool normals, bool uvs);
 
 /* Places the last part: rotation about an axis by degrees, then translation, as the node's matrix. */
@@ -50,14 +52,15 @@ void shape_torus(shape *s, const char *name, double major, double minor, int aro
 /* Smooth hills over the square of side 2·half in the xz plane, cells·cells·2 triangles. */
 void shape_terrain(shape *s, const char *name, double half, double height, int cells, uint32_t seed);
 
-/* Two unit squares that meet in the line x = 0, folded away from +z so that their normals differ by `degrees`; with normals. */
+/* Two unit squares that meet in the line x = 0, folded away from +z so that their normals differ by `degrees`; with
+ * normals. */
 void shape_wedge(shape *s, const char *name, double degrees);
 
 /* A square of side 2·half in the plane z, facing +z, with normals and texture coordinates (v down from the top). */
 void shape_quad(shape *s, const char *name, double half, double z);
 
-/* Gives every part normals: at each corner the area-weighted mean of the faces of the part around its place whose normals are
- * within the crease angle of the corner's own face. Corners are no longer shared. */
+/* Gives every part normals: at each corner the area-weighted mean of the faces of the part around its place whose
+ * normals are within the crease angle of the corner's own face. Corners are no longer shared. */
 void shape_make_normals(shape *s, double crease_degrees);
 
 /* All parts moved into one, as one mesh. */

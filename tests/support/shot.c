@@ -40,7 +40,8 @@ static lmn_renderer *renderer_of(bool es)
 static bool load_look(lmn_look **look, const char *text, const char *const *changes)
 {
     lmn_error error = {0};
-    if (!accepted(text[0] == '{' ? lmn_look_parse(look, text, "look", &error) : lmn_look_load(look, text, &error), &error, "look"))
+    if (!accepted(text[0] == '{' ? lmn_look_parse(look, text, "look", &error) : lmn_look_load(look, text, &error),
+                  &error, "look"))
         return false;
     for (; changes && changes[0]; changes += 2)
         if (!accepted(lmn_look_set(*look, changes[0], changes[1], &error), &error, changes[0]))
@@ -84,9 +85,9 @@ static bool read_matrix(const json_t *array, double out[16])
 
 static bool read_report(shot *out, const lmn_drawing *drawing)
 {
-    char *text = lmn_drawing_report_json(drawing);
+    char   *text = lmn_drawing_report_json(drawing);
     json_t *report = text ? json_loads(text, 0, NULL) : NULL, *camera = json_object_get(report, "camera");
-    bool ok = read_matrix(json_object_get(camera, "view_matrix"), out->view) &&
+    bool    ok = read_matrix(json_object_get(camera, "view_matrix"), out->view) &&
               read_matrix(json_object_get(camera, "projection_matrix"), out->projection);
     out->near_depth = json_number_value(json_object_get(camera, "near"));
     out->far_depth = json_number_value(json_object_get(camera, "far"));
@@ -106,7 +107,8 @@ bool shot_has_warning(const shot *s, const char *code)
     json_t *report = s->report ? json_loads(s->report, 0, NULL) : NULL, *warning;
     size_t  i;
     bool    found = false;
-    json_array_foreach(json_object_get(report, "warnings"), i, warning) {
+    json_array_foreach(json_object_get(report, "warnings"), i, warning)
+    {
         const char *own = json_string_value(json_object_get(warning, "code"));
         found = found || (own && strcmp(own, code) == 0);
     }
@@ -159,7 +161,8 @@ static bool read_layer(shot *out, const char *folder, int index)
     out->layers[out->layer_count++] = layer;
     for (int i = 0; i < 5; i++)
         if (w[i] != out->width || h[i] != out->height)
-            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path[i], w[i], h[i]);
+            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path[i], w[i],
+                              h[i]);
     return true;
 }
 
@@ -190,11 +193,11 @@ static bool read_layers(shot *out, const char *folder)
 
 static bool read_maps(shot *out, const lmn_drawing *drawing)
 {
-    static int count;
-    char       folder[480];
+    static int  count;
+    char        folder[480];
     const char *names[] = {"depth.pfm", "normal.pfm", "id.png", "edge.png", "shade.png"};
-    char       path[5][512];
-    lmn_error  error = {0};
+    char        path[5][512];
+    lmn_error   error = {0};
     snprintf(folder, sizeof folder, "%s", check_path("maps%d", count++ % 4));
     forget_maps(folder);
     if (!accepted(lmn_drawing_write_maps(drawing, folder, &error), &error, "maps"))
@@ -209,8 +212,10 @@ static bool read_maps(shot *out, const lmn_drawing *drawing)
     out->shade = picture_read_rgba(path[4], &w[4], &h[4]);
     for (int i = 0; i < 5; i++)
         if (w[i] != out->width || h[i] != out->height)
-            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", names[i], w[i], h[i]);
-    return read_further(out, folder, "uncertainty.pfm", &out->uncertainty) && read_further(out, folder, "direction.pfm", &out->direction) && read_layers(out, folder);
+            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", names[i], w[i],
+                              h[i]);
+    return read_further(out, folder, "uncertainty.pfm", &out->uncertainty) &&
+           read_further(out, folder, "direction.pfm", &out->direction) && read_layers(out, folder);
 }
 
 static bool draw(shot *out, lmn_scene *scene, const lmn_look *look, const shot_view *view)
@@ -236,7 +241,7 @@ bool shot_take(shot *out, const char *model, const char *look_text, const char *
     lmn_error  error = {0};
     lmn_scene *scene = NULL;
     lmn_look  *look = NULL;
-    bool ok = accepted(lmn_scene_create(&scene, &error), &error, "scene") &&
+    bool       ok = accepted(lmn_scene_create(&scene, &error), &error, "scene") &&
               accepted(lmn_scene_add_file(scene, model, NULL, &error), &error, model) &&
               load_look(&look, look_text, changes) && draw(out, scene, look, view);
     lmn_look_destroy(&look);
@@ -246,7 +251,8 @@ bool shot_take(shot *out, const char *model, const char *look_text, const char *
     return ok;
 }
 
-bool shot_of_shape(shot *out, const shape *s, const char *file, const char *look, const char *const *changes, const shot_view *view)
+bool shot_of_shape(shot *out, const shape *s, const char *file, const char *look, const char *const *changes,
+                   const shot_view *view)
 {
     char path[512];
     memset(out, 0, sizeof *out);
@@ -271,17 +277,24 @@ const char *shot_line_look(const char *lines)
 
 void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth)
 {
-    double n = near_depth, f = far_depth, t = tan((view->fov_deg > 0 ? view->fov_deg : 30) * 3.14159265358979323846 / 360);
+    double n = near_depth, f = far_depth,
+           t = tan((view->fov_deg > 0 ? view->fov_deg : 30) * 3.14159265358979323846 / 360);
     double aspect = (double)view->width / view->height;
-    dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back));
-    dvec up = dvec_cross(back, right);
+    dvec   back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back));
+    dvec   up = dvec_cross(back, right);
     size_t count = (size_t)view->width * (size_t)view->height;
-    *out = (shot){.width = view->width, .height = view->height, .near_depth = n, .far_depth = f, .orthographic = view->orthographic,
-                  .view = {right.x, up.x, back.x, 0, right.y, up.y, back.y, 0, right.z, up.z, back.z, 0, -dvec_dot(right, view->eye),
-                           -dvec_dot(up, view->eye), -dvec_dot(back, view->eye), 1}};
+    *out = (shot){.width = view->width,
+                  .height = view->height,
+                  .near_depth = n,
+                  .far_depth = f,
+                  .orthographic = view->orthographic,
+                  .view = {right.x, up.x, back.x, 0, right.y, up.y, back.y, 0, right.z, up.z, back.z, 0,
+                           -dvec_dot(right, view->eye), -dvec_dot(up, view->eye), -dvec_dot(back, view->eye), 1}};
     double half = t * dvec_length(dvec_sub(view->eye, view->target));
-    double parallel[16] = {[0] = 1 / (half * aspect), [5] = 1 / half, [10] = -2 / (f - n), [14] = -(f + n) / (f - n), [15] = 1};
-    double central[16] = {[0] = 1 / (t * aspect), [5] = 1 / t, [10] = -(f + n) / (f - n), [11] = -1, [14] = -2 * f * n / (f - n)};
+    double parallel[16] = {
+        [0] = 1 / (half * aspect), [5] = 1 / half, [10] = -2 / (f - n), [14] = -(f + n) / (f - n), [15] = 1};
+    double central[16] = {
+        [0] = 1 / (t * aspect), [5] = 1 / t, [10] = -(f + n) / (f - n), [11] = -1, [14] = -2 * f * n / (f - n)};
     memcpy(out->projection, view->orthographic ? parallel : central, sizeof central);
     out->edge = check_alloc(count, 4);
     out->depth = check_alloc(count, sizeof *out->depth);
@@ -315,8 +328,8 @@ void shot_release(shot *s)
 void shot_ray(const shot *s, double x, double y, dvec *origin, dvec *direction)
 {
     const double *p = s->projection, *v = s->view;
-    double nx = 2 * x / s->width - 1, ny = 1 - 2 * y / s->height;
-    dvec eye_origin = {0, 0, 0}, eye_direction = {0, 0, -1};
+    double        nx = 2 * x / s->width - 1, ny = 1 - 2 * y / s->height;
+    dvec          eye_origin = {0, 0, 0}, eye_direction = {0, 0, -1};
     if (s->orthographic)
         eye_origin = dvec_of((nx - p[12]) / p[0], (ny - p[13]) / p[5], 0);
     else
@@ -324,13 +337,14 @@ void shot_ray(const shot *s, double x, double y, dvec *origin, dvec *direction)
     dvec rows[3] = {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}};
     dvec moved = dvec_sub(eye_origin, dvec_of(v[12], v[13], v[14]));
     *origin = dvec_of(dvec_dot(rows[0], moved), dvec_dot(rows[1], moved), dvec_dot(rows[2], moved));
-    *direction = dvec_of(dvec_dot(rows[0], eye_direction), dvec_dot(rows[1], eye_direction), dvec_dot(rows[2], eye_direction));
+    *direction =
+        dvec_of(dvec_dot(rows[0], eye_direction), dvec_dot(rows[1], eye_direction), dvec_dot(rows[2], eye_direction));
 }
 
 dvec shot_project(const shot *s, dvec point)
 {
     double w, unused;
-    dvec clip = dmat_apply(s->projection, dmat_apply(s->view, point, 1, &unused), 1, &w);
+    dvec   clip = dmat_apply(s->projection, dmat_apply(s->view, point, 1, &unused), 1, &w);
     return dvec_of((clip.x / w * 0.5 + 0.5) * s->width, (0.5 - clip.y / w * 0.5) * s->height, w);
 }
 

@@ -22,36 +22,38 @@ typedef struct shot_view {
     bool        profile; /* the report lists passes */
     uint32_t    seed;
     double      time_s;
-    const char *select;  /* draws these parts alone; NULL: all */
+    const char *select; /* draws these parts alone; NULL: all */
 } shot_view;
 
 /* The maps of one depth layer, as in shot. */
 typedef struct shot_layer {
-    float    *depth;
-    float   (*normal)[3];
+    float *depth;
+    float (*normal)[3];
     uint16_t *id;
     uint8_t  *edge, *shade;
 } shot_layer;
 
 typedef struct shot {
-    int       width, height;
-    uint8_t  *picture, *edge, *shade; /* RGBA8 */
-    float    *depth;  /* eye depth, infinite where empty */
-    float   (*normal)[3];
-    float   (*uncertainty)[3]; /* right, up, pressure; NULL when nothing is perturbed */
-    float   (*direction)[3];   /* s · (cos 2θ, sin 2θ) of strokes on the page, θ from the right to the top; NULL where no surface asks for it */
-    uint16_t *id;
-    double    view[16], projection[16], near_depth, far_depth;
-    bool      orthographic;
-    char     *report;
-    shot_layer *layers;      /* those for which maps were written */
-    int         layer_count; /* how many */
-    int         layers_drawn;      /* what the report says */
+    int      width, height;
+    uint8_t *picture, *edge, *shade; /* RGBA8 */
+    float   *depth;                  /* eye depth, infinite where empty */
+    float (*normal)[3];
+    float (*uncertainty)[3]; /* right, up, pressure; NULL when nothing is perturbed */
+    float (*direction)[3]; /* s · (cos 2θ, sin 2θ) of strokes on the page, θ from the right to the top; NULL where no
+                              surface asks for it */
+    uint16_t   *id;
+    double      view[16], projection[16], near_depth, far_depth;
+    bool        orthographic;
+    char       *report;
+    shot_layer *layers;       /* those for which maps were written */
+    int         layer_count;  /* how many */
+    int         layers_drawn; /* what the report says */
     char        layer_producer[16];
 } shot;
 
-/* Draws a model file with a look (JSON text, or the name of a look that ships when it does not begin with '{'). False, with
- * a failed check, when anything goes wrong. `changes` is a NULL-terminated list KEY, VALUE, KEY, VALUE …, or NULL. */
+/* Draws a model file with a look (JSON text, or the name of a look that ships when it does not begin with '{').
+ * False, with a failed check, when anything goes wrong. `changes` is a NULL-terminated list KEY, VALUE, KEY, VALUE
+ * …, or NULL. */
 bool shot_take(shot *out, const char *model, const char *look, const char *const *changes, const shot_view *view);
 void shot_release(shot *s);
 
@@ -59,10 +61,12 @@ void shot_release(shot *s);
 bool shot_of_shape(shot *out, const struct shape *s, const char *file, const char *look, const char *const *changes,
                    const shot_view *view);
 
-/* A look with one flat white rule, white ground and these lines (an object's JSON, or NULL); valid until the fourth next call. */
+/* A look with one flat white rule, white ground and these lines (an object's JSON, or NULL); valid until the fourth
+ * next call. */
 const char *shot_line_look(const char *lines);
 
-/* A shot that nobody drew: matrices of the view, an edge map without ink, the given depth range. For trying out references. */
+/* A shot that nobody drew: matrices of the view, an edge map without ink, the given depth range. For trying out
+ * references. */
 void shot_blank(shot *out, const shot_view *view, double near_depth, double far_depth);
 
 /* How many values of two pictures of one size are farther apart than this. */

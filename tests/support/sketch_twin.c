@@ -23,7 +23,8 @@ sketch_degree sketch_scaled(double degree)
 
 sketch_degree sketch_times(sketch_degree a, sketch_degree b)
 {
-    return (sketch_degree){a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx, a.yx * b.xy + a.yy * b.yy};
+    return (sketch_degree){a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx,
+                           a.yx * b.xy + a.yy * b.yy};
 }
 
 sketch_degree sketch_turn(double degrees)
@@ -115,7 +116,8 @@ sketch_paint sketch_shade(const sketch_maps *m, sketch_place p)
 
 sketch_paint sketch_colour(const uint8_t srgb[3], double alpha)
 {
-    return (sketch_paint){alpha * picture_linear(srgb[0]), alpha * picture_linear(srgb[1]), alpha * picture_linear(srgb[2]), alpha};
+    return (sketch_paint){alpha * picture_linear(srgb[0]), alpha * picture_linear(srgb[1]),
+                          alpha * picture_linear(srgb[2]), alpha};
 }
 
 sketch_paint sketch_share(sketch_paint p, double share)
@@ -158,7 +160,7 @@ sketch_paint sketch_opaque(const sketch_maps *m, const sketch_style *style, int 
 {
     sketch_place s = sketch_moved(m, x, y, style->amount, style->shades);
     double       fill_depth = sketch_depth(m, s), line_depth;
-    bool         bare = !style->without_lines && isfinite(sketch_depth(m, sketch_moved(m, x, y, style->amount, style->edges)));
+    bool bare = !style->without_lines && isfinite(sketch_depth(m, sketch_moved(m, x, y, style->amount, style->edges)));
     sketch_paint fill = {0, 0, 0, 0}, ink = {0, 0, 0, 0};
     if (isfinite(fill_depth))
         fill = sketch_shade(m, s);
@@ -197,16 +199,18 @@ void sketch_judge(sketch_tally *t, const shot *s, int x, int y, sketch_paint wan
 
 bool sketch_check(const char *row, const sketch_tally *t, const shot *s, double share, const char *what)
 {
-    bool holds = check_at_least(row, t->pixels ? (double)t->right / t->pixels : 0, share, "%s: share of %d pixels as predicted", what, t->pixels);
+    bool holds = check_at_least(row, t->pixels ? (double)t->right / t->pixels : 0, share,
+                                "%s: share of %d pixels as predicted", what, t->pixels);
     if (!holds && s->picture && t->pixels) {
         const uint8_t *p = sketch_pixel(s, t->x, t->y);
-        check_note("%d wrong; worst at %d, %d from the lower left: %.1f levels, drawn %d %d %d", t->pixels - t->right, t->x, t->y, t->worst, p[0], p[1],
-                   p[2]);
+        check_note("%d wrong; worst at %d, %d from the lower left: %.1f levels, drawn %d %d %d", t->pixels - t->right,
+                   t->x, t->y, t->worst, p[0], p[1], p[2]);
     }
     return holds;
 }
 
-bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *style, double levels, double share, const char *what)
+bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *style, double levels, double share,
+                         const char *what)
 {
     sketch_maps  m = sketch_maps_of(s);
     sketch_tally t = {0};

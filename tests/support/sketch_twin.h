@@ -1,5 +1,6 @@
-/* Perturbed drawings once more, on the CPU, straight from the formulas, out of the unperturbed maps and the field of uncertainty that
- * the drawing used. Places count pixels from the picture's lower left, integers are the centres of pixels; maps have row 0 on top. */
+/* Perturbed drawings once more, on the CPU, straight from the formulas, out of the unperturbed maps and the field
+ * of uncertainty that the drawing used. Places count pixels from the picture's lower left, integers are the centres
+ * of pixels; maps have row 0 on top. */
 #ifndef TRUTH_SKETCH_TWIN_H
 #define TRUTH_SKETCH_TWIN_H
 
@@ -45,14 +46,15 @@ sketch_degree sketch_scaled(double degree);                   /* degree in both 
 sketch_degree sketch_times(sketch_degree a, sketch_degree b); /* a · b */
 sketch_degree sketch_turn(double degrees);                    /* anticlockwise */
 
-/* The degree of the i-th copy of the lines, and its ink at its place; the depth is infinite where it has neither ink nor surface. */
+/* The degree of the i-th copy of the lines, and its ink at its place; the depth is infinite where it has neither
+ * ink nor surface. */
 sketch_degree sketch_copy(const sketch_style *style, int i);
 sketch_paint  sketch_copy_ink(const sketch_maps *m, const sketch_style *style, int i, int x, int y, double *depth);
 
 sketch_place sketch_moved(const sketch_maps *m, int x, int y, double amount, sketch_degree degree);
 bool         sketch_inside(const sketch_maps *m, sketch_place p);
-double       sketch_depth(const sketch_maps *m, sketch_place p); /* of the nearest texel */
-double       sketch_reach(const sketch_maps *m, sketch_place p, int reach); /* the least within a square */
+double       sketch_depth(const sketch_maps *m, sketch_place p);                  /* of the nearest texel */
+double       sketch_reach(const sketch_maps *m, sketch_place p, int reach);       /* the least within a square */
 double       sketch_field(const sketch_maps *m, double x, double y, int channel); /* between texels */
 void         sketch_edge(const sketch_maps *m, sketch_place p, double out[4]);
 sketch_paint sketch_shade(const sketch_maps *m, sketch_place p);
@@ -62,10 +64,11 @@ sketch_paint sketch_over(sketch_paint front, sketch_paint back);
 sketch_paint sketch_share(sketch_paint p, double share);
 sketch_paint sketch_ink(const double edge[4], sketch_paint colour);
 
-/* Colour and depth of an opaque figure at a pixel (x to the right, y up); alpha 0 and an infinite depth where it is not. */
+/* Colour and depth of an opaque figure at a pixel (x to the right, y up); alpha 0 and an infinite depth where it is
+ * not. */
 sketch_paint sketch_opaque(const sketch_maps *m, const sketch_style *style, int x, int y, double *depth);
 
-const uint8_t *sketch_pixel(const shot *s, int x, int y); /* y up */
+const uint8_t *sketch_pixel(const shot *s, int x, int y);                    /* y up */
 double         sketch_levels_off(const uint8_t *drawn, sketch_paint wanted); /* the largest of the three channels */
 
 typedef struct sketch_tally {
@@ -77,6 +80,7 @@ void sketch_judge(sketch_tally *t, const shot *s, int x, int y, sketch_paint wan
 bool sketch_check(const char *row, const sketch_tally *t, const shot *s, double share, const char *what);
 
 /* The whole picture of one opaque figure against its twin. */
-bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *style, double levels, double share, const char *what);
+bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *style, double levels, double share,
+                         const char *what);
 
 #endif

@@ -11,7 +11,8 @@ static const double coincident = 1e-9;
 /* Coincident for a rasteriser: what single precision makes of the depth of one plane through different triangles. */
 static const double rounding = 2e-6;
 
-/* How far a rasteriser may move what it draws, in pixels: it rounds corners to 1/256. For what must not lie near, twice that. */
+/* How far a rasteriser may move what it draws, in pixels: it rounds corners to 1/256. For what must not lie near,
+ * twice that. */
 static const double moved = 1.0 / 256, reach = 1.0 / 128;
 
 static const double depth_tolerance = 1e-4, normal_tolerance = 1e-3;
@@ -28,13 +29,17 @@ static int by_part(const void *a, const void *b)
 
 static stack_hit hit_of(const tracer *t, const shot *view, dvec origin, dvec direction, const trace_hit *hit)
 {
-    size_t count;
+    size_t                count;
     const trace_triangle *f = &tracer_triangles(t, &count)[hit->triangle];
-    dvec point = dvec_add(origin, dvec_scale(direction, hit->t));
-    dvec n = dvec_add(dvec_scale(f->n[0], 1 - hit->u - hit->v),
-                      dvec_add(dvec_scale(f->n[1], hit->u), dvec_scale(f->n[2], hit->v)));
-    return (stack_hit){.depth = -shot_to_eye(view, point, 1).z, .normal = dvec_unit(shot_to_eye(view, n, 0)),
-                       .triangle = hit->triangle, .u = (float)hit->u, .v = (float)hit->v, .id = (uint16_t)(f->part + 1),
+    dvec                  point = dvec_add(origin, dvec_scale(direction, hit->t));
+    dvec                  n = dvec_add(dvec_scale(f->n[0], 1 - hit->u - hit->v),
+                                       dvec_add(dvec_scale(f->n[1], hit->u), dvec_scale(f->n[2], hit->v)));
+    return (stack_hit){.depth = -shot_to_eye(view, point, 1).z,
+                       .normal = dvec_unit(shot_to_eye(view, n, 0)),
+                       .triangle = hit->triangle,
+                       .u = (float)hit->u,
+                       .v = (float)hit->v,
+                       .id = (uint16_t)(f->part + 1),
                        .front = dvec_dot(f->flat, direction) < 0};
 }
 
@@ -43,7 +48,8 @@ static size_t settle(stack_hit *hits, size_t count)
 {
     size_t kept = 0;
     for (size_t begin = 0, end; begin < count; begin = end) {
-        for (end = begin + 1; end < count && hits[end].depth - hits[end - 1].depth <= coincident * fabs(hits[end].depth); end++)
+        for (end = begin + 1;
+             end < count && hits[end].depth - hits[end - 1].depth <= coincident * fabs(hits[end].depth); end++)
             ;
         qsort(hits + begin, end - begin, sizeof *hits, by_part);
         for (size_t k = begin; k < end; k++) {
@@ -115,8 +121,8 @@ void stack_map_make(stack_map *out, const tracer *t, const shot *view)
     out->hits = check_alloc(room, sizeof *out->hits);
     for (int i = 0; i < count; i++) {
         stack_hit own[STACK_MAX];
-        int    x = i % view->width, y = i / view->width;
-        size_t found = stack_trace(t, view, x + 0.5, y + 0.5, own);
+        int       x = i % view->width, y = i / view->width;
+        size_t    found = stack_trace(t, view, x + 0.5, y + 0.5, own);
         if (used + found > room) {
             stack_hit *grown = check_alloc(room = 2 * room + found, sizeof *grown);
             memcpy(grown, out->hits, used * sizeof *grown);
@@ -150,12 +156,12 @@ size_t stack_covered(const stack_map *m, size_t k)
     return covered;
 }
 
-/* --- comparison -------------------------------------------------------------------------------------------------- */
+/* --- comparison ----------------------------------------------------------------------------------------- */
 
-/* How far a depth is outside of what the surface has where the rasteriser may have moved it from, as a share; surfaces keep their
- * numbers there because the pixel is sharp. */
-static void judge_again(const tracer *t, const shot *s, int x, int y, size_t k, double depth, dvec normal, double *depth_error,
-                        double *normal_error)
+/* How far a depth is outside of what the surface has where the rasteriser may have moved it from, as a share;
+ * surfaces keep their numbers there because the pixel is sharp. */
+static void judge_again(const tracer *t, const shot *s, int x, int y, size_t k, double depth, dvec normal,
+                        double *depth_error, double *normal_error)
 {
     stack_hit other[STACK_MAX];
     stack_trace(t, s, x + 0.5, y + 0.5, other);
@@ -177,14 +183,15 @@ static void judge_again(const tracer *t, const shot *s, int x, int y, size_t k, 
 
 static bool same_corners(const tracer *t, const stack_hit *a, const stack_hit *b)
 {
-    size_t count;
+    size_t                count;
     const trace_triangle *f = tracer_triangles(t, &count);
     return memcmp(f[a->triangle].p, f[b->triangle].p, sizeof f->p) == 0;
 }
 
-/* Which of the tied surfaces begin … end − 1 a layer shows: the one of its part that faces most like it; −1 when there is none.
- * Copies of one triangle have the same depth to the last bit, so their order is known. */
-static int find_tied(const tracer *t, const stack_hit *hits, const bool *taken, size_t begin, size_t end, size_t k, uint16_t id, dvec normal)
+/* Which of the tied surfaces begin … end − 1 a layer shows: the one of its part that faces most like it; −1 when
+ * there is none. Copies of one triangle have the same depth to the last bit, so their order is known. */
+static int find_tied(const tracer *t, const stack_hit *hits, const bool *taken, size_t begin, size_t end, size_t k,
+                     uint16_t id, dvec normal)
 {
     bool copies = true;
     for (size_t j = begin + 1; j < end; j++)
@@ -211,9 +218,9 @@ typedef struct judgement {
 static judgement judge_pixel(const stack_map *m, const tracer *t, const shot *s, int i, size_t limit)
 {
     const stack_hit *hits = stack_at(m, i);
-    judgement j = {0};
-    bool   taken[STACK_MAX] = {false};
-    size_t count = stack_count(m, i), all = count;
+    judgement        j = {0};
+    bool             taken[STACK_MAX] = {false};
+    size_t           count = stack_count(m, i), all = count;
     count = limit && count > limit ? limit : count;
     size_t last = 0;
     for (int k = 0; k < s->layer_count; k++)

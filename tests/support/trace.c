@@ -14,8 +14,9 @@ typedef struct box {
 
 typedef struct bvh_node {
     box      bounds;
-    uint32_t first, count; /* count > 0: a leaf of triangles order[first…]; else children first and first + 1, cut along this axis */
-    int      axis;
+    uint32_t first, count; /* count > 0: a leaf of triangles order[first…]; else children first and first + 1, cut along
+                              this axis */
+    int axis;
 } bvh_node;
 
 struct tracer {
@@ -161,16 +162,16 @@ const trace_triangle *tracer_triangles(const tracer *t, size_t *count)
 static bool hit_triangle(const trace_triangle *f, dvec origin, dvec direction, double low, double high, trace_hit *out)
 {
     const double slack = 1e-12;
-    dvec a = dvec_sub(f->p[1], f->p[0]), b = dvec_sub(f->p[2], f->p[0]);
-    dvec across = dvec_cross(direction, b);
-    double det = dvec_dot(a, across);
+    dvec         a = dvec_sub(f->p[1], f->p[0]), b = dvec_sub(f->p[2], f->p[0]);
+    dvec         across = dvec_cross(direction, b);
+    double       det = dvec_dot(a, across);
     if (det == 0)
         return false;
-    dvec from = dvec_sub(origin, f->p[0]);
+    dvec   from = dvec_sub(origin, f->p[0]);
     double u = dvec_dot(from, across) / det;
     if (u < -slack || u > 1 + slack)
         return false;
-    dvec q = dvec_cross(from, a);
+    dvec   q = dvec_cross(from, a);
     double v = dvec_dot(direction, q) / det;
     if (v < -slack || u + v > 1 + slack)
         return false;
@@ -193,7 +194,8 @@ static bool hit_box(const box *b, const double origin[3], const double inverse[3
             continue;
         }
         bool   forward = inverse[a] >= 0;
-        double near = ((forward ? b->low[a] : b->high[a]) - origin[a]) * inverse[a], far = ((forward ? b->high[a] : b->low[a]) - origin[a]) * inverse[a];
+        double near = ((forward ? b->low[a] : b->high[a]) - origin[a]) * inverse[a],
+               far = ((forward ? b->high[a] : b->low[a]) - origin[a]) * inverse[a];
         near -= near > 0 ? 1e-12 * near : -1e-12 * near;
         far += far > 0 ? 1e-12 * far : -1e-12 * far;
         low = near > low ? near : low;
@@ -203,7 +205,8 @@ static bool hit_box(const box *b, const double origin[3], const double inverse[3
 }
 
 /* The first hit, or `any` hit, whichever comes up. */
-static bool search(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], bool any, trace_hit *out)
+static bool search(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2],
+                   bool any, trace_hit *out)
 {
     double   o[3] = {origin.x, origin.y, origin.z};
     double   inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
@@ -237,7 +240,8 @@ static bool search(const tracer *t, dvec origin, dvec direction, double low, dou
     return found;
 }
 
-bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2], trace_hit *out)
+bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2],
+                trace_hit *out)
 {
     return search(t, origin, direction, low, high, skip, false, out);
 }
@@ -303,8 +307,9 @@ static uint16_t look_at(const tracer *t, const shot *view, double x, double y, d
     if (!tracer_hit(t, origin, direction, view->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
         return 0;
     const trace_triangle *f = &t->triangles[hit.triangle];
-    dvec point = dvec_add(origin, dvec_scale(direction, hit.t));
-    dvec n = dvec_add(dvec_scale(f->n[0], 1 - hit.u - hit.v), dvec_add(dvec_scale(f->n[1], hit.u), dvec_scale(f->n[2], hit.v)));
+    dvec                  point = dvec_add(origin, dvec_scale(direction, hit.t));
+    dvec                  n = dvec_add(dvec_scale(f->n[0], 1 - hit.u - hit.v),
+                                       dvec_add(dvec_scale(f->n[1], hit.u), dvec_scale(f->n[2], hit.v)));
     *depth = -shot_to_eye(view, point, 1).z;
     *normal = dvec_unit(shot_to_eye(view, n, 0));
     return (uint16_t)(f->part + 1);
@@ -313,8 +318,8 @@ static uint16_t look_at(const tracer *t, const shot *view, double x, double y, d
 double trace_normal_error(const tracer *t, const shot *view, int x, int y, dvec normal)
 {
     static const double shift[5][2] = {{0, 0}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    double least = INFINITY, depth;
-    dvec   other;
+    double              least = INFINITY, depth;
+    dvec                other;
     for (int k = 0; k < 5; k++)
         if (look_at(t, view, x + 0.5 + shift[k][0] / 128, y + 0.5 + shift[k][1] / 128, &depth, &other))
             least = fmin(least, dvec_length(dvec_sub(normal, other)));

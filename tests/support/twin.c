@@ -19,7 +19,7 @@ void twin_map_make(twin_map *out, const shot *s)
     out->normal = check_alloc(count, sizeof *out->normal);
     out->depth = check_alloc(count, sizeof *out->depth);
     for (size_t i = 0; i < count; i++) {
-        bool empty = isinf(s->depth[i]);
+        bool   empty = isinf(s->depth[i]);
         double linear = ((double)s->depth[i] - s->near_depth) / (s->far_depth - s->near_depth);
         out->depth[i] = empty ? 1 : linear;
         out->normal[i] = empty ? dvec_of(0, 0, 1) : dvec_unit(dvec_from(s->normal[i]));
@@ -75,8 +75,8 @@ static double limited(double v)
 twin_value twin_four_tap(const twin_map *m, int x, int y, double offset, bool squared)
 {
     static const int corner[4][2] = {{-1, -1}, {1, 1}, {1, -1}, {-1, 1}}; /* A H C F */
-    dvec   n[4];
-    double d[4];
+    dvec             n[4];
+    double           d[4];
     for (int k = 0; k < 4; k++) {
         twin_bilinear(m, x + 0.5 + offset * corner[k][0], y + 0.5 + offset * corner[k][1], &n[k], &d[k]);
         n[k] = dvec_unit(n[k]);
@@ -118,7 +118,7 @@ static twin_value from_gradients(const double gx[4], const double gy[4])
 twin_value twin_sobel_nine(const twin_map *m, int x, int y)
 {
     static const double kernel[3][3] = {{-1, 0, 1}, {-2, 0, 2}, {-1, 0, 1}};
-    double gx[4] = {0}, gy[4] = {0};
+    double              gx[4] = {0}, gy[4] = {0};
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++) {
             quad q = quad_at(m, x + i - 1, y + j - 1);
@@ -133,10 +133,10 @@ twin_value twin_sobel_nine(const twin_map *m, int x, int y)
 twin_value twin_sobel_eight(const twin_map *m, int x, int y)
 {
     double gx[4], gy[4], cx = x + 0.5, cy = y + 0.5;
-    quad t0 = quad_between(m, cx - 1, cy - 0.5), t1 = quad_between(m, cx - 1, cy + 0.5);
-    quad t2 = quad_between(m, cx + 1, cy - 0.5), t3 = quad_between(m, cx + 1, cy + 0.5);
-    quad s0 = quad_between(m, cx - 0.5, cy - 1), s1 = quad_between(m, cx + 0.5, cy - 1);
-    quad s2 = quad_between(m, cx - 0.5, cy + 1), s3 = quad_between(m, cx + 0.5, cy + 1);
+    quad   t0 = quad_between(m, cx - 1, cy - 0.5), t1 = quad_between(m, cx - 1, cy + 0.5);
+    quad   t2 = quad_between(m, cx + 1, cy - 0.5), t3 = quad_between(m, cx + 1, cy + 0.5);
+    quad   s0 = quad_between(m, cx - 0.5, cy - 1), s1 = quad_between(m, cx + 0.5, cy - 1);
+    quad   s2 = quad_between(m, cx - 0.5, cy + 1), s3 = quad_between(m, cx + 0.5, cy + 1);
     for (int k = 0; k < 4; k++) {
         gx[k] = 2 * (t2.v[k] + t3.v[k] - t0.v[k] - t1.v[k]);
         gy[k] = 2 * (s2.v[k] + s3.v[k] - s0.v[k] - s1.v[k]);
@@ -147,8 +147,8 @@ twin_value twin_sobel_eight(const twin_map *m, int x, int y)
 twin_value twin_sobel_five(const twin_map *m, int x, int y)
 {
     double gx[4], gy[4], cx = x + 0.5, cy = y + 0.5;
-    quad tl = quad_between(m, cx - 0.5, cy - 0.5), tr = quad_between(m, cx + 0.5, cy - 0.5);
-    quad bl = quad_between(m, cx - 0.5, cy + 0.5), br = quad_between(m, cx + 0.5, cy + 0.5);
+    quad   tl = quad_between(m, cx - 0.5, cy - 0.5), tr = quad_between(m, cx + 0.5, cy - 0.5);
+    quad   bl = quad_between(m, cx - 0.5, cy + 0.5), br = quad_between(m, cx + 0.5, cy + 0.5);
     for (int k = 0; k < 4; k++) {
         gx[k] = 4 * (tr.v[k] + br.v[k] - tl.v[k] - bl.v[k]);
         gy[k] = 4 * (bl.v[k] + br.v[k] - tl.v[k] - tr.v[k]);
@@ -167,7 +167,9 @@ static double first_order(const twin_map *m, int x, int y)
 {
     double d[9];
     depths(m, x, y, d);
-    return (fabs(d[0] + 2 * d[1] + d[2] - d[6] - 2 * d[7] - d[8]) + fabs(d[2] + 2 * d[5] + d[8] - d[0] - 2 * d[3] - d[6])) / 8;
+    return (fabs(d[0] + 2 * d[1] + d[2] - d[6] - 2 * d[7] - d[8]) +
+            fabs(d[2] + 2 * d[5] + d[8] - d[0] - 2 * d[3] - d[6])) /
+           8;
 }
 
 static double second_order(const twin_map *m, int x, int y)
@@ -193,21 +195,28 @@ twin_value twin_pencil(const twin_map *m, int x, int y, double scale)
     return (twin_value){.profile = 1 - scale * sum, .inner = 1 - fabs(second_order(m, x, y))};
 }
 
-/* The seeds name this normalisation without a formula. Reading taken: a neighbourhood whose gradients all agree is a slope and
- * no line; the difference of its extremes is measured against the least gradient that counts as a jump, and saturates; inner
- * lines stand only where no jump is near. */
+/* The seeds name this normalisation without a formula. Reading taken: a neighbourhood whose gradients all agree is
+ * a slope and no line; the difference of its extremes is measured against the least gradient that counts as a jump,
+ * and saturates; inner lines stand only where no jump is near. */
 twin_value twin_saito_normalised(const twin_map *m, int x, int y, double jump, double floor_value)
 {
     double least = INFINITY, greatest = 0;
     for (int k = 0; k < 9; k++) {
         int    i = x + k % 3 - 1, j = y + k / 3 - 1;
-        double g = first_order(m, i < 0 ? 0 : i >= m->width ? m->width - 1 : i, j < 0 ? 0 : j >= m->height ? m->height - 1 : j);
+        double g = first_order(m,
+                               i < 0           ? 0
+                               : i >= m->width ? m->width - 1
+                                               : i,
+                               j < 0            ? 0
+                               : j >= m->height ? m->height - 1
+                                                : j);
         least = fmin(least, g);
         greatest = fmax(greatest, g);
     }
     double profile = greatest > floor_value ? (greatest - least) / fmax(greatest, jump) : 0;
     double inner = greatest >= jump ? 0 : limited(fabs(second_order(m, x, y)) / jump);
-    return (twin_value){1 - profile, 1 - inner, fabs(greatest - jump) < 1e-3 * jump || fabs(greatest - floor_value) < 1e-3 * floor_value};
+    return (twin_value){1 - profile, 1 - inner,
+                        fabs(greatest - jump) < 1e-3 * jump || fabs(greatest - floor_value) < 1e-3 * floor_value};
 }
 
 /* The sample lies half a pixel up and to the right of the centre, where four pixels weigh the same. */

@@ -1,12 +1,12 @@
-/* The edge operators once more, on the CPU, straight from the formulas and on the raw maps of a drawing; with the printed
- * errors repaired as the notes say. Nothing here is taken from the shaders. */
+/* The edge operators once more, on the CPU, straight from the formulas and on the raw maps of a drawing; with the
+ * printed errors repaired as the notes say. Nothing here is taken from the shaders. */
 #ifndef TRUTH_TWIN_H
 #define TRUTH_TWIN_H
 
 #include "shot.h"
 
-/* A raw map: unit normal and depth, 0 at the near plane, 1 at the far plane and where nothing is. Empty pixels look at the
- * viewer: their normal is (0, 0, 1). Row 0 on top. */
+/* A raw map: unit normal and depth, 0 at the near plane, 1 at the far plane and where nothing is. Empty pixels look
+ * at the viewer: their normal is (0, 0, 1). Row 0 on top. */
 typedef struct twin_map {
     int     width, height;
     dvec   *normal;
@@ -26,10 +26,10 @@ void twin_sharpen(twin_map *m, double amount);
 
 /* Neighbours are numbered A B C / D X E / F G H from the upper left; pixels beyond the border repeat it. */
 twin_value twin_four_tap(const twin_map *m, int x, int y, double offset, bool squared);
-twin_value twin_sobel_nine(const twin_map *m, int x, int y);   /* textbook 3x3 kernels */
-twin_value twin_sobel_eight(const twin_map *m, int x, int y);  /* four bilinear samples a direction */
-twin_value twin_sobel_five(const twin_map *m, int x, int y);   /* four corner samples for both */
-twin_value twin_saito(const twin_map *m, int x, int y);        /* I0 and I1 */
+twin_value twin_sobel_nine(const twin_map *m, int x, int y);           /* textbook 3x3 kernels */
+twin_value twin_sobel_eight(const twin_map *m, int x, int y);          /* four bilinear samples a direction */
+twin_value twin_sobel_five(const twin_map *m, int x, int y);           /* four corner samples for both */
+twin_value twin_saito(const twin_map *m, int x, int y);                /* I0 and I1 */
 twin_value twin_pencil(const twin_map *m, int x, int y, double scale); /* equation 3 times scale, and I1 */
 twin_value twin_saito_normalised(const twin_map *m, int x, int y, double jump, double floor_value);
 twin_value twin_denormal(const twin_map *m, int x, int y, double tolerance, bool with_depth);

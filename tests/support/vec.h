@@ -1,4 +1,5 @@
-/* Three-vectors and 4x4 matrices in double precision for the references. Matrices are column-major and act on columns. */
+/* Three-vectors and 4x4 matrices in double precision for the references. Matrices are column-major and act on
+ * columns. */
 #ifndef TRUTH_VEC_H
 #define TRUTH_VEC_H
 

@@ -1,10 +1,13 @@
-/* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some value:
- * a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly] [KIND[.TECHNIQUE]…]
+/* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some
+ * value: a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly]
+ * [KIND[.TECHNIQUE]…]
  *
- * Only the kinds and techniques that are named are drawn; none: all. Of one technique alone, parameters of the whole kind are drawn but need not mean anything.
+ * Only the kinds and techniques that are named are drawn; none: all. Of one technique alone, parameters of the whole
+ * kind are drawn but need not mean anything.
  *
- * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, not with both of its extremes. What decides which shaders
- * are built is still drawn with all. For the paths of drawing that share most of their code with the usual one, which is not drawn briefly. */
+ * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, not with both of its
+ * extremes. What decides which shaders are built is still drawn with all. For the paths of drawing that share most of
+ * their code with the usual one, which is not drawn briefly. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -59,7 +62,8 @@ static const struct {
     {"lines", "taps", "both forms are the same sums"},
 };
 
-/* Parameters that change nothing but solids. They are drawn alone, of convex operands, which every path of drawing can. */
+/* Parameters that change nothing but solids. They are drawn alone, of convex operands, which every path of drawing
+ * can. */
 static const struct {
     const char *kind, *key;
 } of_solids[] = {{"lines", "meet"}};
@@ -80,34 +84,43 @@ static bool is_exception(const kind *k, const param *p)
     return false;
 }
 
-/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues, texture coordinates and intersections. */
+/* A coloured ball without normals that cuts into the gearbox, so that there are several parts, hues, texture
+ * coordinates and intersections. */
 static void write_ball(FILE *file, double x)
 {
     enum { ROWS = 10, COLUMNS = 16 };
-    fprintf(file, "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
-                  "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float s\nproperty float t\nelement face %d\n"
-                  "property list uchar int vertex_indices\nend_header\n", (ROWS + 1) * COLUMNS, ROWS * COLUMNS);
+    fprintf(file,
+            "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float s\nproperty float "
+            "t\nelement face %d\n"
+            "property list uchar int vertex_indices\nend_header\n",
+            (ROWS + 1) * COLUMNS, ROWS * COLUMNS);
     for (int r = 0; r <= ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
             double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS;
-            fprintf(file, "%.4f %.4f %.4f %d %d %d %.4f %.4f\n", 45 * sin(polar) * cos(around) + x, 45 * cos(polar) + 45,
-                    45 * sin(polar) * sin(around) + 20, 200 - 15 * r, 60 + 8 * c, 60, 2.0 * c / COLUMNS, 1.0 * r / ROWS);
+            fprintf(file, "%.4f %.4f %.4f %d %d %d %.4f %.4f\n", 45 * sin(polar) * cos(around) + x,
+                    45 * cos(polar) + 45, 45 * sin(polar) * sin(around) + 20, 200 - 15 * r, 60 + 8 * c, 60,
+                    2.0 * c / COLUMNS, 1.0 * r / ROWS);
         }
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
             int next = (c + 1) % COLUMNS;
-            fprintf(file, "4 %d %d %d %d\n", r * COLUMNS + c, (r + 1) * COLUMNS + c, (r + 1) * COLUMNS + next, r * COLUMNS + next);
+            fprintf(file, "4 %d %d %d %d\n", r * COLUMNS + c, (r + 1) * COLUMNS + c, (r + 1) * COLUMNS + next,
+                    r * COLUMNS + next);
         }
 }
 
-/* A small body of five bulges, fine enough to have no creases: ridges, valleys, and where the eye moves a little, outlines. */
+/* A small body of five bulges, fine enough to have no creases: ridges, valleys, and where the eye moves a little,
+ * outlines. */
 static void write_flower(FILE *file, double x)
 {
     enum { ROWS = 24, COLUMNS = 200 };
     for (int r = 0; r <= ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
-            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS, radius = 24 * (1 + 0.25 * cos(5 * around) * sin(polar));
-            fprintf(file, "v %.4f %.4f %.4f\n", radius * sin(polar) * cos(around) + x, radius * sin(polar) * sin(around) + 100, radius * cos(polar) + 20);
+            double polar = 3.14159265 * r / ROWS, around = 2 * 3.14159265 * c / COLUMNS,
+                   radius = 24 * (1 + 0.25 * cos(5 * around) * sin(polar));
+            fprintf(file, "v %.4f %.4f %.4f\n", radius * sin(polar) * cos(around) + x,
+                    radius * sin(polar) * sin(around) + 100, radius * cos(polar) + 20);
         }
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
@@ -120,8 +133,10 @@ static lmn_look *look_of(const technique *t, char *json, size_t size)
 {
     lmn_look *look = NULL;
     lmn_error error = {0};
-    snprintf(json, size, "{\"version\": 1, \"rules\": [%s, {\"select\": \"other*\", \"surface\": \"lit\"}], "
-                         "\"finish\": {\"ground\": \"#7080a0\"}}", t->example);
+    snprintf(json, size,
+             "{\"version\": 1, \"rules\": [%s, {\"select\": \"other*\", \"surface\": \"lit\"}], "
+             "\"finish\": {\"ground\": \"#7080a0\"}}",
+             t->example);
     if (lmn_look_parse(&look, json, t->name, &error) != LMN_OK)
         fail_msg("example of %s: %s", t->name, error.message);
     return look;
@@ -133,7 +148,7 @@ static lmn_drawing *draw(fixture *f, const lmn_scene *scene, const lmn_look *loo
     desc.time_s = 0.5; /* some parameters count by the second; with the others a time changes nothing */
     desc.lenient = true;
     lmn_drawing *drawing = NULL;
-    lmn_error error = {0};
+    lmn_error    error = {0};
     desc.width = desc.height = SIDE;
     f->drawn++;
     if (lmn_draw(&drawing, f->renderer, scene, look, &desc, &error) == LMN_OK)
@@ -150,11 +165,13 @@ static bool are_equal(const uint8_t *pixels, const lmn_drawing *drawing)
 }
 
 /* Lent; NULL when it cannot be drawn. `look` has what the parameter asks for, and nothing else. */
-static const uint8_t *plain_of(fixture *f, const lmn_scene *scene, const technique *t, const param *p, const lmn_look *look, const char *what)
+static const uint8_t *plain_of(fixture *f, const lmn_scene *scene, const technique *t, const param *p,
+                               const lmn_look *look, const char *what)
 {
     for (size_t i = 0; i < f->plain_count; i++) {
         const plain_picture *known = &f->plain[i];
-        bool same = known->only_if && p->only_if ? strcmp(known->only_if, p->only_if) == 0 : known->only_if == p->only_if;
+        bool                 same =
+            known->only_if && p->only_if ? strcmp(known->only_if, p->only_if) == 0 : known->only_if == p->only_if;
         if (same && known->technique == t && known->scene == scene)
             return known->pixels;
     }
@@ -173,11 +190,13 @@ static const uint8_t *plain_of(fixture *f, const lmn_scene *scene, const techniq
 /* Values worth trying; a number's extremes come first. */
 static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
 {
-    size_t count = 0;
-    double soft_min = p->soft_min != 0 || p->soft_max != 0 ? p->soft_min : p->min;
-    double soft_max = p->soft_min != 0 || p->soft_max != 0 ? p->soft_max : p->max;
-    const double numbers[] = {p->min, p->max, soft_min, soft_max, (soft_min + soft_max) / 2, p->def * 2, p->def / 2 + 0.3};
-    static const char *const colours[] = {"#ff00ff", "#00ff00", "none"}, *const axes[] = {"1,0,0", "0,0,1", "-1,-1,0.2"};
+    size_t                   count = 0;
+    double                   soft_min = p->soft_min != 0 || p->soft_max != 0 ? p->soft_min : p->min;
+    double                   soft_max = p->soft_min != 0 || p->soft_max != 0 ? p->soft_max : p->max;
+    const double             numbers[] = {p->min,     p->max,          soft_min, soft_max, (soft_min + soft_max) / 2,
+                                          p->def * 2, p->def / 2 + 0.3};
+    static const char *const colours[] = {"#ff00ff", "#00ff00", "none"}, *const axes[] = {"1,0,0", "0,0,1",
+                                                                                          "-1,-1,0.2"};
     static const char *const palettes[] = {"#000000", "#ff0000,#00ff00,#0000ff,#ffffff"};
     switch (p->type) {
     case PARAM_INT:
@@ -185,9 +204,7 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
         for (size_t i = 0; i < PARAM_COUNT(numbers); i++)
             snprintf(values[count++], TEXT_SIZE, p->type == PARAM_INT ? "%.0f" : "%.6f", numbers[i]);
         break;
-    case PARAM_BOOL:
-        snprintf(values[count++], TEXT_SIZE, "%s", p->def != 0 ? "false" : "true");
-        break;
+    case PARAM_BOOL: snprintf(values[count++], TEXT_SIZE, "%s", p->def != 0 ? "false" : "true"); break;
     case PARAM_ENUM:
         for (; p->names[count] && count < VALUES_MAX; count++)
             snprintf(values[count], TEXT_SIZE, "%s", p->names[count]);
@@ -197,9 +214,7 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
         for (size_t i = 0; i < 3; i++)
             snprintf(values[count++], TEXT_SIZE, "%s", p->type == PARAM_COLOUR ? colours[i] : axes[i]);
         break;
-    case PARAM_TEXT:
-        snprintf(values[count++], TEXT_SIZE, "%s", p->example);
-        break;
+    case PARAM_TEXT: snprintf(values[count++], TEXT_SIZE, "%s", p->example); break;
     case PARAM_PALETTE:
         for (size_t i = 0; i < 2; i++)
             snprintf(values[count++], TEXT_SIZE, "%s", palettes[i]);
@@ -211,7 +226,7 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
 /* Does the parameter change the picture? */
 static bool check_param(fixture *f, const kind *k, const technique *t, const param *p)
 {
-    char json[2048], path[HOLD_KEY_SIZE], what[TEXT_SIZE * 3], values[VALUES_MAX][TEXT_SIZE];
+    char      json[2048], path[HOLD_KEY_SIZE], what[TEXT_SIZE * 3], values[VALUES_MAX][TEXT_SIZE];
     lmn_look *look = look_of(t, json, sizeof json);
     hold_key(path, k, p->key);
     if (k->id == KIND_LAYERS)
@@ -221,10 +236,11 @@ static bool check_param(fixture *f, const kind *k, const technique *t, const par
     hold_lighter(look, k, t, p->key);
     hold_condition(look, k, t, p->only_if);
     const lmn_scene *scene = is_of_solids(k, p) ? f->solid : f->scene;
-    const uint8_t *before = plain_of(f, scene, t, p, look, path);
-    size_t count = values_of(p, values);
-    bool changed = false, briefly = f->brief && !p->variant && !p->toggles;
-    size_t first = briefly && count > 1 && p->def <= p->min ? 1 : 0; /* the least value is often the one that is there already */
+    const uint8_t   *before = plain_of(f, scene, t, p, look, path);
+    size_t           count = values_of(p, values);
+    bool             changed = false, briefly = f->brief && !p->variant && !p->toggles;
+    size_t           first =
+        briefly && count > 1 && p->def <= p->min ? 1 : 0; /* the least value is often the one that is there already */
     for (size_t i = 0; i < count && before; i++) {
         if (changed && (briefly || i >= 2)) /* the two extremes are drawn in any case */
             break;
@@ -277,7 +293,8 @@ static void check_technique(fixture *f, const kind *k, const technique *t)
     for (size_t i = 0; i < t->param_count; i++)
         if (!check_param(f, k, t, &t->params[i]))
             complain(f, k, t->name, &t->params[i]);
-    print_message("%s.%s: %d pictures, %.1f s of work\n", k->name, t->name, f->drawn - drawn, (double)(clock() - begin) / CLOCKS_PER_SEC);
+    print_message("%s.%s: %d pictures, %.1f s of work\n", k->name, t->name, f->drawn - drawn,
+                  (double)(clock() - begin) / CLOCKS_PER_SEC);
 }
 
 static void test_every_parameter(void **state)
@@ -299,21 +316,26 @@ static void test_every_parameter(void **state)
 /* One part of two materials: two surfaces. */
 static void write_plate(FILE *file, double x)
 {
-    fprintf(file, "v %g 60 60\nv %g 60 60\nv %g 60 60\nv %g 60 90\nv %g 60 90\nv %g 60 90\n", x, x + 30, x + 60, x, x + 30, x + 60);
+    fprintf(file, "v %g 60 60\nv %g 60 60\nv %g 60 60\nv %g 60 90\nv %g 60 90\nv %g 60 90\n", x, x + 30, x + 60, x,
+            x + 30, x + 60);
     fprintf(file, "o plate\nusemtl left\nf 4 5 2 1\nusemtl right\nf 5 6 3 2\n");
 }
 
 /* A block with a round hole, on it a ball cut by a plane: operands that meet at an angle. */
 static void write_solid(FILE *file, double x)
 {
-    fprintf(file, "multmatrix([[1, 0, 0, %g], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n"
-                  " difference() { cube(size = [40, 40, 20], center = true); cylinder($fn = 24, h = 30, r1 = 9, r2 = 12, center = true); }\n"
-                  " intersection() { sphere($fn = 24, r = 18); cube(size = [36, 20, 60], center = true); }\n}\n", x);
+    fprintf(file,
+            "multmatrix([[1, 0, 0, %g], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n"
+            " difference() { cube(size = [40, 40, 20], center = true); cylinder($fn = 24, h = 30, r1 = 9, r2 = 12, "
+            "center = true); }\n"
+            " intersection() { sphere($fn = 24, r = 18); cube(size = [36, 20, 60], center = true); }\n}\n",
+            x);
 }
 
-static bool add_file(lmn_scene *scene, const char *folder, const char *name, void (*write)(FILE *, double), double x, lmn_error *error)
+static bool add_file(lmn_scene *scene, const char *folder, const char *name, void (*write)(FILE *, double), double x,
+                     lmn_error *error)
 {
-    char path[128];
+    char          path[128];
     lmn_load_desc load = LMN_LOAD_DESC_INIT;
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "w");
@@ -328,20 +350,22 @@ static bool add_file(lmn_scene *scene, const char *folder, const char *name, voi
 
 static int make_fixture(void **state)
 {
-    fixture *f = *state;
-    char path[1024], folder[] = "/tmp/limner-XXXXXX";
-    lmn_error error = {0};
-    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    fixture          *f = *state;
+    char              path[1024], folder[] = "/tmp/limner-XXXXXX";
+    lmn_error         error = {0};
+    lmn_load_desc     load = LMN_LOAD_DESC_INIT;
     lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
     if (!mkdtemp(folder))
         return 1;
     snprintf(path, sizeof path, "%s/gearbox.stl", f->examples);
-    bool done = lmn_scene_create(&f->scene, &error) == LMN_OK && lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
+    bool done = lmn_scene_create(&f->scene, &error) == LMN_OK &&
+                lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
                 add_file(f->scene, folder, "ball.ply", write_ball, 10, &error) &&
                 add_file(f->scene, folder, "other.ply", write_ball, 70, &error) &&
                 add_file(f->scene, folder, "flower.obj", write_flower, -20, &error) &&
                 add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
-                lmn_scene_create(&f->solid, &error) == LMN_OK && add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
+                lmn_scene_create(&f->solid, &error) == LMN_OK &&
+                add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
                 lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
     if (!done)
         print_error("%s: %s\n", error.file, error.message);
@@ -367,6 +391,7 @@ int main(int count, char **arguments)
     f.brief = count > 2 && strcmp(arguments[2], "briefly") == 0;
     f.wanted_count = count > 2 + f.brief ? count - 2 - f.brief : 0;
     f.wanted = arguments + count - f.wanted_count;
-    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate_setup_teardown(test_every_parameter, make_fixture, end_fixture, &f)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate_setup_teardown(test_every_parameter, make_fixture, end_fixture, &f)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

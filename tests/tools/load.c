@@ -1,4 +1,5 @@
-/* Loads files and says what came of it: `load [-t] [-j] FILE…`. -t times each load and making normals, -j prints the info. */
+/* Loads files and says what came of it: `load [-t] [-j] FILE…`. -t times each load and making normals, -j prints
+ * the info. */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -15,7 +16,7 @@ static double now_ms(void)
 
 static void time_meshes(const lmn_scene *s)
 {
-    double start = now_ms();
+    double   start = now_ms();
     uint32_t vertices = 0;
     for (size_t i = 0; i < s->mesh_count; i++)
         for (size_t k = 0; k < s->meshes[i].primitive_count; k++) {
@@ -36,16 +37,17 @@ static void time_meshes(const lmn_scene *s)
 static int load(const char *path, bool timed, bool json)
 {
     lmn_scene *scene = NULL;
-    lmn_error error = {0};
-    double start = now_ms();
+    lmn_error  error = {0};
+    double     start = now_ms();
     lmn_status status = lmn_scene_create(&scene, &error);
     if (status == LMN_OK)
         status = lmn_scene_add_file(scene, path, NULL, &error);
-    double ms = now_ms() - start;
+    double         ms = now_ms() - start;
     lmn_scene_info info = lmn_scene_info_of(scene);
     if (status == LMN_OK)
         printf("ok    %s: %zu parts, %llu triangles, %zu materials, %zu textures, %zu animations, %zu skins\n", path,
-               info.parts, (unsigned long long)info.triangles, info.materials, info.textures, info.animations, info.skins);
+               info.parts, (unsigned long long)info.triangles, info.materials, info.textures, info.animations,
+               info.skins);
     else
         printf("FAIL  %s: [%s] %s:%d: %s (%s)\n", path, lmn_status_text(status), error.file, error.line, error.message,
                error.hint);
@@ -68,7 +70,7 @@ static int load(const char *path, bool timed, bool json)
 int main(int count, char **arguments)
 {
     bool timed = false, json = false;
-    int failed = 0;
+    int  failed = 0;
     for (int i = 1; i < count; i++) {
         if (strcmp(arguments[i], "-t") == 0)
             timed = true;

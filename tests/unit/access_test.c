@@ -1,4 +1,5 @@
-/* Files that a model names: which it may have, and the host that serves them itself. Pictures of each kind, and each kind of refusal. */
+/* Files that a model names: which it may have, and the host that serves them itself. Pictures of each kind, and
+ * each kind of refusal. */
 #include "import_support.h"
 
 #include <sys/stat.h>
@@ -29,14 +30,20 @@ static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static int make_tree(void **state)
 {
     (void)state;
-    static const char *const folders[] = {"", "/models", "/models/own", "/models/own/deep", "/models/textures", "/models/.keys", "/far"};
+    static const char *const folders[] = {
+        "", "/models", "/models/own", "/models/own/deep", "/models/textures", "/models/.keys", "/far"};
     char path[256];
     snprintf(root, sizeof root, "%s", temp_folder());
     for (size_t i = 1; i < sizeof folders / sizeof *folders; i++) {
         snprintf(path, sizeof path, "%s%s", root, folders[i]);
         assert_int_equal(mkdir(path, 0700), 0);
     }
-    static const char *const files[] = {"models/own/near.bin", "models/own/deep/deep.bin", "models/textures/beside.bin", "models/.keys/hidden.bin", "far/far.bin", "top.bin"};
+    static const char *const files[] = {"models/own/near.bin",
+                                        "models/own/deep/deep.bin",
+                                        "models/textures/beside.bin",
+                                        "models/.keys/hidden.bin",
+                                        "far/far.bin",
+                                        "top.bin"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         make(files[i], triangle, sizeof triangle);
     snprintf(path, sizeof path, "%s/models/own/link.bin", root);
@@ -53,10 +60,11 @@ static lmn_status load_with_buffer(const char *uri, lmn_file_access files, const
              "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
              "\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
              "\"accessors\":[{\"bufferView\":0,\"count\":3,\"componentType\":5126,\"type\":\"VEC3\"}],"
-             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]}", uri);
+             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]}",
+             uri);
     make("models/own/model.gltf", json, strlen(json));
     snprintf(path, sizeof path, "%s/models/own/model.gltf", root);
-    lmn_task *task;
+    lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.files = files;
     desc.allow_paths = &allowed;
@@ -74,13 +82,23 @@ static void models_read_their_neighbours_alone(void **state)
         const char *uri;
         bool        near, folder; /* allowed then */
     } rows[] = {
-        {"near.bin", true, true}, {"./deep/../near.bin", true, true}, {"deep/deep.bin", true, true}, {"inward.bin", true, true},
-        {"../textures/beside.bin", true, false}, {"%2e%2e/textures/beside.bin", true, false}, {"../own/near.bin", true, true},
-        {"../.keys/hidden.bin", false, false}, {"../../far/far.bin", false, false}, {"../../top.bin", false, false}, {"link.bin", false, false},
-        {"deep/../../../top.bin", false, false}, {"/etc/passwd", false, false}, {"../../../../../../../../etc/passwd", false, false},
+        {"near.bin", true, true},
+        {"./deep/../near.bin", true, true},
+        {"deep/deep.bin", true, true},
+        {"inward.bin", true, true},
+        {"../textures/beside.bin", true, false},
+        {"%2e%2e/textures/beside.bin", true, false},
+        {"../own/near.bin", true, true},
+        {"../.keys/hidden.bin", false, false},
+        {"../../far/far.bin", false, false},
+        {"../../top.bin", false, false},
+        {"link.bin", false, false},
+        {"deep/../../../top.bin", false, false},
+        {"/etc/passwd", false, false},
+        {"../../../../../../../../etc/passwd", false, false},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lmn_error error;
+        lmn_error  error;
         lmn_status status = load_with_buffer(rows[i].uri, LMN_FILES_NEAR, NULL, &error);
         if ((status == LMN_OK) != rows[i].near)
             print_error("%s: %s\n", rows[i].uri, error.message);
@@ -108,10 +126,10 @@ static void odd_paths_are_refused_at_once(void **state)
 {
     (void)state;
     static const char *const folders[] = {".", "..", "../", "../.", "deep/../..", "../own/.."};
-    lmn_error error;
+    lmn_error                error;
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
         assert_int_equal(load_with_buffer(folders[i], LMN_FILES_NEAR, NULL, &error), LMN_READ);
-    lmn_task *task;
+    lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     assert_int_equal(lmn_task_begin(&task, &desc, NULL), LMN_OK);
     enum { PARTS = 20000 };
@@ -147,10 +165,12 @@ static bool serve(const char *path, const char *what, void **bytes, size_t *size
         memcpy(*bytes, triangle, *size = sizeof triangle);
         return true;
     }
-    static const char json[] = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
-                               "\"buffers\":[{\"byteLength\":36,\"uri\":\"../../../nowhere.bin\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-                               "\"accessors\":[{\"bufferView\":0,\"count\":3,\"componentType\":5126,\"type\":\"VEC3\"}],"
-                               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]}";
+    static const char json[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"../../../"
+        "nowhere.bin\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"count\":3,\"componentType\":5126,\"type\":\"VEC3\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]}";
     if (strcmp(path, "/nowhere/model.gltf") != 0)
         return false;
     *bytes = lmn_file_alloc(strlen(json));
@@ -161,9 +181,9 @@ static bool serve(const char *path, const char *what, void **bytes, size_t *size
 static void hosts_serve_files(void **state)
 {
     (void)state;
-    lmn_task *task;
-    lmn_error error;
-    int served = 0;
+    lmn_task     *task;
+    lmn_error     error;
+    int           served = 0;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.read_file = serve;
     desc.read_user = &served;
@@ -174,7 +194,7 @@ static void hosts_serve_files(void **state)
     lmn_task_end(&task);
 }
 
-/* --- pictures --------------------------------------------------------------------------------------------------------------------- */
+/* --- pictures ------------------------------------------------------------------------------------------- */
 
 enum { SIDE = 16 };
 
@@ -190,8 +210,8 @@ static void fill(uint8_t *pixels, int channels)
 
 static void pack_png(void)
 {
-    uint8_t pixels[SIDE * SIDE * 4];
-    png_image png = {.version = PNG_IMAGE_VERSION, .width = SIDE, .height = SIDE, .format = PNG_FORMAT_RGBA};
+    uint8_t          pixels[SIDE * SIDE * 4];
+    png_image        png = {.version = PNG_IMAGE_VERSION, .width = SIDE, .height = SIDE, .format = PNG_FORMAT_RGBA};
     png_alloc_size_t size = sizeof packed;
     fill(pixels, 4);
     assert_true(png_image_write_to_memory(&png, packed, &size, 0, pixels, 0, NULL) != 0);
@@ -201,11 +221,11 @@ static void pack_png(void)
 /* `inks`: four channels, as Adobe's programs write them when there is an Adobe marker. */
 static void pack_jpeg(bool inks, bool adobe)
 {
-    uint8_t pixels[SIDE * SIDE * 4];
+    uint8_t                     pixels[SIDE * SIDE * 4];
     struct jpeg_compress_struct c;
-    struct jpeg_error_mgr manager;
-    unsigned char *out = NULL;
-    unsigned long size = 0;
+    struct jpeg_error_mgr       manager;
+    unsigned char              *out = NULL;
+    unsigned long               size = 0;
     c.err = jpeg_std_error(&manager);
     jpeg_create_compress(&c);
     jpeg_mem_dest(&c, &out, &size);
@@ -245,10 +265,10 @@ static void pack_webp(void)
 static void refuse_all_cuts(bool ends_matter)
 {
     for (size_t size = 0; size < packed_size; size += size < 64 ? 1 : packed_size / 23 + 1) {
-        image_pixels p = {.width = 7, .height = 7, .rgba = (uint8_t *)(uintptr_t)0x10, .halved = 3};
-        lmn_error error = {0};
+        image_pixels   p = {.width = 7, .height = 7, .rgba = (uint8_t *)(uintptr_t)0x10, .halved = 3};
+        lmn_error      error = {0};
         unsigned char *copy = mem_copy(packed, size);
-        lmn_status status = image_read(&p, copy, size, 0, &error);
+        lmn_status     status = image_read(&p, copy, size, 0, &error);
         mem_free(copy);
         if (status == LMN_OK) {
             assert_true(!ends_matter || size + 16 > packed_size); /* the mark at the end of a PNG may be missing */
@@ -264,7 +284,7 @@ static void refuse_all_cuts(bool ends_matter)
 
 static void each_decoder_refuses(bool in_process)
 {
-    lmn_task *task;
+    lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.in_process = in_process;
     assert_int_equal(lmn_task_begin(&task, &desc, NULL), LMN_OK);
@@ -321,12 +341,13 @@ static void four_inks_are_light(void **state)
 {
     (void)state;
     for (int adobe = 0; adobe < 2; adobe++) {
-        const int stored[4] = {200, 100, 50, 128};
+        const int    stored[4] = {200, 100, 50, 128};
         image_pixels p = {0};
         pack_jpeg(true, adobe);
         assert_int_equal(image_read(&p, packed, packed_size, 0, NULL), LMN_OK);
         for (int k = 0; k < 3; k++) {
-            int through = adobe ? stored[k] : 255 - stored[k], black = adobe ? stored[3] : 255 - stored[3], wanted = through * black / 255;
+            int through = adobe ? stored[k] : 255 - stored[k], black = adobe ? stored[3] : 255 - stored[3],
+                wanted = through * black / 255;
             assert_in_range(p.rgba[k] + 3, wanted, wanted + 6);
         }
         assert_int_equal(p.rgba[3], 255);
@@ -360,8 +381,13 @@ static void halving_is_in_linear_light(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models_read_their_neighbours_alone), cmocka_unit_test(odd_paths_are_refused_at_once), cmocka_unit_test(refusals_do_not_tell_what_exists), cmocka_unit_test(hosts_serve_files),
-        cmocka_unit_test(decoders_refuse_behind_the_fence), cmocka_unit_test(decoders_refuse_in_process), cmocka_unit_test(four_inks_are_light),
+        cmocka_unit_test(models_read_their_neighbours_alone),
+        cmocka_unit_test(odd_paths_are_refused_at_once),
+        cmocka_unit_test(refusals_do_not_tell_what_exists),
+        cmocka_unit_test(hosts_serve_files),
+        cmocka_unit_test(decoders_refuse_behind_the_fence),
+        cmocka_unit_test(decoders_refuse_in_process),
+        cmocka_unit_test(four_inks_are_light),
         cmocka_unit_test(halving_is_in_linear_light),
     };
     return cmocka_run_group_tests(tests, make_tree, remove_temp_folder);

@@ -1,5 +1,5 @@
-/* examples/cloister.glb, examples/store.glb and examples/blocks.glb are what they say: closed shells the right way round, nothing in the air, and no
- * two parts with a face in one plane, which would flicker. */
+/* examples/cloister.glb, examples/store.glb and examples/blocks.glb are what they say: closed shells the right way
+ * round, nothing in the air, and no two parts with a face in one plane, which would flicker. */
 #include <math.h>
 
 #include "closed_parts.h"
@@ -65,14 +65,16 @@ static void grow_shell(shell *s, const face *f)
             s->high[k] = fmax(s->high[k], f->corners[i].at[k]);
         }
     s->volume +=
-        (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+        (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) /
+        6;
 }
 
 /* Adds a part's faces, and its shells: triangles that share corners. */
 static void add_part(building *b, size_t index, const mat4 *world)
 {
     const primitive *p = b->scene->meshes[b->scene->nodes[b->scene->parts[index].node].mesh].primitives;
-    uint32_t *parents = mem_alloc(p->vertex_count * sizeof *parents), *shells = mem_calloc(p->vertex_count, sizeof *shells);
+    uint32_t        *parents = mem_alloc(p->vertex_count * sizeof *parents),
+             *shells = mem_calloc(p->vertex_count, sizeof *shells);
     assert_true(parents && shells);
     for (uint32_t i = 0; i < p->vertex_count; i++)
         parents[i] = i;
@@ -91,8 +93,8 @@ static void add_part(building *b, size_t index, const mat4 *world)
         for (int c = 0; c < 3; c++) {
             vec3 v = p->positions[p->indices[i + (uint32_t)c]];
             for (int k = 0; k < 3; k++)
-                f->corners[c].at[k] = world->m[k] * (double)v.x + world->m[4 + k] * (double)v.y + world->m[8 + k] * (double)v.z +
-                                      world->m[12 + k];
+                f->corners[c].at[k] = world->m[k] * (double)v.x + world->m[4 + k] * (double)v.y +
+                                      world->m[8 + k] * (double)v.z + world->m[12 + k];
         }
         finish_face(f);
         grow_shell(&b->shells[f->shell], f);
@@ -104,7 +106,8 @@ static void add_part(building *b, size_t index, const mat4 *world)
 static int load_buildings(void **state)
 {
     static const char *const paths[BUILDINGS] = {LIMNER_SOURCE_DIR "/examples/cloister.glb",
-                                                 LIMNER_SOURCE_DIR "/examples/store.glb", LIMNER_SOURCE_DIR "/examples/blocks.glb"};
+                                                 LIMNER_SOURCE_DIR "/examples/store.glb",
+                                                 LIMNER_SOURCE_DIR "/examples/blocks.glb"};
     (void)state;
     for (int i = 0; i < BUILDINGS; i++) {
         building *b = &buildings[i];
@@ -148,8 +151,9 @@ static void have_their_parts(void **state)
     static const char *const store[] = {"slabs",  "columns",        "glass ground", "mullions", "fins",
                                         "canopy", "canopy columns", "escalators",   "railing",  "plant room",
                                         "sign",   "pavement",       "tree 1",       "tree 2",   "people"};
-    static const char *const blocks[] = {"house 1", "tower 8", "house 97", "roofs 1", "roofs 10", "windows 1", "windows 10", "ground", "pavements", "lamp 1",
-                                         "tree 1", "church", "church roofs", "church openings"};
+    static const char *const blocks[] = {"house 1",   "tower 8",    "house 97",     "roofs 1",        "roofs 10",
+                                         "windows 1", "windows 10", "ground",       "pavements",      "lamp 1",
+                                         "tree 1",    "church",     "church roofs", "church openings"};
     (void)state;
     assert_has_parts(buildings[CLOISTER].scene, cloister, sizeof cloister / sizeof *cloister);
     assert_has_parts(buildings[STORE].scene, store, sizeof store / sizeof *store);
@@ -220,7 +224,8 @@ static int compare_faces(const void *a, const void *b)
     return (x->distance > y->distance) - (x->distance < y->distance);
 }
 
-/* Whether some edge of one triangle has all of the other beyond it, seen along an axis; `within` lets that much overlap pass. */
+/* Whether some edge of one triangle has all of the other beyond it, seen along an axis; `within` lets that much
+ * overlap pass. */
 static bool parted(const face *f, const face *g, int u, int v, double within)
 {
     for (int e = 0; e < 3; e++) {
@@ -264,12 +269,13 @@ static void no_faces_share_a_plane(void **state)
                 if (memcmp(f->key, g->key, sizeof f->key) != 0 || g->distance - f->distance > 0.02)
                     break;
                 int u = (axis + 1) % 3, v = (axis + 2) % 3;
-                if (f->part == g->part || !in_plane_of(f, g, apart) || parted(f, g, u, v, within) || parted(g, f, u, v, within))
+                if (f->part == g->part || !in_plane_of(f, g, apart) || parted(f, g, u, v, within) ||
+                    parted(g, f, u, v, within))
                     continue;
                 if (wrong++ < 40)
                     print_error("%s, %s: at %g %g %g and %g %g %g\n", b->scene->parts[f->part].name,
-                                b->scene->parts[g->part].name, f->corners[0].at[0], f->corners[0].at[1], f->corners[0].at[2],
-                                g->corners[0].at[0], g->corners[0].at[1], g->corners[0].at[2]);
+                                b->scene->parts[g->part].name, f->corners[0].at[0], f->corners[0].at[1],
+                                f->corners[0].at[2], g->corners[0].at[0], g->corners[0].at[1], g->corners[0].at[2]);
             }
         }
     }
@@ -279,8 +285,9 @@ static void no_faces_share_a_plane(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(have_their_parts), cmocka_unit_test(parts_are_closed),       cmocka_unit_test(shells_enclose_material),
-        cmocka_unit_test(nothing_floats),   cmocka_unit_test(no_faces_share_a_plane),
+        cmocka_unit_test(have_their_parts),        cmocka_unit_test(parts_are_closed),
+        cmocka_unit_test(shells_enclose_material), cmocka_unit_test(nothing_floats),
+        cmocka_unit_test(no_faces_share_a_plane),
     };
     return cmocka_run_group_tests(tests, load_buildings, unload_buildings);
 }

@@ -1,4 +1,5 @@
-/* Modified butterfly subdivision against stencils written out by hand, and what must not change: given vertices, sharp edges, flat faces. Row OE-09. */
+/* Modified butterfly subdivision against stencils written out by hand, and what must not change: given vertices,
+ * sharp edges, flat faces. Row OE-09. */
 #include "field_shapes.h"
 
 #include "stroke/butterfly.h"
@@ -8,7 +9,9 @@ typedef uint32_t corners3[3];
 static butterfly refine(const primitive *p, const uint8_t *sharp, int steps)
 {
     butterfly b;
-    assert_int_equal(butterfly_refine(&b, p->positions, p->vertex_count, (const corners3 *)p->indices, p->index_count / 3, sharp, steps, NULL), LMN_OK);
+    assert_int_equal(butterfly_refine(&b, p->positions, p->vertex_count, (const corners3 *)p->indices,
+                                      p->index_count / 3, sharp, steps, NULL),
+                     LMN_OK);
     return b;
 }
 
@@ -23,7 +26,7 @@ static vec3 middle_of(const butterfly *b, uint32_t from, uint32_t to)
     for (uint32_t h = 0; h < 3 * b->levels[0].face_count; h++) {
         uint32_t p = b->levels[0].faces[h / 3][h % 3], q = b->levels[0].faces[h / 3][(h + 1) % 3];
         if ((p == from && q == to) || (p == to && q == from)) {
-            uint32_t first = half_edge_first(h), second = half_edge_second(h);
+            uint32_t               first = half_edge_first(h), second = half_edge_second(h);
             const butterfly_level *l = &b->levels[1];
             assert_int_equal(l->faces[first / 3][first % 3], p);
             assert_int_equal(l->faces[second / 3][(second + 1) % 3], q);
@@ -52,26 +55,35 @@ static place3 flat_at(double u, double v)
     return (place3){u, v, 0};
 }
 
-/* All vertices of a torus of triangles have six neighbours. Whole numbers as places: the shares are sixteenths, so that all sums are exact. */
+/* All vertices of a torus of triangles have six neighbours. Whole numbers as places: the shares are sixteenths, so
+ * that all sums are exact. */
 static void the_regular_stencil_is_exact(void **state)
 {
     (void)state;
     primitive p = grid_surface(flat_at, SIDE, SIDE, true, true, 0);
     for (uint32_t v = 0; v < p.vertex_count; v++)
-        p.positions[v] = (vec3){floorf((float)(1000 * hashed(3 * v))), floorf((float)(1000 * hashed(3 * v + 1))), floorf((float)(1000 * hashed(3 * v + 2)))};
-    butterfly b = refine(&p, NULL, 1);
-    static const int ways[3][4] = {{1, 0, 1, 1}, {1, 1, 0, 1}, {0, 1, -1, 0}}; /* an edge and the next one to its left */
+        p.positions[v] = (vec3){floorf((float)(1000 * hashed(3 * v))), floorf((float)(1000 * hashed(3 * v + 1))),
+                                floorf((float)(1000 * hashed(3 * v + 2)))};
+    butterfly        b = refine(&p, NULL, 1);
+    static const int ways[3][4] = {
+        {1, 0, 1, 1}, {1, 1, 0, 1}, {0, 1, -1, 0}}; /* an edge and the next one to its left */
     for (int j = 0; j < SIDE; j++)
         for (int i = 0; i < SIDE; i++)
             for (int w = 0; w < 3; w++) {
-                int ux = ways[w][0], uy = ways[w][1], wx = ways[w][2], wy = ways[w][3];
+                int  ux = ways[w][0], uy = ways[w][1], wx = ways[w][2], wy = ways[w][3];
                 vec3 ends[2] = {lattice(&p, i, j), lattice(&p, i + ux, j + uy)};
                 vec3 sides[2] = {lattice(&p, i + wx, j + wy), lattice(&p, i + ux - wx, j + uy - wy)};
-                vec3 wings[4] = {lattice(&p, i + wx - ux, j + wy - uy), lattice(&p, i + wx + ux, j + wy + uy), lattice(&p, i - wx, j - wy),
-                                 lattice(&p, i + 2 * ux - wx, j + 2 * uy - wy)};
-                vec3 wanted = {(8 * (ends[0].x + ends[1].x) + 2 * (sides[0].x + sides[1].x) - (wings[0].x + wings[1].x + wings[2].x + wings[3].x)) / 16,
-                               (8 * (ends[0].y + ends[1].y) + 2 * (sides[0].y + sides[1].y) - (wings[0].y + wings[1].y + wings[2].y + wings[3].y)) / 16,
-                               (8 * (ends[0].z + ends[1].z) + 2 * (sides[0].z + sides[1].z) - (wings[0].z + wings[1].z + wings[2].z + wings[3].z)) / 16};
+                vec3 wings[4] = {lattice(&p, i + wx - ux, j + wy - uy), lattice(&p, i + wx + ux, j + wy + uy),
+                                 lattice(&p, i - wx, j - wy), lattice(&p, i + 2 * ux - wx, j + 2 * uy - wy)};
+                vec3 wanted = {(8 * (ends[0].x + ends[1].x) + 2 * (sides[0].x + sides[1].x) -
+                                (wings[0].x + wings[1].x + wings[2].x + wings[3].x)) /
+                                   16,
+                               (8 * (ends[0].y + ends[1].y) + 2 * (sides[0].y + sides[1].y) -
+                                (wings[0].y + wings[1].y + wings[2].y + wings[3].y)) /
+                                   16,
+                               (8 * (ends[0].z + ends[1].z) + 2 * (sides[0].z + sides[1].z) -
+                                (wings[0].z + wings[1].z + wings[2].z + wings[3].z)) /
+                                   16};
                 assert_true(same_place(middle_of(&b, lattice_number(i, j), lattice_number(i + ux, j + uy)), wanted));
             }
     butterfly_release(&b);
@@ -93,7 +105,7 @@ static primitive disc(uint32_t k)
     for (uint32_t r = 0; r < 3; r++)
         for (uint32_t s = 0; s < k; s++)
             for (uint32_t i = 0; i <= r; i++) {
-                uint32_t inner = ring_vertex(k, r, s * r + i), out = s * (r + 1) + i;
+                uint32_t       inner = ring_vertex(k, r, s * r + i), out = s * (r + 1) + i;
                 const uint32_t outward[3] = {inner, ring_vertex(k, r + 1, out), ring_vertex(k, r + 1, out + 1)};
                 memcpy(&p.indices[at], outward, sizeof outward);
                 at += 3;
@@ -119,8 +131,10 @@ static void other_vertices_have_stencils_of_their_own(void **state)
         for (uint32_t to = 0; to < k; to++) {
             double sum[3] = {0.75 * p.positions[0].x, 0.75 * p.positions[0].y, 0.75 * p.positions[0].z};
             for (uint32_t j = 0; j < k; j++) {
-                vec3 q = p.positions[1 + (to + j) % k];
-                double share = k == 3 ? three[j] / 12 : k == 4 ? four[j] / 8 : (0.25 + cos(2 * field_pi * j / k) + 0.5 * cos(4 * field_pi * j / k)) / k;
+                vec3   q = p.positions[1 + (to + j) % k];
+                double share = k == 3   ? three[j] / 12
+                               : k == 4 ? four[j] / 8
+                                        : (0.25 + cos(2 * field_pi * j / k) + 0.5 * cos(4 * field_pi * j / k)) / k;
                 sum[0] += share * q.x;
                 sum[1] += share * q.y;
                 sum[2] += share * q.z;
@@ -159,8 +173,9 @@ static void given_vertices_stay(void **state)
 
 static primitive cube(void)
 {
-    static const uint32_t faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    primitive p = empty_primitive(8, 36);
+    static const uint32_t faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                          {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    primitive             p = empty_primitive(8, 36);
     for (uint32_t v = 0; v < 8; v++)
         p.positions[v] = (vec3){v & 1 ? 1 : -1, v & 2 ? 1 : -1, v & 4 ? 1 : -1};
     memcpy(p.indices, faces, sizeof faces);
@@ -172,12 +187,12 @@ static void a_cube_with_sharp_edges_stays_a_cube(void **state)
 {
     (void)state;
     primitive p = cube();
-    uint8_t sharp[36];
+    uint8_t   sharp[36];
     for (uint32_t h = 0; h < 36; h++) {
         uint32_t differ = p.indices[h] ^ p.indices[h % 3 == 2 ? h - 2 : h + 1];
         sharp[h] = (differ & (differ - 1)) == 0;
     }
-    butterfly b = refine(&p, sharp, 3);
+    butterfly              b = refine(&p, sharp, 3);
     const butterfly_level *l = &b.levels[3];
     for (uint32_t v = 0; v < l->vertex_count; v++) {
         vec3 q = b.places[v];
@@ -186,7 +201,8 @@ static void a_cube_with_sharp_edges_stays_a_cube(void **state)
     uint32_t sharp_edges = 0;
     for (uint32_t h = 0; h < 3 * l->face_count; h++) {
         vec3 a = b.places[l->faces[h / 3][h % 3]], c = b.places[l->faces[h / 3][(h + 1) % 3]];
-        int shared = (fabsf(a.x) == 1 && a.x == c.x) + (fabsf(a.y) == 1 && a.y == c.y) + (fabsf(a.z) == 1 && a.z == c.z);
+        int  shared =
+            (fabsf(a.x) == 1 && a.x == c.x) + (fabsf(a.y) == 1 && a.y == c.y) + (fabsf(a.z) == 1 && a.z == c.z);
         assert_int_equal(l->sharp[h], shared == 2); /* sharp edges are those that lie on two sides of the cube */
         sharp_edges += l->sharp[h];
     }
@@ -201,14 +217,20 @@ enum { SLICES = 12 };
 static primitive cylinder(uint8_t *sharp)
 {
     primitive p = empty_primitive(3 * SLICES + 2, 3 * 6 * SLICES);
-    uint32_t at = 0;
+    uint32_t  at = 0;
     for (uint32_t i = 0; i < 3 * SLICES; i++)
-        p.positions[i] = (vec3){(float)cos(2 * field_pi * i / SLICES), (float)sin(2 * field_pi * i / SLICES), (float)(i / SLICES)};
+        p.positions[i] =
+            (vec3){(float)cos(2 * field_pi * i / SLICES), (float)sin(2 * field_pi * i / SLICES), (float)(i / SLICES)};
     p.positions[3 * SLICES] = (vec3){0, 0, 0};
     p.positions[3 * SLICES + 1] = (vec3){0, 0, 2};
     for (uint32_t i = 0; i < SLICES; i++) {
-        uint32_t a = i, c = (i + 1) % SLICES, s = SLICES;
-        const uint32_t faces[6][3] = {{3 * s, c, a}, {a, c, c + s}, {a, c + s, a + s}, {a + s, c + s, c + 2 * s}, {a + s, c + 2 * s, a + 2 * s}, {3 * s + 1, a + 2 * s, c + 2 * s}};
+        uint32_t       a = i, c = (i + 1) % SLICES, s = SLICES;
+        const uint32_t faces[6][3] = {{3 * s, c, a},
+                                      {a, c, c + s},
+                                      {a, c + s, a + s},
+                                      {a + s, c + s, c + 2 * s},
+                                      {a + s, c + 2 * s, a + 2 * s},
+                                      {3 * s + 1, a + 2 * s, c + 2 * s}};
         memcpy(&p.indices[at], faces, sizeof faces);
         at += 18;
     }
@@ -222,12 +244,12 @@ static primitive cylinder(uint8_t *sharp)
 static void a_rim_becomes_round_and_caps_stay_flat(void **state)
 {
     (void)state;
-    uint8_t sharp[18 * SLICES];
-    primitive p = cylinder(sharp);
-    butterfly b = refine(&p, sharp, 3);
+    uint8_t                sharp[18 * SLICES];
+    primitive              p = cylinder(sharp);
+    butterfly              b = refine(&p, sharp, 3);
     const butterfly_level *l = &b.levels[3];
-    uint32_t rim = 0;
-    double most = 0;
+    uint32_t               rim = 0;
+    double                 most = 0;
     for (uint32_t h = 0; h < 3 * l->face_count; h++) {
         if (!l->sharp[h])
             continue;
@@ -248,14 +270,14 @@ static void a_rim_becomes_round_and_caps_stay_flat(void **state)
 static void sides_of_sharp_edges_do_not_know_each_other(void **state)
 {
     (void)state;
-    uint8_t sharp[18 * SLICES];
+    uint8_t   sharp[18 * SLICES];
     primitive p = cylinder(sharp);
     butterfly before = refine(&p, sharp, 2);
     p.positions[3 * SLICES].z = -7;
     p.positions[3 * SLICES + 1].x = 3;
-    butterfly after = refine(&p, sharp, 2);
+    butterfly              after = refine(&p, sharp, 2);
     const butterfly_level *l = &before.levels[2];
-    uint32_t same = 0;
+    uint32_t               same = 0;
     for (uint32_t f = 0; f < l->face_count; f++) {
         uint32_t k = f / 16 % 6;
         for (int c = 0; c < 3 && k >= 1 && k <= 4; c++, same++)
@@ -281,7 +303,7 @@ static void a_flat_sheet_stays_flat_and_keeps_its_corners(void **state)
         vec3 q = b.places[v];
         assert_true(fabsf(q.z - q.x / 4) < 1e-6f && q.x >= 0 && q.x <= 4 && q.y >= 0 && q.y <= 4);
     }
-    double area = 0;
+    double                 area = 0;
     const butterfly_level *l = &b.levels[3];
     for (uint32_t f = 0; f < l->face_count; f++) {
         vec3 a = b.places[l->faces[f][0]], c = b.places[l->faces[f][1]], d = b.places[l->faces[f][2]];
@@ -292,23 +314,28 @@ static void a_flat_sheet_stays_flat_and_keeps_its_corners(void **state)
     primitive_release(&p);
 }
 
-/* An octahedron's edges have their middles at 5/8: 3/4 and 1/2 from one end's ring, 1/2 and 3/4 from the other's. What comes of it is rounder than it was. */
+/* An octahedron's edges have their middles at 5/8: 3/4 and 1/2 from one end's ring, 1/2 and 3/4 from the other's.
+ * What comes of it is rounder than it was. */
 static void a_coarse_sphere_becomes_rounder(void **state)
 {
     (void)state;
-    primitive p = empty_primitive(6, 24);
-    static const float at[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    static const uint32_t faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    primitive             p = empty_primitive(6, 24);
+    static const float    at[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    static const uint32_t faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                         {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     memcpy(p.positions, at, sizeof at);
     memcpy(p.indices, faces, sizeof faces);
     butterfly b = refine(&p, NULL, 4);
     for (uint32_t v = 6; v < 18; v++) {
         vec3 q = b.places[v];
-        assert_true(fmaxf(fmaxf(fabsf(q.x), fabsf(q.y)), fabsf(q.z)) == 0.625f && fabsf(q.x) + fabsf(q.y) + fabsf(q.z) == 1.25f);
+        assert_true(fmaxf(fmaxf(fabsf(q.x), fabsf(q.y)), fabsf(q.z)) == 0.625f &&
+                    fabsf(q.x) + fabsf(q.y) + fabsf(q.z) == 1.25f);
     }
     double most = 0;
     for (uint32_t v = 0; v < b.levels[4].vertex_count; v++)
-        most = fmax(most, fabs(sqrt((double)b.places[v].x * b.places[v].x + (double)b.places[v].y * b.places[v].y + (double)b.places[v].z * b.places[v].z) - 1));
+        most = fmax(most, fabs(sqrt((double)b.places[v].x * b.places[v].x + (double)b.places[v].y * b.places[v].y +
+                                    (double)b.places[v].z * b.places[v].z) -
+                               1));
     printf("an octahedron after 4 steps: within %.3f of its sphere\n", most);
     assert_true(most < 0.21); /* its own faces are off by 0.42 */
     butterfly_release(&b);
@@ -319,7 +346,7 @@ static void a_coarse_sphere_becomes_rounder(void **state)
 static void barely_meshes_have_no_cracks(void **state)
 {
     (void)state;
-    primitive p = empty_primitive(9, 15);
+    primitive             p = empty_primitive(9, 15);
     static const uint32_t faces[5][3] = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 2, 5}, {6, 7, 8}};
     memcpy(p.indices, faces, sizeof faces);
     for (uint32_t v = 0; v < 9; v++)
@@ -351,10 +378,10 @@ static void too_much_is_refused(void **state)
 static void memory_may_run_out(void **state)
 {
     (void)state;
-    primitive p = cube();
-    butterfly b;
+    primitive  p = cube();
+    butterfly  b;
     lmn_status status = LMN_MEMORY;
-    long n = 1;
+    long       n = 1;
     for (; status != LMN_OK && n < 100; n++) {
         mem_fail_at(n);
         status = butterfly_refine(&b, p.positions, p.vertex_count, (const corners3 *)p.indices, 12, NULL, 2, NULL);

@@ -16,7 +16,7 @@ static inline void assert_closed(const lmn_scene *scene)
     for (size_t i = 0; i < scene->mesh_count; i++) {
         assert_int_equal(scene->meshes[i].primitive_count, 1);
         const primitive *p = scene->meshes[i].primitives;
-        uint64_t *edges = mem_alloc(2 * p->index_count * sizeof *edges), *back = edges + p->index_count;
+        uint64_t        *edges = mem_alloc(2 * p->index_count * sizeof *edges), *back = edges + p->index_count;
         assert_non_null(edges);
         for (uint32_t k = 0; k < p->index_count; k++) {
             uint64_t from = p->indices[k], to = p->indices[k % 3 == 2 ? k - 2 : k + 1];

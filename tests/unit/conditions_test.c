@@ -1,5 +1,5 @@
-/* Every condition that a kind or a technique states names parameters and values that exist where it is looked up: one that is
- * misspelt would never hold, and nothing would say so. */
+/* Every condition that a kind or a technique states names parameters and values that exist where it is looked up:
+ * one that is misspelt would never hold, and nothing would say so. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,8 @@ static void check_own(walk *w, const char *of, const char *condition)
     check(w, of, condition, w->technique->params, w->technique->param_count);
 }
 
-/* Of the kind's common parameters or of the technique's own ones, never of both: pass_applies looks them up in one table. */
+/* Of the kind's common parameters or of the technique's own ones, never of both: pass_applies looks them up in one
+ * table. */
 static void check_pass(walk *w, const pass *p)
 {
     const kind *k = w->kind;
@@ -107,7 +108,8 @@ static void test_every_technique_has_the_row_of_its_kind(void **state)
         for (size_t n = 0; n < kinds[i]->technique_count; n++) {
             const technique *t = kinds[i]->techniques[n];
             const kind_id    id = kinds[i]->id;
-            if (!t->surface != (id != KIND_SURFACE) || !t->lines != (id != KIND_LINES) || !t->compose != (id != KIND_COMPOSE) || !t->layers != (id != KIND_LAYERS) ||
+            if (!t->surface != (id != KIND_SURFACE) || !t->lines != (id != KIND_LINES) ||
+                !t->compose != (id != KIND_COMPOSE) || !t->layers != (id != KIND_LAYERS) ||
                 !t->perturbs != (id != KIND_PERTURB))
                 fail_msg("%s '%s' lacks the row of its kind, or has another's", kinds[i]->name, t->name);
             assert_true(id != KIND_SURFACE || t->surface->shader);
@@ -117,6 +119,7 @@ static void test_every_technique_has_the_row_of_its_kind(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_condition), cmocka_unit_test(test_every_technique_has_the_row_of_its_kind)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_condition),
+                                       cmocka_unit_test(test_every_technique_has_the_row_of_its_kind)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
-/* Regions from numbers, set operations, offsets, extrusions. The counts, areas and coordinates are OpenSCAD 2021.01's. */
+/* Regions from numbers, set operations, offsets, extrusions. The counts, areas and coordinates are OpenSCAD
+ * 2021.01's. */
 #include "construct_shapes.h"
 
-/* --- plain regions ---------------------------------------------------------------------------------------------------- */
+/* --- plain regions -------------------------------------------------------------------------------------- */
 
 static void squares_and_circles(void **state)
 {
@@ -54,9 +55,10 @@ static void polygons_are_even_odd(void **state)
 static void polygons_of_several_paths(void **state)
 {
     (void)state;
-    const point2 points[] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {2, 2}, {4, 2}, {4, 4}, {2, 4}, {3, 3}, {6, 3}, {6, 6}, {3, 6}};
-    uint32_t corners[12];
-    region r;
+    const point2 points[] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {2, 2}, {4, 2},
+                             {4, 4}, {2, 4},  {3, 3},   {6, 3},  {6, 6}, {3, 6}};
+    uint32_t     corners[12];
+    region       r;
     for (uint32_t i = 0; i < 12; i++)
         corners[i] = i;
     assert_int_equal(construct_polygon(&r, points, 12, corners, (uint32_t[]){4, 4, 4}, 3, NULL), LMN_OK);
@@ -65,10 +67,11 @@ static void polygons_of_several_paths(void **state)
     assert_int_equal(construct_polygon(&r, points, 11, corners, (uint32_t[]){4, 4, 4}, 3, NULL), LMN_FORMAT);
     assert_int_equal(construct_polygon(&r, points, 12, corners, NULL, 0, NULL), LMN_OK);
     assert_region(&r, 0, 0, 0);
-    assert_int_equal(construct_polygon(&r, (point2[]){{0, 0}, {1, NAN}, {1, 1}}, 3, corners, (uint32_t[]){3}, 1, NULL), LMN_FORMAT);
+    assert_int_equal(construct_polygon(&r, (point2[]){{0, 0}, {1, NAN}, {1, 1}}, 3, corners, (uint32_t[]){3}, 1, NULL),
+                     LMN_FORMAT);
 }
 
-/* --- set operations ---------------------------------------------------------------------------------------------------- */
+/* --- set operations ------------------------------------------------------------------------------------- */
 
 static void set_operations_are_openscads(void **state)
 {
@@ -171,7 +174,7 @@ static void hulls_and_sums(void **state)
     }
 }
 
-/* --- offsets -------------------------------------------------------------------------------------------------------------- */
+/* --- offsets -------------------------------------------------------------------------------------------- */
 
 static void offsets_are_openscads(void **state)
 {
@@ -183,16 +186,19 @@ static void offsets_are_openscads(void **state)
         size_t contours, points;
         double area;
     } cases[] = {
-        {1, true, false, 0, 1, 11, 113.7092},   {1, true, false, 8, 1, 15, 114.4468},    {1, true, false, 50, 1, 69, 114.8854},
-        {1, false, false, 0, 1, 5, 119.0457},   {1, false, true, 0, 1, 9, 115.3801},     {-1, true, false, 0, 1, 7, 25.26035},
-        {-1, true, false, 50, 1, 20, 25.08826}, {-1, false, false, 0, 1, 5, 24.636285},  {-1, false, true, 0, 1, 6, 25.00703},
-        {-3, true, false, 12, 0, 0, 0},         {5, true, false, 3, 1, 11, 337.8273},    {5, true, false, 0, 1, 25, 365.3611},
+        {1, true, false, 0, 1, 11, 113.7092},   {1, true, false, 8, 1, 15, 114.4468},
+        {1, true, false, 50, 1, 69, 114.8854},  {1, false, false, 0, 1, 5, 119.0457},
+        {1, false, true, 0, 1, 9, 115.3801},    {-1, true, false, 0, 1, 7, 25.26035},
+        {-1, true, false, 50, 1, 20, 25.08826}, {-1, false, false, 0, 1, 5, 24.636285},
+        {-1, false, true, 0, 1, 6, 25.00703},   {-3, true, false, 12, 0, 0, 0},
+        {5, true, false, 3, 1, 11, 337.8273},   {5, true, false, 0, 1, 25, 365.3611},
         {0, true, false, 0, 1, 5, 65},          {-1e5, true, false, 12, 0, 0, 0},
     };
     region r, notched = test_notched();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facets f = {cases[i].fn, 12, 2};
-        assert_int_equal(region_offset(&r, &notched, cases[i].distance, cases[i].rounded, cases[i].chamfer, f, NULL), LMN_OK);
+        assert_int_equal(region_offset(&r, &notched, cases[i].distance, cases[i].rounded, cases[i].chamfer, f, NULL),
+                         LMN_OK);
         assert_region(&r, cases[i].contours, cases[i].points, cases[i].area);
         region_release(&r);
     }
@@ -218,7 +224,7 @@ static void sharp_corners_run_out(void **state)
     region_release(&wedge);
 }
 
-/* --- linear extrusion ------------------------------------------------------------------------------------------------- */
+/* --- linear extrusion ----------------------------------------------------------------------------------- */
 
 static void extrusions_are_openscads(void **state)
 {
@@ -242,7 +248,10 @@ static void extrusions_are_openscads(void **state)
         {{4, 0, {1, 9}, .facets = {20, 12, 2}}, 84, 164, 80},
         {{4, 0, {1, 9}, .facets = {0, 12, 2}}, 24, 44, 80},
         {{4, 0, {0, 1}, .facets = {0, 12, 2}}, 14, 24, 8},
-        {{4, 60, {0, 1}, .facets = {0, 12, 2}}, 16, 28, 8.5485530}, /* closed along the line; OpenSCAD's has a slit there */
+        {{4, 60, {0, 1}, .facets = {0, 12, 2}},
+         16,
+         28,
+         8.5485530}, /* closed along the line; OpenSCAD's has a slit there */
         {{4, 0, {0, 0}, .facets = {0, 12, 2}}, 5, 6, 16.0 / 3},
     };
     region square;
@@ -259,8 +268,8 @@ static void extrusions_of_other_outlines(void **state)
 {
     (void)state;
     linear_extrusion how = {2, 100, {1, 1}, .centre = true, .facets = plain};
-    region ring, pair[2] = {test_circle(0, 0, 5, 70), test_circle(1, 0.333333333, 3, 31)};
-    polyhedron p;
+    region           ring, pair[2] = {test_circle(0, 0, 5, 70), test_circle(1, 0.333333333, 3, 31)};
+    polyhedron       p;
     assert_int_equal(region_combine(&ring, pair, 2, REGION_DIFFERENCE, NULL), LMN_OK);
     assert_int_equal(construct_linear_extrude(&p, &ring, &how, NULL), LMN_OK);
     assert_watertight(&p);
@@ -282,9 +291,9 @@ static void extrusions_of_other_outlines(void **state)
 static void extrusions_of_touching_outlines_are_closed(void **state)
 {
     (void)state;
-    region united, pair[2] = {test_square(0, 0, 1), test_square(1, 1, 1)};
+    region     united, pair[2] = {test_square(0, 0, 1), test_square(1, 1, 1)};
     polyhedron p;
-    bool failed;
+    bool       failed;
     assert_int_equal(region_combine(&united, pair, 2, REGION_UNION, NULL), LMN_OK);
     assert_int_equal(construct_linear_extrude(&p, &united, &(linear_extrusion){1, 0, {1, 1}}, NULL), LMN_OK);
     assert_true(polyhedron_is_closed(&p, &failed));
@@ -299,7 +308,7 @@ static void extrusions_of_touching_outlines_are_closed(void **state)
 static void bad_extrusions_are_refused(void **state)
 {
     (void)state;
-    region square = test_square(0, 0, 1);
+    region     square = test_square(0, 0, 1);
     polyhedron p;
     assert_int_equal(construct_linear_extrude(&p, &square, &(linear_extrusion){-1, 0, {1, 1}}, NULL), LMN_OK);
     assert_empty(&p);
@@ -321,7 +330,7 @@ static void bad_extrusions_are_refused(void **state)
     region_release(&square);
 }
 
-/* --- rotating extrusion ----------------------------------------------------------------------------------------------- */
+/* --- rotating extrusion --------------------------------------------------------------------------------- */
 
 static void turns_are_openscads(void **state)
 {
@@ -331,19 +340,20 @@ static void turns_are_openscads(void **state)
         size_t points, triangles;
         double low_x, high_x, volume;
     } cases[] = {
-        {2, 360, 5, 20, 40, -3, 2.42705098, 23.776413},    {2, -400, 5, 20, 40, -3, 2.42705098, 23.776413},
-        {-3, 360, 6, 24, 48, -3, 3, 25.980762},            {2, 90, 8, 12, 20, 0, 3, 7.0710678},
-        {-3, -90, 8, 12, 20, -3, 0, 7.0710678},            {2, 45, 0, 8, 12, 1.41421356, 3, 3.5355339},
-        {0, 360, 5, 12, 20, -1, 0.80901699, 4.7552826},    {0, 90, 8, 8, 12, 0, 1, 1.4142136},
+        {2, 360, 5, 20, 40, -3, 2.42705098, 23.776413},  {2, -400, 5, 20, 40, -3, 2.42705098, 23.776413},
+        {-3, 360, 6, 24, 48, -3, 3, 25.980762},          {2, 90, 8, 12, 20, 0, 3, 7.0710678},
+        {-3, -90, 8, 12, 20, -3, 0, 7.0710678},          {2, 45, 0, 8, 12, 1.41421356, 3, 3.5355339},
+        {0, 360, 5, 12, 20, -1, 0.80901699, 4.7552826},  {0, 90, 8, 8, 12, 0, 1, 1.4142136},
         {2, 123.4, 0, 16, 28, -1.6514422, 3, 9.8672031},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        region square, moved;
+        region     square, moved;
         polyhedron p;
-        point3 low, high;
+        point3     low, high;
         assert_int_equal(construct_square(&square, (double[]){1, 2}, false, NULL), LMN_OK);
         assert_int_equal(region_transform(&moved, &square, (double[]){1, 0, 0, 1, cases[i].x, 0}, NULL), LMN_OK);
-        assert_int_equal(construct_rotate_extrude(&p, &moved, cases[i].angle, (facets){cases[i].fn, 12, 2}, NULL), LMN_OK);
+        assert_int_equal(construct_rotate_extrude(&p, &moved, cases[i].angle, (facets){cases[i].fn, 12, 2}, NULL),
+                         LMN_OK);
         assert_true(polyhedron_bounds(&p, &low, &high));
         assert_close(low.x, cases[i].low_x, 1e-5);
         assert_close(high.x, cases[i].high_x, 1e-5);
@@ -356,7 +366,7 @@ static void turns_are_openscads(void **state)
 static void bad_turns_are_refused(void **state)
 {
     (void)state;
-    region across = test_square(-1, 0, 2), beside = test_square(1, 0, 2);
+    region     across = test_square(-1, 0, 2), beside = test_square(1, 0, 2);
     polyhedron p;
     assert_int_equal(construct_rotate_extrude(&p, &across, 360, plain, NULL), LMN_FORMAT);
     assert_int_equal(construct_rotate_extrude(&p, &beside, NAN, plain, NULL), LMN_FORMAT);
@@ -375,12 +385,12 @@ static void bad_turns_are_refused(void **state)
     region_release(&beside);
 }
 
-/* --- from solids back to the plane ------------------------------------------------------------------------------------ */
+/* --- from solids back to the plane ---------------------------------------------------------------------- */
 
 static polyhedron solid_at(const polyhedron *from, double z)
 {
     polyhedron moved;
-    mat4 m = mat4_identity();
+    mat4       m = mat4_identity();
     m.m[14] = z;
     assert_int_equal(polyhedron_transform(&moved, from, &m, NULL), LMN_OK);
     return moved;
@@ -390,7 +400,7 @@ static void slices_are_openscads(void **state)
 {
     (void)state;
     polyhedron sphere, cube, p;
-    region r;
+    region     r;
     assert_int_equal(construct_sphere(&sphere, 5, (facets){7, 12, 2}, NULL), LMN_OK);
     p = solid_at(&sphere, 1);
     assert_int_equal(polyhedron_slice(&r, &p, NULL), LMN_OK);
@@ -417,8 +427,8 @@ static void shadows_are_openscads(void **state)
 {
     (void)state;
     polyhedron ring, turned;
-    region r, circle = test_circle(5, 0, 2, 10);
-    mat4 m = mat4_identity();
+    region     r, circle = test_circle(5, 0, 2, 10);
+    mat4       m = mat4_identity();
     m.m[5] = m.m[10] = cosine_of_degrees(30);
     m.m[6] = 0.5;
     m.m[9] = -0.5;
@@ -455,11 +465,11 @@ static lmn_status make_everything(region *offset, polyhedron *solid, region *sha
 static void memory_may_end_in_regions(void **state)
 {
     (void)state;
-    region notched = test_notched();
+    region     notched = test_notched();
     lmn_status status = LMN_MEMORY;
-    long n = 0;
+    long       n = 0;
     while (status == LMN_MEMORY) {
-        region offset, shadow;
+        region     offset, shadow;
         polyhedron solid;
         mem_fail_at(++n);
         status = make_everything(&offset, &solid, &shadow, &notched);
@@ -473,7 +483,7 @@ static void memory_may_end_in_regions(void **state)
     region_release(&notched);
 }
 
-/* --- many of them -------------------------------------------------------------------------------------------------------- */
+/* --- many of them --------------------------------------------------------------------------------------- */
 
 static double random_number(uint32_t *seed)
 {
@@ -484,9 +494,9 @@ static double random_number(uint32_t *seed)
 /* A path of few or many corners, on whole numbers (where much touches and lies on lines) or between them. */
 static region random_polygon(uint32_t *seed)
 {
-    double numbers[60];
+    double   numbers[60];
     uint32_t count = 3 + (uint32_t)(random_number(seed) * 20);
-    bool whole = random_number(seed) < 0.6;
+    bool     whole = random_number(seed) < 0.6;
     for (uint32_t i = 0; i < count * 2; i++) {
         numbers[i] = random_number(seed) * 10;
         numbers[i] = whole ? floor(numbers[i]) : numbers[i];
@@ -497,16 +507,19 @@ static region random_polygon(uint32_t *seed)
 static void assert_closed_solids(const region *r, uint32_t *seed)
 {
     polyhedron p;
-    region turned;
-    bool failed;
-    double angle = random_number(seed) * 6.3, twist = floor(random_number(seed) * 3) * 40, c = cos(angle), s = sin(angle);
+    region     turned;
+    bool       failed;
+    double     angle = random_number(seed) * 6.3, twist = floor(random_number(seed) * 3) * 40, c = cos(angle),
+           s = sin(angle);
     assert_int_equal(region_transform(&turned, r, (double[]){c, s, -s, c, 0.1, 0.7}, NULL), LMN_OK);
-    assert_int_equal(construct_linear_extrude(&p, &turned, &(linear_extrusion){2, twist, {1, 1}, .facets = plain}, NULL), LMN_OK);
+    assert_int_equal(
+        construct_linear_extrude(&p, &turned, &(linear_extrusion){2, twist, {1, 1}, .facets = plain}, NULL), LMN_OK);
     assert_true(polyhedron_is_closed(&p, &failed));
     if (twist == 0)
         assert_close(polyhedron_volume(&p), 2 * region_area(r), 1e-3);
     polyhedron_release(&p);
-    assert_int_equal(construct_rotate_extrude(&p, r, floor(random_number(seed) * 4) * 120, (facets){5, 12, 2}, NULL), LMN_OK);
+    assert_int_equal(construct_rotate_extrude(&p, r, floor(random_number(seed) * 4) * 120, (facets){5, 12, 2}, NULL),
+                     LMN_OK);
     assert_true(polyhedron_is_closed(&p, &failed));
     polyhedron_release(&p);
     region_release(&turned);
@@ -522,7 +535,8 @@ static void random_outlines_make_closed_solids(void **state)
         assert_int_equal(region_combine(&united, pair, 2, REGION_UNION, NULL), LMN_OK);
         assert_int_equal(region_combine(&common, pair, 2, REGION_INTERSECTION, NULL), LMN_OK);
         assert_close(region_area(&united) + region_area(&common), region_area(&pair[0]) + region_area(&pair[1]), 5e-3);
-        assert_int_equal(region_offset(&grown, &united, i % 2 ? 0.5 : -0.25, i % 3 == 0, i % 3 == 1, plain, NULL), LMN_OK);
+        assert_int_equal(region_offset(&grown, &united, i % 2 ? 0.5 : -0.25, i % 3 == 0, i % 3 == 1, plain, NULL),
+                         LMN_OK);
         assert_true(i % 2 ? region_area(&grown) > region_area(&united) : region_area(&grown) <= region_area(&united));
         assert_closed_solids(&united, &seed);
         assert_closed_solids(&common, &seed);

@@ -21,7 +21,7 @@ static inline int compare_test_edges(const void *a, const void *b)
 /* No point twice, no triangle without three corners, each directed edge once and once the other way. */
 static inline void assert_watertight(const polyhedron *p)
 {
-    size_t count = p->triangle_count * 3;
+    size_t    count = p->triangle_count * 3;
     uint64_t *edges = mem_alloc(2 * count * sizeof *edges + 1), *back = edges + count;
     assert_non_null(edges);
     for (size_t i = 0; i < count; i++) {
@@ -123,8 +123,8 @@ static inline region test_circle(double x, double y, double radius, double fn)
 static inline region test_polygon(const double *numbers, uint32_t count)
 {
     uint32_t corners[64];
-    point2 points[64];
-    region r;
+    point2   points[64];
+    region   r;
     for (uint32_t i = 0; i < count; i++) {
         corners[i] = i;
         points[i] = (point2){numbers[i * 2], numbers[i * 2 + 1]};

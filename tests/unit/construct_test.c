@@ -1,7 +1,8 @@
-/* Solids from numbers. The counts, volumes and coordinates are those of OpenSCAD 2021.01 where no formula gives them. */
+/* Solids from numbers. The counts, volumes and coordinates are those of OpenSCAD 2021.01 where no formula gives
+ * them. */
 #include "construct_shapes.h"
 
-/* --- facets ---------------------------------------------------------------------------------------------------------- */
+/* --- facets --------------------------------------------------------------------------------------------- */
 
 static void facet_counts_are_openscads(void **state)
 {
@@ -30,7 +31,7 @@ static void sines_of_degrees_are_exact(void **state)
     assert_true(sine_of_degrees(180) == 0 && cosine_of_degrees(60) == 0.5 && cosine_of_degrees(-240) == -0.5);
 }
 
-/* --- plain solids ---------------------------------------------------------------------------------------------------- */
+/* --- plain solids --------------------------------------------------------------------------------------- */
 
 static void cubes(void **state)
 {
@@ -79,7 +80,7 @@ static void cylinders(void **state)
 {
     (void)state;
     polyhedron p;
-    double area5 = 2.5 * sin(72 * PI / 180);
+    double     area5 = 2.5 * sin(72 * PI / 180);
     assert_int_equal(construct_cylinder(&p, 2, 1, 1, true, plain, NULL), LMN_OK);
     assert_true(p.convex && polyhedron_check_convex(&p));
     assert_bounds(&p, (point3){-0.80901699, -0.95105652, -1}, (point3){1, 0.95105652, 1}, 1e-8);
@@ -104,12 +105,13 @@ static void cylinders(void **state)
 static void polyhedra_with_concave_faces(void **state)
 {
     (void)state;
-    const point3 points[] = {{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 4, 0}, {0, 0, 2}, {4, 0, 2}, {2, 1, 2}, {2, 4, 2}, {9, 9, 9}};
+    const point3   points[] = {{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 4, 0}, {0, 0, 2},
+                               {4, 0, 2}, {2, 1, 2}, {2, 4, 2}, {9, 9, 9}};
     const uint32_t corners[] = {0, 1, 2, 3, 7, 6, 5, 4, 4, 5, 1, 0, 5, 6, 2, 1, 6, 7, 3, 2, 7, 4, 0, 3};
     const uint32_t sizes[] = {4, 4, 4, 4, 4, 4};
-    uint32_t backwards[24];
-    polyhedron p;
-    bool flawed;
+    uint32_t       backwards[24];
+    polyhedron     p;
+    bool           flawed;
     assert_int_equal(construct_polyhedron(&p, points, 9, corners, sizes, 6, &flawed, NULL), LMN_OK);
     assert_false(flawed);
     assert_false(p.convex);
@@ -133,10 +135,10 @@ static void polyhedra_with_concave_faces(void **state)
 static void polyhedra_are_welded(void **state)
 {
     (void)state;
-    const point3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -0.0, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}};
+    const point3   points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -0.0, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}};
     const uint32_t corners[] = {0, 5, 1, 6, 2, 4, 3, 1, 5, 4, 2, 3, 1, 3, 2, 6};
-    polyhedron p;
-    bool flawed;
+    polyhedron     p;
+    bool           flawed;
     assert_int_equal(construct_polyhedron(&p, points, 7, corners, (uint32_t[]){5, 4, 3, 4}, 4, &flawed, NULL), LMN_OK);
     assert_false(flawed);
     assert_true(p.convex);
@@ -147,13 +149,13 @@ static void polyhedra_are_welded(void **state)
     assert_int_equal(construct_polyhedron(&p, bad, 7, corners, (uint32_t[]){5, 4, 3, 4}, 4, &flawed, NULL), LMN_FORMAT);
 }
 
-/* --- fields of heights, hulls and sums ------------------------------------------------------------------------------ */
+/* --- fields of heights, hulls and sums ------------------------------------------------------------------ */
 
 static void heights_stand_on_a_base(void **state)
 {
     (void)state;
     const double heights[] = {1, 2, 3, 4, 4, 5, 6, 2, 0, 1, 0, -2}, high[] = {7, 8, 9, 10};
-    polyhedron p;
+    polyhedron   p;
     assert_int_equal(construct_heights(&p, heights, 4, 3, false, NULL), LMN_OK);
     assert_bounds(&p, (point3){0, 0, -3}, (point3){3, 2, 6}, 0);
     assert_shape(&p, 29, 54, 35.75); /* one more than OpenSCAD's: the middle of the base */
@@ -172,7 +174,7 @@ static void heights_stand_on_a_base(void **state)
 static polyhedron moved_cube(double x, double y, double z)
 {
     polyhedron cube, moved;
-    mat4 m = mat4_identity();
+    mat4       m = mat4_identity();
     m.m[12] = x;
     m.m[13] = y;
     m.m[14] = z;
@@ -217,7 +219,7 @@ static void hulls_of_random_points_are_closed(void **state)
     (void)state;
     uint32_t seed = 3;
     for (int i = 0; i < 200; i++) {
-        point3 points[200];
+        point3     points[200];
         polyhedron p, cloud = {points, 5 + (size_t)i % 195, NULL, 0, false};
         for (size_t k = 0; k < cloud.point_count * 3; k++) {
             seed = seed * 1664525u + 1013904223u;
@@ -253,7 +255,7 @@ static void memory_may_end_in_hulls(void **state)
 {
     (void)state;
     polyhedron cubes[2] = {moved_cube(0, 0, 0), moved_cube(5, 5, 5)};
-    long n = 0;
+    long       n = 0;
     lmn_status status = LMN_MEMORY;
     while (status == LMN_MEMORY) {
         polyhedron p, field = {0};
@@ -271,7 +273,7 @@ static void memory_may_end_in_hulls(void **state)
     polyhedron_release(&cubes[1]);
 }
 
-/* --- transforms and the scene ------------------------------------------------------------------------------------ */
+/* --- transforms and the scene --------------------------------------------------------------------------- */
 
 static void transforms_keep_the_outside_outside(void **state)
 {
@@ -319,14 +321,14 @@ static void polyhedra_go_into_scenes(void **state)
 static void memory_may_end_in_solids(void **state)
 {
     (void)state;
-    const point3 points[] = {{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 4, 0}, {0, 0, 2}, {4, 0, 2}, {2, 1, 2}, {2, 4, 2}};
+    const point3   points[] = {{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 4, 0}, {0, 0, 2}, {4, 0, 2}, {2, 1, 2}, {2, 4, 2}};
     const uint32_t corners[] = {0, 1, 2, 3, 7, 6, 5, 4, 4, 5, 1, 0, 5, 6, 2, 1, 6, 7, 3, 2, 7, 4, 0, 3};
-    long n = 0;
-    lmn_status status = LMN_MEMORY;
+    long           n = 0;
+    lmn_status     status = LMN_MEMORY;
     while (status == LMN_MEMORY) {
         polyhedron p, q = {0};
-        bool flawed;
-        mat4 m = mat4_identity();
+        bool       flawed;
+        mat4       m = mat4_identity();
         mem_fail_at(++n);
         status = construct_polyhedron(&p, points, 8, corners, (uint32_t[]){4, 4, 4, 4, 4, 4}, 6, &flawed, NULL);
         if (status == LMN_OK)

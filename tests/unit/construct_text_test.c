@@ -1,11 +1,11 @@
-/* Outlines of letters. The counts, areas and places are OpenSCAD 2021.01's, with the Liberation fonts; without these most is
- * skipped. */
+/* Outlines of letters. The counts, areas and places are OpenSCAD 2021.01's, with the Liberation fonts; without
+ * these most is skipped. */
 #include "construct_shapes.h"
 
 static bool has_liberation(void)
 {
     region r;
-    bool missing = true;
+    bool   missing = true;
     assert_int_equal(construct_text(&r, "I", &(text_style){.size = 10, .spacing = 1}, plain, &missing, NULL), LMN_OK);
     region_release(&r);
     if (missing)
@@ -19,7 +19,7 @@ static void assert_text(const char *text, text_style style, double fn, size_t co
 {
     region r;
     double low[2], high[2];
-    bool missing;
+    bool   missing;
     style.size = style.size != 0 ? style.size : 10;
     style.spacing = style.spacing != 0 ? style.spacing : 1;
     assert_int_equal(construct_text(&r, text, &style, (facets){fn, 12, 2}, &missing, NULL), LMN_OK);
@@ -52,11 +52,15 @@ static void lines_of_letters_are_openscads(void **state)
         return;
     /* Kerning: without it this would end at 34.3. */
     assert_text("AVAV", (text_style){0}, 0, 6, 148, 102.4849, (double[]){0.0271, 0, 33.3223, 9.55479});
-    assert_text("II", (text_style){.size = 20, .spacing = 2}, 0, 2, 8, 99.0030, (double[]){2.56339, 0, 20.2272, 19.1096});
+    assert_text("II", (text_style){.size = 20, .spacing = 2}, 0, 2, 8, 99.0030,
+                (double[]){2.56339, 0, 20.2272, 19.1096});
     assert_text("HI", (text_style){.direction = "rtl"}, 0, 2, 16, 42.7326, (double[]){1.28169, 0, 12.6653, 9.55479});
-    assert_text("HI", (text_style){.direction = "ttb"}, 0, 2, 16, 42.7326, (double[]){-3.75815, -23.7558, 3.99953, -1.47205});
-    assert_text("HI", (text_style){.font = "Liberation Sans:style=Bold"}, 0, 2, 16, 64.232368, (double[]){0.92899, 0, 12.7245, 9.55479});
-    assert_text("HI", (text_style){.font = "Liberation Mono"}, 0, 2, 24, 48.453488, (double[]){1.09859, 0, 15.0901, 9.14789});
+    assert_text("HI", (text_style){.direction = "ttb"}, 0, 2, 16, 42.7326,
+                (double[]){-3.75815, -23.7558, 3.99953, -1.47205});
+    assert_text("HI", (text_style){.font = "Liberation Sans:style=Bold"}, 0, 2, 16, 64.232368,
+                (double[]){0.92899, 0, 12.7245, 9.55479});
+    assert_text("HI", (text_style){.font = "Liberation Mono"}, 0, 2, 24, 48.453488,
+                (double[]){1.09859, 0, 15.0901, 9.14789});
 }
 
 static void alignments_are_openscads(void **state)
@@ -66,17 +70,21 @@ static void alignments_are_openscads(void **state)
         text_style style;
         double     x, y; /* where the lower left corner is */
     } cases[] = {
-        {{.halign = "left", .valign = "baseline"}, 1.1393, -2.88199}, {{.valign = "top"}, 1.1393, -12.2132},
-        {{.valign = "center"}, 1.1393, -6.13824},                     {{.valign = "bottom"}, 1.1393, -0.06325},
-        {{.halign = "bogus", .valign = "bogus"}, 1.1393, -2.88199},   {{.direction = "ttb", .valign = "top"}, -3.75815, 1.25052},
-        {{.direction = "btt", .valign = "center"}, -3.75815, -11.0269}, {{.direction = "ttb", .valign = "bottom"}, -3.75815, -24.2073},
+        {{.halign = "left", .valign = "baseline"}, 1.1393, -2.88199},
+        {{.valign = "top"}, 1.1393, -12.2132},
+        {{.valign = "center"}, 1.1393, -6.13824},
+        {{.valign = "bottom"}, 1.1393, -0.06325},
+        {{.halign = "bogus", .valign = "bogus"}, 1.1393, -2.88199},
+        {{.direction = "ttb", .valign = "top"}, -3.75815, 1.25052},
+        {{.direction = "btt", .valign = "center"}, -3.75815, -11.0269},
+        {{.direction = "ttb", .valign = "bottom"}, -3.75815, -24.2073},
     };
     if (!has_liberation())
         return;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        region r;
-        double low[2], high[2];
-        bool missing;
+        region     r;
+        double     low[2], high[2];
+        bool       missing;
         text_style style = cases[i].style;
         style.size = 10;
         style.spacing = 1;
@@ -87,15 +95,16 @@ static void alignments_are_openscads(void **state)
         assert_close(low[1], cases[i].y, 1e-4);
         region_release(&r);
     }
-    assert_text("HI", (text_style){.halign = "right", .spacing = 2}, 0, 2, 16, 42.7326, (double[]){-25.9875, 0, -4.95981, 9.55479});
+    assert_text("HI", (text_style){.halign = "right", .spacing = 2}, 0, 2, 16, 42.7326,
+                (double[]){-25.9875, 0, -4.95981, 9.55479});
     assert_text("HI", (text_style){.halign = "center"}, 0, 2, 16, 42.7326, (double[]){-5.64238, 0, 5.59023, 9.55479});
 }
 
 static void other_fonts_stand_in(void **state)
 {
     (void)state;
-    region r;
-    bool missing = false;
+    region     r;
+    bool       missing = false;
     text_style style = {.font = "No Such Font", .size = 10, .spacing = 1};
     assert_int_equal(construct_text(&r, "A", &style, plain, &missing, NULL), LMN_OK);
     assert_true(missing);
@@ -109,8 +118,8 @@ static void other_fonts_stand_in(void **state)
 static void odd_texts(void **state)
 {
     (void)state;
-    region r;
-    bool missing;
+    region     r;
+    bool       missing;
     text_style style = {.size = 10, .spacing = 1};
     assert_int_equal(construct_text(&r, "", &style, plain, &missing, NULL), LMN_OK);
     assert_region(&r, 0, 0, 0);
@@ -132,9 +141,9 @@ static void odd_texts(void **state)
 static void letters_become_solids(void **state)
 {
     (void)state;
-    region r;
+    region     r;
     polyhedron p;
-    bool missing;
+    bool       missing;
     text_style style = {.size = 10, .spacing = 1};
     assert_int_equal(construct_text(&r, "Limner & Co. 2026 @%", &style, plain, &missing, NULL), LMN_OK);
     assert_int_equal(construct_linear_extrude(&p, &r, &(linear_extrusion){3, 0, {1, 1}}, NULL), LMN_OK);
@@ -149,10 +158,10 @@ static void memory_may_end_in_texts(void **state)
     (void)state;
     lmn_status status = LMN_MEMORY;
     text_style style = {.size = 10, .spacing = 1};
-    long n = 0;
+    long       n = 0;
     while (status == LMN_MEMORY) {
         region r;
-        bool missing;
+        bool   missing;
         mem_fail_at(++n);
         status = construct_text(&r, "8i", &style, plain, &missing, NULL);
         mem_fail_at(0);

@@ -1,5 +1,5 @@
-/* examples/crank.glb and examples/knot.glb are what they say: closed parts, wound the right way round, that are where a crank drive has
- * them; a tube without a seam whose normals and texture coordinates follow it. */
+/* examples/crank.glb and examples/knot.glb are what they say: closed parts, wound the right way round, that are
+ * where a crank drive has them; a tube without a seam whose normals and texture coordinates follow it. */
 #include <math.h>
 
 #include "closed_parts.h"
@@ -24,9 +24,24 @@ static int unload_models(void **state)
 
 static void crank_has_its_parts(void **state)
 {
-    static const char *const names[] = {"Crankshaft", "Flywheel", "Flywheel bolts", "Timing gear", "Pulley", "Nose bolt", "Bed", "Pedestal 1", "Pedestal 5",
-                                        "Bearing cap 1", "Bearing cap 5", "Connecting rod 1", "Connecting rod 4", "Rod cap 4", "Piston 1", "Piston 4",
-                                        "Piston rings 2", "Gudgeon pin 3"};
+    static const char *const names[] = {"Crankshaft",
+                                        "Flywheel",
+                                        "Flywheel bolts",
+                                        "Timing gear",
+                                        "Pulley",
+                                        "Nose bolt",
+                                        "Bed",
+                                        "Pedestal 1",
+                                        "Pedestal 5",
+                                        "Bearing cap 1",
+                                        "Bearing cap 5",
+                                        "Connecting rod 1",
+                                        "Connecting rod 4",
+                                        "Rod cap 4",
+                                        "Piston 1",
+                                        "Piston 4",
+                                        "Piston rings 2",
+                                        "Gudgeon pin 3"};
     (void)state;
     assert_int_equal(crank->part_count, 37);
     assert_int_equal(crank->warnings.count, 0);
@@ -41,7 +56,9 @@ static double volume_of(const primitive *p)
     double volume = 0;
     for (uint32_t i = 0; i < p->index_count; i += 3) {
         vec3 a = p->positions[p->indices[i]], b = p->positions[p->indices[i + 1]], c = p->positions[p->indices[i + 2]];
-        volume += ((double)a.x * (b.y * c.z - b.z * c.y) + (double)a.y * (b.z * c.x - b.x * c.z) + (double)a.z * (b.x * c.y - b.y * c.x)) / 6;
+        volume += ((double)a.x * (b.y * c.z - b.z * c.y) + (double)a.y * (b.z * c.x - b.x * c.z) +
+                   (double)a.z * (b.x * c.y - b.y * c.x)) /
+                  6;
     }
     return volume;
 }
@@ -96,7 +113,8 @@ static void knot_is_one_smooth_tube(void **state)
         assert_float_equal(sqrt((double)n.x * n.x + (double)n.y * n.y + (double)n.z * n.z), 1, 1e-3);
     }
     for (uint32_t i = 0; i < p->index_count; i += 3) { /* normals are those of the triangles, roughly */
-        vec3 a = p->positions[p->indices[i]], b = p->positions[p->indices[i + 1]], c = p->positions[p->indices[i + 2]], n = p->normals[p->indices[i]];
+        vec3 a = p->positions[p->indices[i]], b = p->positions[p->indices[i + 1]], c = p->positions[p->indices[i + 2]],
+             n = p->normals[p->indices[i]];
         double u[3] = {b.x - a.x, b.y - a.y, b.z - a.z}, v[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
         double f[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
         double length = sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
@@ -108,9 +126,9 @@ static void knot_is_one_smooth_tube(void **state)
 static void knot_comes_round_to_itself(void **state)
 {
     const primitive *p = knot->meshes[0].primitives;
-    size_t doubles = 0;
+    size_t           doubles = 0;
     (void)state;
-    float (*places)[6] = mem_alloc(p->vertex_count * sizeof *places);
+    float(*places)[6] = mem_alloc(p->vertex_count * sizeof *places);
     assert_non_null(places);
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         memcpy(places[i], &p->positions[i], 3 * sizeof(float));
@@ -126,8 +144,9 @@ static void knot_comes_round_to_itself(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crank_has_its_parts),       cmocka_unit_test(crank_parts_enclose_material), cmocka_unit_test(pistons_follow_the_cranks),
-        cmocka_unit_test(knot_is_one_smooth_tube), cmocka_unit_test(knot_comes_round_to_itself),
+        cmocka_unit_test(crank_has_its_parts),        cmocka_unit_test(crank_parts_enclose_material),
+        cmocka_unit_test(pistons_follow_the_cranks),  cmocka_unit_test(knot_is_one_smooth_tube),
+        cmocka_unit_test(knot_comes_round_to_itself),
     };
     return cmocka_run_group_tests(tests, load_models, unload_models);
 }

@@ -38,12 +38,14 @@ static inline void check_box(const lmn_scene *s, const double low[3], const doub
     lmn_scene_info info = lmn_scene_info_of(s);
     for (int i = 0; i < 3; i++) {
         if (fabs(info.bounds_min[i] - low[i]) > within || fabs(info.bounds_max[i] - high[i]) > within)
-            print_error("axis %d: %.9g … %.9g, expected %.9g … %.9g\n", i, info.bounds_min[i], info.bounds_max[i], low[i], high[i]);
+            print_error("axis %d: %.9g … %.9g, expected %.9g … %.9g\n", i, info.bounds_min[i], info.bounds_max[i],
+                        low[i], high[i]);
         assert_true(fabs(info.bounds_min[i] - low[i]) <= within && fabs(info.bounds_max[i] - high[i]) <= within);
     }
 }
 
-#define CHECK_BOX(s, x0, y0, z0, x1, y1, z1) check_box(s, (const double[3]){x0, y0, z0}, (const double[3]){x1, y1, z1}, 1e-5)
+#define CHECK_BOX(s, x0, y0, z0, x1, y1, z1)                                                                           \
+    check_box(s, (const double[3]){x0, y0, z0}, (const double[3]){x1, y1, z1}, 1e-5)
 
 /* Loads, compares the bounds, and wants no warning. */
 static inline void expect_box(const char *text, double x0, double y0, double z0, double x1, double y1, double z1)

@@ -18,7 +18,7 @@ static void shares_of_each_point(void **state)
 {
     (void)state;
     static const double wanted[6][11] = {
-        {16, 8, 0, -1, 0, 0, 0, 0, 0, 0, 0}, {0, 9, 16, 9, 0, -1, 0, 0, 0, 0, 0},  {0, -1, 0, 9, 16, 9, 0, -1, 0, 0, 0},
+        {16, 8, 0, -1, 0, 0, 0, 0, 0, 0, 0},  {0, 9, 16, 9, 0, -1, 0, 0, 0, 0, 0}, {0, -1, 0, 9, 16, 9, 0, -1, 0, 0, 0},
         {0, 0, 0, -1, 0, 9, 16, 9, 0, -1, 0}, {0, 0, 0, 0, 0, -1, 0, 9, 16, 9, 0}, {0, 0, 0, 0, 0, 0, 0, -1, 0, 8, 16},
     };
     for (int i = 0; i < 6; i++) {
@@ -48,7 +48,7 @@ static void short_chains_stay_straight(void **state)
 {
     (void)state;
     const double two[4] = {1, 2, 5, 10};
-    double out[6];
+    double       out[6];
     curve_refine(out, two, 2, 2, false);
     const double wanted[6] = {1, 2, 3, 6, 5, 10};
     assert_memory_equal(out, wanted, sizeof wanted);
@@ -99,7 +99,7 @@ static void twelve_corners_make_a_circle(void **state)
 static void projecting_first_or_last_is_the_same(void **state)
 {
     (void)state;
-    double space[20 * 3], page[20 * 2], fine[39 * 3], flat[39 * 2];
+    double       space[20 * 3], page[20 * 2], fine[39 * 3], flat[39 * 2];
     const double turn[2][3] = {{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}};
     for (int i = 0; i < 20; i++) {
         space[3 * i] = cos(0.4 * i);
@@ -112,18 +112,16 @@ static void projecting_first_or_last_is_the_same(void **state)
     curve_refine(flat, page, 20, 2, false);
     for (int i = 0; i < 39; i++)
         for (int k = 0; k < 2; k++)
-            assert_true(fabs(flat[2 * i + k] - (turn[k][0] * fine[3 * i] + turn[k][1] * fine[3 * i + 1] + turn[k][2] * fine[3 * i + 2])) < 1e-12);
+            assert_true(fabs(flat[2 * i + k] - (turn[k][0] * fine[3 * i] + turn[k][1] * fine[3 * i + 1] +
+                                                turn[k][2] * fine[3 * i + 2])) < 1e-12);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_of_each_point),
-        cmocka_unit_test(closed_chains_have_no_ends),
-        cmocka_unit_test(short_chains_stay_straight),
-        cmocka_unit_test(cubics_are_exact),
-        cmocka_unit_test(twelve_corners_make_a_circle),
-        cmocka_unit_test(projecting_first_or_last_is_the_same),
+        cmocka_unit_test(shares_of_each_point),         cmocka_unit_test(closed_chains_have_no_ends),
+        cmocka_unit_test(short_chains_stay_straight),   cmocka_unit_test(cubics_are_exact),
+        cmocka_unit_test(twelve_corners_make_a_circle), cmocka_unit_test(projecting_first_or_last_is_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

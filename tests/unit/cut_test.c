@@ -9,7 +9,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* --- meshes -------------------------------------------------------------------------------------------------------- */
+/* --- meshes --------------------------------------------------------------------------------------------- */
 
 typedef struct model {
     vec3     positions[70000];
@@ -67,7 +67,8 @@ static void add_torus(model *m, double major, double minor, int around, int acro
     for (int i = 0; i < around; i++)
         for (int k = 0; k < across; k++) {
             uint32_t p = base + (uint32_t)(i * across + k), q = base + (uint32_t)((i + 1) % around * across + k);
-            uint32_t r = base + (uint32_t)((i + 1) % around * across + (k + 1) % across), s = base + (uint32_t)(i * across + (k + 1) % across);
+            uint32_t r = base + (uint32_t)((i + 1) % around * across + (k + 1) % across),
+                     s = base + (uint32_t)(i * across + (k + 1) % across);
             if (sign > 0)
                 add_quad(m, p, q, r, s);
             else
@@ -98,7 +99,7 @@ static void add_sphere(model *m, double radius, double x, int rows, int columns,
     }
 }
 
-/* --- measuring ----------------------------------------------------------------------------------------------------- */
+/* --- measuring ------------------------------------------------------------------------------------------ */
 
 static uint32_t random_state = 1;
 
@@ -119,7 +120,7 @@ static mat4 random_turn(void)
 /* The triangles of a result, caps last; corners in `out`, as many as are returned. */
 static size_t gather(const cut_result *r, const model *m, const mat4 *world, vec3 *out, size_t *first_cap)
 {
-    size_t n = 0;
+    size_t             n = 0;
     const cut_surface *s = r->surfaces;
     for (size_t i = 0; i < s->whole_count; i++)
         for (int k = 0; k < 3; k++)
@@ -171,8 +172,8 @@ static size_t open_edges(const vec3 *corners, size_t count)
 {
     primitive p = {.vertex_count = (uint32_t)count, .positions = mem_copy(corners, count * sizeof *corners)};
     uint32_t *ids = mesh_position_ids(&p);
-    side *there = mem_alloc(count * sizeof *there), *back = mem_alloc(count * sizeof *back);
-    size_t sides = 0, open = 0;
+    side     *there = mem_alloc(count * sizeof *there), *back = mem_alloc(count * sizeof *back);
+    size_t    sides = 0, open = 0;
     for (size_t i = 0; i < count; i++) {
         uint32_t a = ids[i], b = ids[i - i % 3 + (i + 1) % 3];
         if (a == b)
@@ -210,8 +211,8 @@ static bool normals_are_right(const cut_result *r, const cut *c, const mat4 *wor
 {
     for (size_t i = 0; i < r->cap_count; i++) {
         const cut_cap *cap = &r->caps[i];
-        const double *n = c->planes[cap->plane].normal, *m = world->m;
-        double turned = 0, length = 0;
+        const double  *n = c->planes[cap->plane].normal, *m = world->m;
+        double         turned = 0, length = 0;
         for (int k = 0; k < 3; k++) {
             double w = m[k] * cap->normal.x + m[4 + k] * cap->normal.y + m[8 + k] * cap->normal.z;
             turned += w * n[k] * (cap->positive ? 1 : -1);
@@ -221,8 +222,8 @@ static bool normals_are_right(const cut_result *r, const cut *c, const mat4 *wor
             return false;
         for (size_t t = 0; t < cap->count; t += 3) {
             const vec3 *q = &cap->positions[t];
-            double u[3] = {q[1].x - (double)q[0].x, q[1].y - (double)q[0].y, q[1].z - (double)q[0].z};
-            double v[3] = {q[2].x - (double)q[0].x, q[2].y - (double)q[0].y, q[2].z - (double)q[0].z};
+            double      u[3] = {q[1].x - (double)q[0].x, q[1].y - (double)q[0].y, q[1].z - (double)q[0].z};
+            double      v[3] = {q[2].x - (double)q[0].x, q[2].y - (double)q[0].y, q[2].z - (double)q[0].z};
             double along = cap->normal.x * (u[1] * v[2] - u[2] * v[1]) + cap->normal.y * (u[2] * v[0] - u[0] * v[2]) +
                            cap->normal.z * (u[0] * v[1] - u[1] * v[0]);
             if (along < -1e-6)
@@ -234,9 +235,9 @@ static bool normals_are_right(const cut_result *r, const cut *c, const mat4 *wor
 
 static measured cut_with(const cut *c, const mat4 *world)
 {
-    measured out = {0};
+    measured   out = {0};
     cut_result r;
-    cut_input input = {shape->positions, shape->vertices, shape->indices, shape->corners};
+    cut_input  input = {shape->positions, shape->vertices, shape->indices, shape->corners};
     assert_int_equal(cut_part(&r, c, world, &input, 1, NULL), LMN_OK);
     out.verdict = r.verdict;
     out.open = r.open;
@@ -262,7 +263,7 @@ static box3 shape_box(const mat4 *world)
 
 static measured cut_turned(const char *spec, const mat4 *world)
 {
-    cut c;
+    cut       c;
     lmn_error error = {0};
     if (cut_parse(&c, spec, shape_box(world), &error) != LMN_OK)
         fail_msg("%s: %s", spec, error.message);
@@ -292,7 +293,7 @@ static void assert_solid(measured m, double volume, double area, double toleranc
     assert_true(m.normals_right);
 }
 
-/* --- planes -------------------------------------------------------------------------------------------------------- */
+/* --- planes --------------------------------------------------------------------------------------------- */
 
 static void a_cube_is_cut_by_planes(void **state)
 {
@@ -303,8 +304,8 @@ static void a_cube_is_cut_by_planes(void **state)
     assert_solid(cut_by("x=0.5"), 2, 4, 1e-6);
     assert_solid(cut_by("-x=0.5"), 6, 4, 1e-6);
     assert_solid(cut_by("-z=75%"), 2, 4, 1e-6);
-    assert_solid(cut_by("1,1,1@1,1,1"), 4, 3 * sqrt(3.0), 1e-6); /* a regular hexagon of side √2 */
-    assert_solid(cut_by("-1,-1,0 @ 1,1,0"), 4, 4 * sqrt(2.0), 1e-6); /* through four corners */
+    assert_solid(cut_by("1,1,1@1,1,1"), 4, 3 * sqrt(3.0), 1e-6);       /* a regular hexagon of side √2 */
+    assert_solid(cut_by("-1,-1,0 @ 1,1,0"), 4, 4 * sqrt(2.0), 1e-6);   /* through four corners */
     assert_solid(cut_by("1,1,1@2,0,0"), 8.0 / 6, 2 * sqrt(3.0), 1e-6); /* through three */
     assert_solid(cut_by("x=1; y=1"), 2, 4, 1e-6);
     assert_int_equal(cut_by("x=3").verdict, CUT_WHOLE);
@@ -373,7 +374,7 @@ static void hollows_stay_open(void **state)
     add_sphere(shape, 3, 0, 32, 64, 1);
     add_sphere(shape, 2, 0, 32, 64, -1);
     add_sphere(shape, 1, 0, 32, 64, 1);
-    double disc = 64 * sin(2 * pi / 64) / 2, ball = volume_of(corners, 0);
+    double   disc = 64 * sin(2 * pi / 64) / 2, ball = volume_of(corners, 0);
     measured m = cut_by("z=0");
     ball = m.volume;
     assert_solid(m, ball, disc * (9 - 4 + 1), 1e-5);
@@ -407,7 +408,7 @@ static void overlapping_shells_are_filled_once(void **state)
     assert_near(m.area, pi * 2.5 * 2.5, 1e-2);
 }
 
-/* --- cases by the hundred ------------------------------------------------------------------------------------------ */
+/* --- cases by the hundred ------------------------------------------------------------------------------- */
 
 static void make_random_shape(int kind)
 {
@@ -434,18 +435,19 @@ static void random_cuts_stay_closed(void **state)
         make_random_shape(i % 5);
         mat4 world = random_turn();
         char spec[128];
-        snprintf(spec, sizeof spec, "%.6f,%.6f,%.6f@%.6f,%.6f,%.6f", random_number(-1, 1), random_number(-1, 1), random_number(-1, 1),
-                 random_number(-0.4, 0.4), random_number(-0.4, 0.4), i % 3 ? 0.0 : random_number(-0.4, 0.4));
+        snprintf(spec, sizeof spec, "%.6f,%.6f,%.6f@%.6f,%.6f,%.6f", random_number(-1, 1), random_number(-1, 1),
+                 random_number(-1, 1), random_number(-0.4, 0.4), random_number(-0.4, 0.4),
+                 i % 3 ? 0.0 : random_number(-0.4, 0.4));
         if (i % 4 == 0) { /* often through vertices and along edges */
             world = mat4_identity();
             snprintf(spec, sizeof spec, "%s=%d%%", i % 8 ? "x" : "-z", 25 * (1 + i / 8 % 3));
         }
         measured m = cut_turned(spec, &world);
-        cut c;
+        cut      c;
         assert_int_equal(cut_parse(&c, spec, shape_box(&world), NULL), LMN_OK);
         c.cells[0].faces[0].positive = !c.cells[0].faces[0].positive;
         measured rest = cut_with(&c, &world);
-        size_t first_cap;
+        size_t   first_cap;
         (void)first_cap;
         if (m.verdict != CUT_CROSSED)
             continue;
@@ -470,16 +472,16 @@ static void halves_add_up(void **state)
     (void)state;
     for (int i = 0; i < 60; i++) {
         make_random_shape(i % 5);
-        mat4 world = random_turn();
+        mat4   world = random_turn();
         double n[3] = {random_number(-1, 1), random_number(-1, 1), random_number(-1, 1)};
-        char one[128], other[128];
+        char   one[128], other[128];
         snprintf(one, sizeof one, "%.6f,%.6f,%.6f@0.1,0.2,0.1", n[0], n[1], n[2]);
         snprintf(other, sizeof other, "%.6f,%.6f,%.6f@0.1,0.2,0.1", -n[0], -n[1], -n[2]);
         assert_near(cut_turned(one, &world).volume + cut_turned(other, &world).volume, whole_volume(), 1e-5);
     }
 }
 
-/* --- boxes --------------------------------------------------------------------------------------------------------- */
+/* --- boxes ---------------------------------------------------------------------------------------------- */
 
 static void boxes_take_a_piece_out(void **state)
 {
@@ -490,10 +492,11 @@ static void boxes_take_a_piece_out(void **state)
     assert_solid(cut_by("box=50%,0%,50%:100%,100%,100%"), 8 - 2, 4, 1e-6);
     assert_solid(cut_by("box=1,-1,1:3,3,3"), 8 - 2, 4, 1e-6);
     assert_solid(cut_by("box=3,3,3:1,1,1"), 8 - 1, 3, 1e-6);
-    assert_solid(cut_by("box=0.5,0.5,0.5:1.5,1.5,1.5"), 8 - 1, 6, 1e-6); /* a hollow */
-    assert_solid(cut_by("box=0.5,0.5,-1:1.5,1.5,3"), 8 - 2, 8, 1e-6); /* a hole */
+    assert_solid(cut_by("box=0.5,0.5,0.5:1.5,1.5,1.5"), 8 - 1, 6, 1e-6);        /* a hollow */
+    assert_solid(cut_by("box=0.5,0.5,-1:1.5,1.5,3"), 8 - 2, 8, 1e-6);           /* a hole */
     assert_solid(cut_by("box=1,1,1:3,3,3;box=-1,-1,-1:1,1,1"), 8 - 2, 6, 1e-6); /* meet in a point */
-    assert_solid(cut_by("box=1,1,1:3,3,3;box=0.5,0.5,1.5:3,3,3"), 8 - 1 - (1.5 * 1.5 - 1) * 0.5, 1 + 1.25 + 2 * 1 * 0.5 + 2 * 1.5 * 0.5, 1e-6);
+    assert_solid(cut_by("box=1,1,1:3,3,3;box=0.5,0.5,1.5:3,3,3"), 8 - 1 - (1.5 * 1.5 - 1) * 0.5,
+                 1 + 1.25 + 2 * 1 * 0.5 + 2 * 1.5 * 0.5, 1e-6);
     assert_solid(cut_by("x=1.5;box=1,1,1:3,3,3"), 6 - 0.5, 4 - 1 + 1 + 0.5 * 2, 1e-6);
     assert_solid(cut_by("box=0,0,1:1,1,3;box=1,0,1:2,1,3"), 8 - 2, 4, 1e-6); /* side by side, no wall between */
     assert_int_equal(cut_by("box=-1,-1,-1:3,3,3").verdict, CUT_GONE);
@@ -511,18 +514,20 @@ static void boxes_cut_round_solids(void **state)
     assert_int_equal(m.open_edges, 0);
     for (int i = 0; i < 60; i++) {
         make_random_shape(i % 5);
-        mat4 world = random_turn();
-        char box[128];
+        mat4   world = random_turn();
+        char   box[128];
         double low[3], high[3];
         for (int k = 0; k < 3; k++) {
             low[k] = random_number(-0.8, 0.2);
             high[k] = low[k] + random_number(0.2, 0.9);
         }
-        snprintf(box, sizeof box, "box=%.6f,%.6f,%.6f:%.6f,%.6f,%.6f", low[0], low[1], low[2], high[0], high[1], high[2]);
+        snprintf(box, sizeof box, "box=%.6f,%.6f,%.6f:%.6f,%.6f,%.6f", low[0], low[1], low[2], high[0], high[1],
+                 high[2]);
         m = cut_turned(box, &world);
         /* What the box takes is what six planes leave. */
         char planes[256];
-        snprintf(planes, sizeof planes, "-x=%.6f;x=%.6f;-y=%.6f;y=%.6f;-z=%.6f;z=%.6f", low[0], high[0], low[1], high[1], low[2], high[2]);
+        snprintf(planes, sizeof planes, "-x=%.6f;x=%.6f;-y=%.6f;y=%.6f;-z=%.6f;z=%.6f", low[0], high[0], low[1],
+                 high[1], low[2], high[2]);
         measured inside = cut_turned(planes, &world);
         if (m.verdict != CUT_CROSSED || inside.verdict != CUT_CROSSED)
             continue;
@@ -534,7 +539,7 @@ static void boxes_cut_round_solids(void **state)
     }
 }
 
-/* --- what files bring ---------------------------------------------------------------------------------------------- */
+/* --- what files bring ----------------------------------------------------------------------------------- */
 
 static void open_meshes_are_told(void **state)
 {
@@ -557,11 +562,12 @@ static void small_gaps_are_closed(void **state)
     (void)state;
     clear(shape);
     add_sphere(shape, 1, 0, 24, 48, 1);
-    model *m = shape;
+    model   *m = shape;
     uint32_t vertices = m->vertices;
     for (uint32_t i = 0; i < m->corners; i++) { /* each corner its own, a little off */
         vec3 p = m->positions[m->indices[i]];
-        m->indices[i] = add_vertex(m, p.x + random_number(-1e-6, 1e-6), p.y + random_number(-1e-6, 1e-6), p.z + random_number(-1e-6, 1e-6));
+        m->indices[i] = add_vertex(m, p.x + random_number(-1e-6, 1e-6), p.y + random_number(-1e-6, 1e-6),
+                                   p.z + random_number(-1e-6, 1e-6));
     }
     memmove(m->positions, m->positions + vertices, (m->vertices - vertices) * sizeof(vec3));
     m->vertices -= vertices;
@@ -597,9 +603,9 @@ static void bad_numbers_do_no_harm(void **state)
     shape->positions[9].y = INFINITY;
     shape->positions[12].z = -1e38f;
     cut_by("x=0.1;box=0,0,0:1,1,1");
-    cut c;
-    mat4 world = mat4_identity();
-    cut_input none = {.positions = shape->positions};
+    cut        c;
+    mat4       world = mat4_identity();
+    cut_input  none = {.positions = shape->positions};
     cut_result r;
     assert_int_equal(cut_parse(&c, "x=0", box3_empty(), NULL), LMN_OK);
     assert_int_equal(cut_part(&r, &c, &world, &none, 1, NULL), LMN_OK);
@@ -615,7 +621,8 @@ static void bad_numbers_do_no_harm(void **state)
         for (int k = 0; k < 30; k++)
             add_vertex(shape, floor(random_number(-2, 3)), floor(random_number(-2, 3)), floor(random_number(-2, 3)));
         for (int k = 0; k < 60; k++)
-            add_triangle(shape, (uint32_t)random_number(0, 30), (uint32_t)random_number(0, 30), (uint32_t)random_number(0, 30));
+            add_triangle(shape, (uint32_t)random_number(0, 30), (uint32_t)random_number(0, 30),
+                         (uint32_t)random_number(0, 30));
         cut_by(i % 2 ? "x=0;-1,1,0@0,0,0" : "box=-1,-1,-1:1,1,1;z=1");
     }
 }
@@ -625,8 +632,8 @@ static void mirrored_parts_are_cut_alike(void **state)
     (void)state;
     clear(shape);
     add_sphere(shape, 1, 0.5, 16, 24, 1);
-    double none[3] = {0, 0, 0}, turn[4] = {0, 0, 0, 1}, size[3] = {-1, 1, 1};
-    mat4 mirror = mat4_from_trs(none, turn, size);
+    double   none[3] = {0, 0, 0}, turn[4] = {0, 0, 0, 1}, size[3] = {-1, 1, 1};
+    mat4     mirror = mat4_from_trs(none, turn, size);
     measured m = cut_turned("-x=0", &mirror), plain = cut_by("x=0");
     assert_near(m.volume, plain.volume, 1e-6);
     assert_near(m.area, plain.area, 1e-6);
@@ -638,8 +645,8 @@ static void failing_memory_is_reported(void **state)
     (void)state;
     clear(shape);
     add_torus(shape, 1, 0.4, 8, 6, 1);
-    cut c;
-    mat4 world = mat4_identity();
+    cut       c;
+    mat4      world = mat4_identity();
     cut_input input = {shape->positions, shape->vertices, shape->indices, shape->corners};
     assert_int_equal(cut_parse(&c, "x;box=0,0,0:1,1,1", shape_box(&world), NULL), LMN_OK);
     for (long n = 1;; n++) {
@@ -665,17 +672,18 @@ static double now_ms(void)
 static void a_gearbox_is_cut_quickly(void **state)
 {
     (void)state;
-    const char *folder = data_folder(), *specs[] = {"x", "-y", "z", "1,1,0.3@40%,50%,50%", "box=50%,0%,50%:100%,50%,100%"};
+    const char *folder = data_folder(),
+               *specs[] = {"x", "-y", "z", "1,1,0.3@40%,50%,50%", "box=50%,0%,50%:100%,50%,100%"};
     char path[1100];
     if (!folder)
         skip();
     snprintf(path, sizeof path, "%s/mesh/gearbox-100k.stl", folder);
-    lmn_scene *scene = load_or_fail(path);
+    lmn_scene       *scene = load_or_fail(path);
     const primitive *p = &scene->meshes[0].primitives[0];
-    cut_input input = {p->positions, p->vertex_count, p->indices, p->index_count};
-    mat4 world = mat4_identity();
+    cut_input        input = {p->positions, p->vertex_count, p->indices, p->index_count};
+    mat4             world = mat4_identity();
     for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
-        cut c;
+        cut        c;
         cut_result r;
         assert_int_equal(cut_parse(&c, specs[i], p->bounds, NULL), LMN_OK);
         double start = now_ms();
@@ -683,7 +691,8 @@ static void a_gearbox_is_cut_quickly(void **state)
         double area = 0;
         for (size_t k = 0; k < r.cap_count; k++)
             area += area_of(r.caps[k].positions, r.caps[k].count);
-        print_message("%s: %.1f ms, %zu faces, area %.1f%s\n", specs[i], now_ms() - start, r.cap_count, area, r.open ? ", open" : "");
+        print_message("%s: %.1f ms, %zu faces, area %.1f%s\n", specs[i], now_ms() - start, r.cap_count, area,
+                      r.open ? ", open" : "");
         assert_false(r.open);
         assert_true(r.cap_count > 0);
         cut_result_release(&r);
@@ -691,23 +700,44 @@ static void a_gearbox_is_cut_quickly(void **state)
     lmn_scene_destroy(&scene);
 }
 
-/* --- words --------------------------------------------------------------------------------------------------------- */
+/* --- words ---------------------------------------------------------------------------------------------- */
 
 static void wrong_words_are_refused(void **state)
 {
     (void)state;
-    const char *const wrong[] = {"w", "x=", "x=a", "x=nan", "x=inf", "x=1e30", "x=1,2", "xx", "1,2@0,0,0", "1,2,3", "1,2,3@1,2",
-                                 "0,0,0@1,1,1", "box", "box=1,2,3", "box=1,2,3:4,5", "box=1,2,3,4,5,6", "x y", "x;;y", ";x", "--x",
-                                 "x=5%%", "x;x;x;x;x;x;x;x;x", "box=1,2,3:4,5,6 x"};
-    box3 box = {{0, 0, 0}, {10, 10, 10}};
-    cut c;
+    const char *const wrong[] = {"w",
+                                 "x=",
+                                 "x=a",
+                                 "x=nan",
+                                 "x=inf",
+                                 "x=1e30",
+                                 "x=1,2",
+                                 "xx",
+                                 "1,2@0,0,0",
+                                 "1,2,3",
+                                 "1,2,3@1,2",
+                                 "0,0,0@1,1,1",
+                                 "box",
+                                 "box=1,2,3",
+                                 "box=1,2,3:4,5",
+                                 "box=1,2,3,4,5,6",
+                                 "x y",
+                                 "x;;y",
+                                 ";x",
+                                 "--x",
+                                 "x=5%%",
+                                 "x;x;x;x;x;x;x;x;x",
+                                 "box=1,2,3:4,5,6 x"};
+    box3              box = {{0, 0, 0}, {10, 10, 10}};
+    cut               c;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lmn_error error = {0};
         if (cut_parse(&c, wrong[i], box, &error) != LMN_USAGE)
             fail_msg("'%s' is taken", wrong[i]);
         assert_true(error.message[0] && error.hint[0]);
     }
-    const char *const good[] = {"", " ", "x", "+x", "-x", "x=1", " x = 1 ; -y = 40% ", "z=-1.5e1;", "1,0,0@50%,0,0", "box=0,0,0:50%,50%,50%"};
+    const char *const good[] = {
+        "", " ", "x", "+x", "-x", "x=1", " x = 1 ; -y = 40% ", "z=-1.5e1;", "1,0,0@50%,0,0", "box=0,0,0:50%,50%,50%"};
     for (size_t i = 0; i < sizeof good / sizeof *good; i++)
         if (cut_parse(&c, good[i], box, NULL) != LMN_OK)
             fail_msg("'%s' is refused", good[i]);
@@ -723,7 +753,7 @@ static void boxes_are_judged(void **state)
 {
     (void)state;
     box3 bounds = {{0, 0, 0}, {10, 10, 10}};
-    cut c;
+    cut  c;
     assert_int_equal(cut_parse(&c, "x=5;box=0,0,0:2,2,2", bounds, NULL), LMN_OK);
     assert_int_equal(cut_judge_box(&c, (box3){{6, 0, 0}, {7, 1, 1}}), CUT_GONE);
     assert_int_equal(cut_judge_box(&c, (box3){{3, 0, 0}, {4, 1, 1}}), CUT_WHOLE);

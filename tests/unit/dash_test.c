@@ -16,7 +16,7 @@
 enum { SIDE = 320, RUNS_MAX = 256 };
 
 static const double pi = 3.14159265358979323846;
-static const float spur = 3.5f;
+static const float  spur = 3.5f;
 
 static uint8_t ink[SIDE * SIDE], mask[SIDE * SIDE];
 
@@ -63,7 +63,7 @@ static chain_set paint(dash_style style)
 /* The ink that stays at a place, between pixels. */
 static double ink_at(double x, double y)
 {
-    int column = (int)floor(x), row = (int)floor(y);
+    int    column = (int)floor(x), row = (int)floor(y);
     double fx = x - column, fy = y - row, sum = 0;
     for (int k = 0; k < 4; k++) {
         int i = (row + k / 2) * SIDE + column + k % 2;
@@ -111,7 +111,8 @@ static void judge_line(const run_list *r, dash_style style, double length, const
             least_dash = fmin(least_dash, run);
         }
     }
-    double off = fmax(fabs(dashes / (stretch * (double)style.dash) - 1), fabs(between / (stretch * (double)style.gap) - 1));
+    double off =
+        fmax(fabs(dashes / (stretch * (double)style.dash) - 1), fabs(between / (stretch * (double)style.gap) - 1));
     *worst = fmax(*worst, off);
     if (off > 0.08)
         fail_msg("%s: dashes %.2f, gaps %.2f px, stretch %.3f", what, dashes, between, stretch);
@@ -125,16 +126,17 @@ static void lines_of_every_slope(void **state)
 {
     (void)state;
     static const double widths[] = {1, 2, 3, 6};
-    double worst[4] = {0};
+    double              worst[4] = {0};
     for (int w = 0; w < 4; w++)
         for (int degrees = 0; degrees <= 90; degrees++) {
-            double angle = degrees * pi / 180, a[2] = {40.3, 30.6}, b[2] = {a[0] + 210 * cos(angle), a[1] + 210 * sin(angle)};
+            double angle = degrees * pi / 180, a[2] = {40.3, 30.6},
+                   b[2] = {a[0] + 210 * cos(angle), a[1] + 210 * sin(angle)};
             char what[64];
             snprintf(what, sizeof what, "width %.0f, %d degrees", widths[w], degrees);
             clear_ink();
             draw_line(a, b, widths[w]);
             dash_style style = {10, 6, (float)widths[w]};
-            chain_set set = paint(style);
+            chain_set  set = paint(style);
             assert_int_equal(set.chain_count, 1);
             assert_false(set.chains[0].closed);
             run_list r = runs_along(a, b);
@@ -150,7 +152,8 @@ static void lengths_do_not_depend_on_slope(void **state)
     (void)state;
     for (int w = 1; w <= 3; w++)
         for (int degrees = 0; degrees <= 90; degrees++) {
-            double angle = degrees * pi / 180, a[2] = {40.3, 30.6}, b[2] = {a[0] + 210 * cos(angle), a[1] + 210 * sin(angle)};
+            double angle = degrees * pi / 180, a[2] = {40.3, 30.6},
+                   b[2] = {a[0] + 210 * cos(angle), a[1] + 210 * sin(angle)};
             chain_set set;
             clear_ink();
             draw_line(a, b, w);
@@ -236,7 +239,7 @@ static void neighbours_keep_their_own(void **state)
 {
     (void)state;
     static uint8_t alone[2][SIDE];
-    double upper[2][2] = {{20, 50}, {290, 50}}, lower[2][2] = {{31, 53}, {279, 53}};
+    double         upper[2][2] = {{20, 50}, {290, 50}}, lower[2][2] = {{31, 53}, {279, 53}};
     for (int k = 0; k < 3; k++) {
         clear_ink();
         if (k != 1)
@@ -308,7 +311,7 @@ static void dots_are_dots(void **state)
     clear_ink();
     draw_line(a, b, 2);
     chain_set set = paint((dash_style){1, 10, 8}); /* traced before it grows */
-    int dots = 0;
+    int       dots = 0;
     for (int x = 60; x < 260; x++)
         dots += ink_at(x, 100.5) >= 0.5 && ink_at(x + 1, 100.5) < 0.5;
     assert_in_range(dots, 10, 12); /* 200 px in periods of 18 */
@@ -336,8 +339,8 @@ static void check_chains(const chain_set *set, int width)
         assert_true(c->count > 0 && c->first + c->count <= set->point_count);
         for (size_t k = 1; k < c->count; k++) {
             const trace_point *p = &set->points[c->first + k], *q = p - 1;
-            int dx = (int)(p->pixel % (uint32_t)width) - (int)(q->pixel % (uint32_t)width);
-            int dy = (int)(p->pixel / (uint32_t)width) - (int)(q->pixel / (uint32_t)width);
+            int                dx = (int)(p->pixel % (uint32_t)width) - (int)(q->pixel % (uint32_t)width);
+            int                dy = (int)(p->pixel / (uint32_t)width) - (int)(q->pixel / (uint32_t)width);
             assert_true(abs(dx) <= 1 && abs(dy) <= 1 && (dx || dy));
             assert_true(p->along >= q->along && isfinite(p->x) && isfinite(p->y));
         }
@@ -349,7 +352,7 @@ static void noise_is_harmless(void **state)
     (void)state;
     uint32_t seed = 7;
     for (int round = 0; round < 60; round++) {
-        int width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
+        int      width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
         uint32_t share = next_random(&seed) % 256;
         for (int i = 0; i < width * height; i++)
             ink[i] = next_random(&seed) % 256 < share;
@@ -406,13 +409,19 @@ static void maps_are_weighed(void **state)
 {
     (void)state;
     enum { W = 80, H = 9 };
-    float values[W * H * 4];
+    float   values[W * H * 4];
     uint8_t out[W * H];
     for (int channel = 0; channel < 4; channel++)
         for (int way = 0; way < 3; way++) {
-            lines_common lines = {.colour = {0, 0, 0, way == 2 ? 0.1f : 1}, .inner_colour = {.r = NAN}, .id_colour = {.r = NAN},
-                                  .width = 2, .profile_weight = way != 1, .inner_weight = way != 1, .id_weight = way != 1,
-                                  .dash = 8, .gap = 5};
+            lines_common lines = {.colour = {0, 0, 0, way == 2 ? 0.1f : 1},
+                                  .inner_colour = {.r = NAN},
+                                  .id_colour = {.r = NAN},
+                                  .width = 2,
+                                  .profile_weight = way != 1,
+                                  .inner_weight = way != 1,
+                                  .id_weight = way != 1,
+                                  .dash = 8,
+                                  .gap = 5};
             for (int i = 0; i < W * H * 4; i++)
                 values[i] = i % 4 == channel && i / 4 / W == 4 ? 0 : 1;
             assert_true(dash_process(&(pass_pixels){.values = {values}, .width = W, .height = H}, out, &lines));
@@ -429,12 +438,12 @@ static void maps_are_weighed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_of_every_slope),  cmocka_unit_test(lengths_do_not_depend_on_slope),
+        cmocka_unit_test(lines_of_every_slope),       cmocka_unit_test(lengths_do_not_depend_on_slope),
         cmocka_unit_test(circles_have_whole_periods), cmocka_unit_test(corners_have_ink),
-        cmocka_unit_test(neighbours_keep_their_own), cmocka_unit_test(junctions_have_ink),
-        cmocka_unit_test(short_ones_stay_whole), cmocka_unit_test(dots_are_dots),
-        cmocka_unit_test(noise_is_harmless),     cmocka_unit_test(small_pictures),
-        cmocka_unit_test(memory_may_run_out),    cmocka_unit_test(maps_are_weighed),
+        cmocka_unit_test(neighbours_keep_their_own),  cmocka_unit_test(junctions_have_ink),
+        cmocka_unit_test(short_ones_stay_whole),      cmocka_unit_test(dots_are_dots),
+        cmocka_unit_test(noise_is_harmless),          cmocka_unit_test(small_pictures),
+        cmocka_unit_test(memory_may_run_out),         cmocka_unit_test(maps_are_weighed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

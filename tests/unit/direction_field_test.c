@@ -1,4 +1,5 @@
-/* Fields of directions against surfaces whose curvature is known, and on meshes that are barely meshes. Row P26 of the notes on pencils. */
+/* Fields of directions against surfaces whose curvature is known, and on meshes that are barely meshes. Row P26 of
+ * the notes on pencils. */
 #include "field_shapes.h"
 
 #include "scene/direction_field.h"
@@ -10,17 +11,18 @@ static direction_field make_field(const primitive *p)
     return f;
 }
 
-/* The direction's unit vector and how sure it is, from a tensor: its axis is the row of T + s·(I − n nᵀ) that is longest, (T + s P) = 2 s d dᵀ. */
+/* The direction's unit vector and how sure it is, from a tensor: its axis is the row of T + s·(I − n nᵀ) that is
+ * longest, (T + s P) = 2 s d dᵀ. */
 static place3 axis_of(const float *t, place3 n, double *sure)
 {
     double sum = 0, best = 0;
     for (int k = 0; k < 6; k++)
         sum += (k < 3 ? 1 : 2) * (double)t[k] * t[k];
-    double s = *sure = sqrt(sum / 2);
+    double       s = *sure = sqrt(sum / 2);
     const double m[3][3] = {{t[0] + s * (1 - n.x * n.x), t[3] - s * n.x * n.y, t[5] - s * n.z * n.x},
                             {t[3] - s * n.x * n.y, t[1] + s * (1 - n.y * n.y), t[4] - s * n.y * n.z},
                             {t[5] - s * n.z * n.x, t[4] - s * n.y * n.z, t[2] + s * (1 - n.z * n.z)}};
-    place3 out = {1, 0, 0};
+    place3       out = {1, 0, 0};
     for (int k = 0; k < 3; k++) {
         double l = sqrt(m[k][0] * m[k][0] + m[k][1] * m[k][1] + m[k][2] * m[k][2]);
         if (l > best) {
@@ -31,7 +33,8 @@ static place3 axis_of(const float *t, place3 n, double *sure)
     return out;
 }
 
-/* What is right at a place: normal and direction of the greatest absolute curvature; false where that is no direction. */
+/* What is right at a place: normal and direction of the greatest absolute curvature; false where that is no
+ * direction. */
 typedef bool (*truth_fn)(place3 at, place3 *normal, place3 *direction);
 
 static int by_size(const void *a, const void *b)
@@ -41,10 +44,11 @@ static int by_size(const void *a, const void *b)
 }
 
 /* Median and 95th percentile of the angles between the field and the truth, degrees. */
-static void measure_field(const primitive *p, const direction_field *f, truth_fn truth, bool rotated, double *median, double *most)
+static void measure_field(const primitive *p, const direction_field *f, truth_fn truth, bool rotated, double *median,
+                          double *most)
 {
     double *angles = mem_alloc(p->vertex_count * sizeof *angles);
-    size_t count = 0;
+    size_t  count = 0;
     assert_int_equal(f->count, p->vertex_count);
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         place3 at = {p->positions[v].x, p->positions[v].y, p->positions[v].z}, n, d;
@@ -100,12 +104,14 @@ static bool implicit_truth(place3 g, const double h[6], place3 *n, place3 *d)
     u = fabs(n->x) < 0.6 ? (place3){0, n->z, -n->y} : (place3){-n->z, 0, n->x};
     unit(&u);
     v = (place3){n->y * u.z - n->z * u.y, n->z * u.x - n->x * u.z, n->x * u.y - n->y * u.x};
-    double uu = h[0] * u.x * u.x + h[1] * u.y * u.y + h[2] * u.z * u.z, vv = h[0] * v.x * v.x + h[1] * v.y * v.y + h[2] * v.z * v.z;
+    double uu = h[0] * u.x * u.x + h[1] * u.y * u.y + h[2] * u.z * u.z,
+           vv = h[0] * v.x * v.x + h[1] * v.y * v.y + h[2] * v.z * v.z;
     double uv = h[0] * u.x * v.x + h[1] * u.y * v.y + h[2] * u.z * v.z;
     double mean = (uu + vv) / 2, half = hypot((uu - vv) / 2, uv), angle = atan2(uv, (uu - vv) / 2) / 2;
     if (mean < 0)
         angle += field_pi / 2;
-    *d = (place3){u.x * cos(angle) + v.x * sin(angle), u.y * cos(angle) + v.y * sin(angle), u.z * cos(angle) + v.z * sin(angle)};
+    *d = (place3){u.x * cos(angle) + v.x * sin(angle), u.y * cos(angle) + v.y * sin(angle),
+                  u.z * cos(angle) + v.z * sin(angle)};
     double less = fmin(fabs(mean), half), greater = fmax(fabs(mean), half);
     return less > 0.1 * greater;
 }
@@ -130,7 +136,8 @@ static void check_accuracy(const char *name, primitive p, truth_fn truth)
             turn_primitive(&p);
         direction_field f = make_field(&p);
         measure_field(&p, &f, truth, rotated, &median, &most);
-        printf("%-28s %s %6u triangles: median %.2f, 95 %% %.2f degrees\n", name, rotated ? "turned" : "      ", p.index_count / 3, median, most);
+        printf("%-28s %s %6u triangles: median %.2f, 95 %% %.2f degrees\n", name, rotated ? "turned" : "      ",
+               p.index_count / 3, median, most);
         direction_field_release(&f);
         assert_true(median <= 5 && most <= 15);
     }
@@ -155,7 +162,7 @@ static void directions_agree_with_known_surfaces(void **state)
     check_accuracy("saddle, jittered", grid_surface(saddle_at, 24, 24, false, false, 0.7), saddle_truth);
 }
 
-/* --- what always holds -------------------------------------------------------------------------------------------- */
+/* --- what always holds ---------------------------------------------------------------------------------- */
 
 /* Finite, no trace, within 1; in the plane of each triangle that has the corner, when `flat` says that these agree. */
 static void check_tensors(const primitive *p, const direction_field *f, bool flat)
@@ -164,7 +171,7 @@ static void check_tensors(const primitive *p, const direction_field *f, bool fla
     assert_true(f->tensor_count >= f->count && f->tensors);
     for (uint32_t k = 0; k < f->tensor_count; k++) {
         const float *t = f->tensors[k];
-        double sum = 0;
+        double       sum = 0;
         for (int i = 0; i < 6; i++) {
             assert_true(isfinite(t[i]));
             sum += (i < 3 ? 1 : 2) * (double)t[i] * t[i];
@@ -172,15 +179,17 @@ static void check_tensors(const primitive *p, const direction_field *f, bool fla
         assert_true(sqrt(sum / 2) <= 1 + 1e-4);
         assert_true(fabs((double)t[0] + t[1] + t[2]) <= 1e-4);
         /* T n = 0 for some n: no third direction. */
-        double determinant = t[0] * ((double)t[1] * t[2] - (double)t[4] * t[4]) - t[3] * ((double)t[3] * t[2] - (double)t[4] * t[5]) +
+        double determinant = t[0] * ((double)t[1] * t[2] - (double)t[4] * t[4]) -
+                             t[3] * ((double)t[3] * t[2] - (double)t[4] * t[5]) +
                              t[5] * ((double)t[3] * t[4] - (double)t[1] * t[5]);
         assert_true(fabs(determinant) <= 1e-4);
     }
     for (uint32_t c = 0; c < p->index_count; c++) {
         const uint32_t *k = p->indices + c / 3 * 3;
-        const float *t = direction_field_at(f, p, c);
-        vec3 a = p->positions[k[0]], b = p->positions[k[1]], d = p->positions[k[2]];
-        double u[3] = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z}, v[3] = {(double)d.x - a.x, (double)d.y - a.y, (double)d.z - a.z};
+        const float    *t = direction_field_at(f, p, c);
+        vec3            a = p->positions[k[0]], b = p->positions[k[1]], d = p->positions[k[2]];
+        double          u[3] = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z},
+               v[3] = {(double)d.x - a.x, (double)d.y - a.y, (double)d.z - a.z};
         place3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
         double l = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
         assert_true(c == 0 || direction_field_at(f, p, c) >= f->tensors[0]);
@@ -195,7 +204,7 @@ static void check_tensors(const primitive *p, const direction_field *f, bool fla
 static void check_anything(primitive p)
 {
     for (int i = 0; i < 3; i++) {
-        const double features[3] = {0, 0.8, 4}, radii[3] = {0, 1e9, 1e-9};
+        const double    features[3] = {0, 0.8, 4}, radii[3] = {0, 1e9, 1e-9};
         direction_field f;
         assert_int_equal(direction_field_make(&f, &p, features[i], radii[i], NULL), LMN_OK);
         check_tensors(&p, &f, false);
@@ -215,14 +224,15 @@ static double sureness_of(const float *t)
 /* l·T·l: 1 along d, −1 across, times the sureness. */
 static double along(const float *t, place3 l)
 {
-    return t[0] * l.x * l.x + t[1] * l.y * l.y + t[2] * l.z * l.z + 2 * (t[3] * l.x * l.y + t[4] * l.y * l.z + t[5] * l.z * l.x);
+    return t[0] * l.x * l.x + t[1] * l.y * l.y + t[2] * l.z * l.z +
+           2 * (t[3] * l.x * l.y + t[4] * l.y * l.z + t[5] * l.z * l.x);
 }
 
 static void the_greater_curvature_is_meant(void **state)
 {
     (void)state;
     /* The sum of edges bent points along a cylinder's axis; the field must not. */
-    primitive p = grid_surface(cylinder_at, 32, 24, true, false, 0.5);
+    primitive       p = grid_surface(cylinder_at, 32, 24, true, false, 0.5);
     direction_field f = make_field(&p);
     for (uint32_t v = 0; v < p.vertex_count; v++) {
         assert_true(along(f.tensors[v], (place3){0, 0, 1}) < -0.9);
@@ -231,7 +241,8 @@ static void the_greater_curvature_is_meant(void **state)
     }
     direction_field_release(&f);
     primitive_release(&p);
-    /* A saddle bends 2 along x and 1, the other way, along y: the sureness is 1/3 in its middle. Without signs nothing could be told. */
+    /* A saddle bends 2 along x and 1, the other way, along y: the sureness is 1/3 in its middle. Without signs
+     * nothing could be told. */
     p = grid_surface(saddle_at, 40, 40, false, false, 0);
     f = make_field(&p);
     double sure = along(f.tensors[20 * 41 + 20], (place3){1, 0, 0});
@@ -244,10 +255,10 @@ static void the_greater_curvature_is_meant(void **state)
 static void a_ball_is_not_sure_of_anything(void **state)
 {
     (void)state;
-    const place3 round = {2, 2, 2};
-    primitive p = ball(24, 0.7, round);
+    const place3    round = {2, 2, 2};
+    primitive       p = ball(24, 0.7, round);
     direction_field f = make_field(&p);
-    double most = 0, mean = 0;
+    double          most = 0, mean = 0;
     check_tensors(&p, &f, false);
     for (uint32_t v = 0; v < p.vertex_count; v++) {
         double s = sureness_of(f.tensors[v]);
@@ -265,7 +276,7 @@ static void a_plane_is_drawn_along_its_longer_side(void **state)
     (void)state;
     for (int rotated = 0; rotated < 2; rotated++) {
         primitive p = grid_surface(plane_at, 12, 4, false, false, rotated ? 0.6 : 0);
-        place3 x = {1, 0, 0};
+        place3    x = {1, 0, 0};
         if (rotated) {
             turn_primitive(&p);
             x = turned(x);
@@ -283,9 +294,10 @@ static void a_plane_is_drawn_along_its_longer_side(void **state)
 static void a_facade_is_drawn_along_its_border(void **state)
 {
     (void)state;
-    static const vec3 corners[8] = {{0, 0, 0}, {4, 0, 0}, {4, 0, 1}, {1, 0, 1}, {1, 0, 3}, {0, 0, 3}, {0, 0, 1}, {1, 0, 0}};
+    static const vec3     corners[8] = {{0, 0, 0}, {4, 0, 0}, {4, 0, 1}, {1, 0, 1},
+                                        {1, 0, 3}, {0, 0, 3}, {0, 0, 1}, {1, 0, 0}};
     static const uint32_t triangles[18] = {0, 7, 3, 0, 3, 6, 7, 1, 2, 7, 2, 3, 6, 3, 4, 6, 4, 5};
-    primitive p = empty_primitive(8, 18);
+    primitive             p = empty_primitive(8, 18);
     memcpy(p.positions, corners, sizeof corners);
     memcpy(p.indices, triangles, sizeof triangles);
     turn_primitive(&p);
@@ -300,13 +312,14 @@ static void a_facade_is_drawn_along_its_border(void **state)
 static void faces_of_a_cube_have_one_direction_each(void **state)
 {
     (void)state;
-    primitive p = shared_cube();
+    primitive       p = shared_cube();
     direction_field f = make_field(&p);
     check_tensors(&p, &f, true);
     assert_non_null(f.corners);
     for (uint32_t c = 0; c < p.index_count; c += 6) {
         for (uint32_t k = 0; k < 6; k++)
-            assert_true(memcmp(direction_field_at(&f, &p, c), direction_field_at(&f, &p, c + k), sizeof *f.tensors) == 0);
+            assert_true(memcmp(direction_field_at(&f, &p, c), direction_field_at(&f, &p, c + k), sizeof *f.tensors) ==
+                        0);
         assert_true(fabs(sureness_of(direction_field_at(&f, &p, c)) - 0.05) < 1e-4);
         /* Along one of the cube's own edges. */
         const float *t = direction_field_at(&f, &p, c);
@@ -321,11 +334,13 @@ static void faces_of_a_cube_have_one_direction_each(void **state)
 /* A drum: its flat ends are as round as can be, and must still have one direction; its side is sure. */
 static place3 bowl_at(double u, double v)
 {
-    double a = 2 * field_pi * u, r = v < 0.5 ? v * 4 : 2 + sin((v - 0.5) * field_pi), z = v < 0.5 ? 0 : 1 - cos((v - 0.5) * field_pi);
+    double a = 2 * field_pi * u, r = v < 0.5 ? v * 4 : 2 + sin((v - 0.5) * field_pi),
+           z = v < 0.5 ? 0 : 1 - cos((v - 0.5) * field_pi);
     return (place3){r * cos(a), r * sin(a), z};
 }
 
-/* Half a cylinder that goes on as a plane: the plane has the cylinder's direction, though it is longer the other way. */
+/* Half a cylinder that goes on as a plane: the plane has the cylinder's direction, though it is longer the other
+ * way. */
 static place3 hook_at(double u, double v)
 {
     double s = 8 * u;
@@ -337,7 +352,7 @@ static place3 hook_at(double u, double v)
 static void flat_places_take_after_what_bends_beside_them(void **state)
 {
     (void)state;
-    primitive p = grid_surface(hook_at, 80, 120, false, false, 0);
+    primitive       p = grid_surface(hook_at, 80, 120, false, false, 0);
     direction_field f = make_field(&p);
     check_tensors(&p, &f, false);
     for (uint32_t v = 0; v < p.vertex_count; v++)
@@ -355,7 +370,7 @@ static void flat_places_take_after_what_bends_beside_them(void **state)
 static primitive with_triangles(const uint32_t *triangles, uint32_t count)
 {
     static const vec3 places[7] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0.2f, 1}, {2, 0, 0}, {3, 0, 0}, {0, 0, 0}};
-    primitive p = empty_primitive(7, count);
+    primitive         p = empty_primitive(7, count);
     memcpy(p.positions, places, sizeof places);
     memcpy(p.indices, triangles, count * sizeof *triangles);
     return p;
@@ -364,7 +379,8 @@ static primitive with_triangles(const uint32_t *triangles, uint32_t count)
 static void barely_meshes_are_finite(void **state)
 {
     (void)state;
-    const uint32_t one[3] = {0, 1, 2}, flat[3] = {0, 1, 4}, same[3] = {0, 0, 0}, place[3] = {0, 6, 1}, copies[9] = {0, 1, 2, 0, 1, 2, 2, 1, 0};
+    const uint32_t one[3] = {0, 1, 2}, flat[3] = {0, 1, 4}, same[3] = {0, 0, 0}, place[3] = {0, 6, 1},
+                   copies[9] = {0, 1, 2, 0, 1, 2, 2, 1, 0};
     const uint32_t book[9] = {0, 1, 2, 0, 1, 3, 1, 0, 5}, mixed[12] = {0, 1, 2, 1, 4, 5, 0, 4, 2, 0, 3, 2};
     check_anything(with_triangles(one, 3));
     check_anything(with_triangles(flat, 3));
@@ -388,7 +404,8 @@ static void barely_meshes_are_finite(void **state)
     /* Everything at once: random triangles between few places, and a torus whose faces are turned at will. */
     p = empty_primitive(20, 900);
     for (uint32_t v = 0; v < 20; v++)
-        p.positions[v] = (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)), (float)rint(2 * hashed(v + 200))};
+        p.positions[v] =
+            (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)), (float)rint(2 * hashed(v + 200))};
     for (uint32_t i = 0; i < 900; i++)
         p.indices[i] = (uint32_t)(hashed(i + 1000) * 19.99);
     check_anything(p);
@@ -398,7 +415,8 @@ static void barely_meshes_are_finite(void **state)
 static void windings_and_copies_do_not_matter(void **state)
 {
     (void)state;
-    primitive p = grid_surface(torus_at, 48, 20, true, true, 0.4), q = empty_primitive(p.vertex_count, 2 * p.index_count);
+    primitive p = grid_surface(torus_at, 48, 20, true, true, 0.4),
+              q = empty_primitive(p.vertex_count, 2 * p.index_count);
     memcpy(q.positions, p.positions, p.vertex_count * sizeof *p.positions);
     for (uint32_t t = 0; t < p.index_count / 3; t++)
         for (uint32_t k = 0; k < 3; k++) {
@@ -406,7 +424,7 @@ static void windings_and_copies_do_not_matter(void **state)
             q.indices[6 * t + 3 + k] = p.indices[3 * t + (hashed(t + 9999) < 0.5 ? k : 2 - k)];
         }
     direction_field a = make_field(&p), b = make_field(&q);
-    double worst = 0;
+    double          worst = 0;
     for (uint32_t v = 0; v < p.vertex_count; v++)
         for (int k = 0; k < 6; k++)
             worst = fmax(worst, fabs((double)a.tensors[v][k] - b.tensors[v][k]));
@@ -430,7 +448,7 @@ static void compare_moved(primitive p, const char *name, double tolerance)
         memcpy(q.indices, p.indices, p.index_count * sizeof *p.indices);
         scale_primitive(&q, moves[i].scale, moves[i].shift);
         direction_field b = make_field(&q);
-        double worst = 0;
+        double          worst = 0;
         for (uint32_t v = 0; v < p.vertex_count; v++)
             for (int k = 0; k < 6; k++)
                 worst = fmax(worst, fabs((double)a.tensors[v][k] - b.tensors[v][k]));
@@ -455,7 +473,7 @@ static void size_and_place_do_not_matter(void **state)
 static void the_same_twice(void **state)
 {
     (void)state;
-    primitive p = grid_surface(torus_at, 200, 100, true, true, 0.4);
+    primitive       p = grid_surface(torus_at, 200, 100, true, true, 0.4);
     direction_field a = make_field(&p), b = make_field(&p);
     assert_memory_equal(a.tensors, b.tensors, a.tensor_count * sizeof *a.tensors);
     direction_field_release(&a);
@@ -467,9 +485,9 @@ static void memory_may_run_out(void **state)
 {
     (void)state;
     primitive p = shared_cube();
-    long n = 1;
+    long      n = 1;
     for (; n < 1000; n++) {
-        lmn_error error = {0};
+        lmn_error       error = {0};
         direction_field f;
         mem_fail_at(n);
         lmn_status status = direction_field_make(&f, &p, 0.8, 0, &error);
@@ -489,10 +507,10 @@ static void memory_may_run_out(void **state)
 static void a_million_triangles_do_not_take_long(void **state)
 {
     (void)state;
-    primitive p = grid_surface(torus_at, 1000, 500, true, true, 0.5);
-    double before = seconds_now(), median, most;
+    primitive       p = grid_surface(torus_at, 1000, 500, true, true, 0.5);
+    double          before = seconds_now(), median, most;
     direction_field f = make_field(&p);
-    double taken = seconds_now() - before;
+    double          taken = seconds_now() - before;
     measure_field(&p, &f, torus_truth, false, &median, &most);
     printf("torus of %u triangles: %.2f s; median %.2f, 95 %% %.2f degrees\n", p.index_count / 3, taken, median, most);
     assert_true(median <= 5 && most <= 15);
@@ -503,18 +521,21 @@ static void a_million_triangles_do_not_take_long(void **state)
 static void models_have_fields(void **state)
 {
     (void)state;
-    static const char *const names[] = {"mesh/suzanne.obj", "mesh/spot.obj", "mesh/teapot.obj", "mesh/cube.ply", "mesh/scifihelmet-binary.ply", "mesh/gearbox-100k.stl"};
+    static const char *const names[] = {
+        "mesh/suzanne.obj",     "mesh/spot.obj", "mesh/teapot.obj", "mesh/cube.ply", "mesh/scifihelmet-binary.ply",
+        "mesh/gearbox-100k.stl"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         primitive p;
         if (!model_primitive(names[i], &p))
             skip();
-        double before = seconds_now(), sure = 0;
+        double          before = seconds_now(), sure = 0;
         direction_field f = make_field(&p);
-        double taken = seconds_now() - before;
+        double          taken = seconds_now() - before;
         check_tensors(&p, &f, false);
         for (uint32_t k = 0; k < f.tensor_count; k++)
             sure += sureness_of(f.tensors[k]) >= 0.1;
-        printf("%-30s %6u triangles: %.3f s, sure at %.0f %%\n", names[i], p.index_count / 3, taken, 100 * sure / f.tensor_count);
+        printf("%-30s %6u triangles: %.3f s, sure at %.0f %%\n", names[i], p.index_count / 3, taken,
+               100 * sure / f.tensor_count);
         direction_field_release(&f);
         primitive_release(&p);
     }

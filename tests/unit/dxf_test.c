@@ -1,4 +1,5 @@
-/* DXF: read back by the library that CAD programs read it with (dxflib) and equal in coordinates; what is in the text beside them. */
+/* DXF: read back by the library that CAD programs read it with (dxflib) and equal in coordinates; what is in the
+ * text beside them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -33,7 +34,7 @@ static float number(uint32_t *state, float most)
 static void build(sheet *s, reference *lines)
 {
     static const char *const classes[] = {"visible contour", "hidden crease"};
-    uint32_t state = 7, groups[2];
+    uint32_t                 state = 7, groups[2];
     sheet_begin(s, 210, 297, 4);
     for (int i = 0; i < 2; i++)
         groups[i] = sheet_add_group(s, -1, "lines", classes[i], 0);
@@ -46,7 +47,7 @@ static void build(sheet *s, reference *lines)
             r->points[k][1] = number(&state, 297);
         }
         sheet_add_item(s, SHEET_PATH, groups[i % 2], (colour){0, 0, 0, 1}, 0);
-        sheet_add_path(s, &(sheet_path){.width = 0.3f, .closed = r->closed}, (const float (*)[2])r->points, r->count);
+        sheet_add_path(s, &(sheet_path){.width = 0.3f, .closed = r->closed}, (const float(*)[2])r->points, r->count);
     }
 }
 
@@ -73,10 +74,10 @@ static void test_read_back(void **state)
     (void)state;
 #ifdef LIMNER_HAVE_DXFLIB
     static reference lines[LINES];
-    const float dot[1][2] = {{10, 20}};
-    sheet    s;
-    dxf_file read;
-    double   worst = 0;
+    const float      dot[1][2] = {{10, 20}};
+    sheet            s;
+    dxf_file         read;
+    double           worst = 0;
     build(&s, lines);
     sheet_add_text(&s, 0, (colour){0, 0, 0, 1}, "words", 30, 40, 10, -1);
     sheet_add_item(&s, SHEET_DOTS, 1, (colour){0, 0, 0, 1}, 0);
@@ -92,7 +93,8 @@ static void test_read_back(void **state)
         assert_string_equal(e->layer, i % 2 ? "HIDDEN-CREASE" : "VISIBLE-CONTOUR");
         for (uint32_t k = 0; k < lines[i].count; k++) {
             const double *p = read.points[e->first + k];
-            worst = fmax(worst, fmax(fabs(p[0] - (double)lines[i].points[k][0]), fabs(297 - p[1] - (double)lines[i].points[k][1])));
+            worst = fmax(worst, fmax(fabs(p[0] - (double)lines[i].points[k][0]),
+                                     fabs(297 - p[1] - (double)lines[i].points[k][1])));
         }
     }
     print_message("the worst place is %.6f mm off\n", worst);
@@ -111,7 +113,7 @@ static void test_read_back(void **state)
 
 static void test_words(void **state)
 {
-    const float dot[1][2] = {{10, 20}};
+    const float  dot[1][2] = {{10, 20}};
     sheet        s;
     export_bytes bytes;
     lmn_error    error = {0};
@@ -124,8 +126,10 @@ static void test_words(void **state)
     assert_int_equal(export_dxf(&bytes, &s, &error), LMN_OK);
     const char *out = (const char *)bytes.data;
     assert_non_null(strstr(out, "\n1\nS\\U+00E4ge   \\U+FFFD end\n"));
-    assert_non_null(strstr(out, "0\nTEXT\n8\nODD--NAME----WITH-VERY-MANY-LET\n10\n30.0000\n20\n10.0000\n30\n0.0000\n40\n7.1600\n"));
-    assert_non_null(strstr(out, "0\nCIRCLE\n8\nODD--NAME----WITH-VERY-MANY-LET\n10\n10.0000\n20\n30.0000\n30\n0.0000\n40\n2.0000\n"));
+    assert_non_null(
+        strstr(out, "0\nTEXT\n8\nODD--NAME----WITH-VERY-MANY-LET\n10\n30.0000\n20\n10.0000\n30\n0.0000\n40\n7.1600\n"));
+    assert_non_null(strstr(
+        out, "0\nCIRCLE\n8\nODD--NAME----WITH-VERY-MANY-LET\n10\n10.0000\n20\n30.0000\n30\n0.0000\n40\n2.0000\n"));
     assert_non_null(strstr(out, "2\nODD--NAME----WITH-VERY-MANY-LET\n70\n0\n62\n1\n")); /* the layer is red */
     mem_free(bytes.data);
     sheet_release(&s);
@@ -146,6 +150,7 @@ static void test_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_back), cmocka_unit_test(test_words), cmocka_unit_test(test_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_back), cmocka_unit_test(test_words),
+                                       cmocka_unit_test(test_nothing)};
     return cmocka_run_group_tests_name("dxf", tests, NULL, NULL);
 }

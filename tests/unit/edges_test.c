@@ -1,4 +1,5 @@
-/* Edges sorted into those that are always lines, those that may be outlines and those that never are. Rows OE-01 to OE-03, OE-05; glTF's EXT_mesh_primitive_edge_visibility. */
+/* Edges sorted into those that are always lines, those that may be outlines and those that never are. Rows OE-01 to
+ * OE-03, OE-05; glTF's EXT_mesh_primitive_edge_visibility. */
 #include "field_shapes.h"
 
 #include "stroke/stroke_private.h"
@@ -7,7 +8,7 @@ static const double degree = 3.14159265358979323846 / 180;
 
 static edge_mesh sort(const primitive *p, size_t count, double crease)
 {
-    mesh m = {.primitives = (primitive *)p, .primitive_count = count};
+    mesh      m = {.primitives = (primitive *)p, .primitive_count = count};
     edge_mesh e;
     assert_int_equal(edge_mesh_create(&e, &m, NULL, crease, NULL), LMN_OK);
     return e;
@@ -45,13 +46,13 @@ static primitive of_faces(const vec3 *places, uint32_t place_count, const uint32
 static primitive prism(uint32_t sides)
 {
     primitive p = empty_primitive(2 * sides, 3 * (2 * sides + 2 * (sides - 2)));
-    uint32_t at = 0;
+    uint32_t  at = 0;
     for (uint32_t i = 0; i < 2 * sides; i++) {
         double turn = 2 * field_pi * (i % sides) / sides;
         p.positions[i] = (vec3){(float)cos(turn), (float)sin(turn), i < sides ? 0.0f : 2.0f};
     }
     for (uint32_t i = 0; i < sides; i++) {
-        uint32_t j = (i + 1) % sides;
+        uint32_t       j = (i + 1) % sides;
         const uint32_t quad[6] = {i, j, sides + j, i, sides + j, sides + i};
         memcpy(p.indices + at, quad, sizeof quad);
         at += 6;
@@ -78,7 +79,7 @@ static void the_octagonal_prism(void **state)
         assert_int_equal(count_flag(&e, EDGE_CANDIDATE), 8);
         assert_int_equal(e.edge_count, 24); /* the other 18 are never lines */
         assert_int_equal(count_flag(&e, EDGE_BORDER | EDGE_MATERIAL | EDGE_TWISTED), 0);
-        bool winged[28] = {false};
+        bool     winged[28] = {false};
         uint32_t tested = 0;
         for (uint32_t k = 0; k < e.edge_count; k++)
             if (e.edges[k].flags & EDGE_CANDIDATE)
@@ -122,7 +123,7 @@ static void faces_lie_where_they_should(void **state)
     for (uint32_t i = 0; i < e.edge_count; i++)
         for (int w = 0; w < 2; w++) {
             const uint32_t *c = e.faces[e.edges[i].face[w]];
-            uint32_t from = e.edges[i].vertex[w], to = e.edges[i].vertex[1 - w];
+            uint32_t        from = e.edges[i].vertex[w], to = e.edges[i].vertex[1 - w];
             assert_true((c[0] == from && c[1] == to) || (c[1] == from && c[2] == to) || (c[2] == from && c[0] == to));
         }
     edge_mesh_release(&e);
@@ -132,12 +133,12 @@ static void faces_lie_where_they_should(void **state)
 /* Two triangles that meet at the y axis, the second one lifted by `height` at x = 1. */
 static uint32_t hinge(double height, double scale, double away, bool closed_below)
 {
-    float s = (float)scale, h = (float)(scale * height), a = (float)away;
-    const vec3 places[5] = {{a, a, a}, {a, a + s, a}, {a - s, a, a}, {a + s, a, a + h}, {a, a, a - 3 * s}};
+    float          s = (float)scale, h = (float)(scale * height), a = (float)away;
+    const vec3     places[5] = {{a, a, a}, {a, a + s, a}, {a - s, a, a}, {a + s, a, a + h}, {a, a, a - 3 * s}};
     const uint32_t corners[18] = {0, 1, 2, 1, 0, 3, 0, 2, 4, 3, 0, 4, 1, 3, 4, 2, 1, 4};
-    primitive p = of_faces(places, 5, corners, closed_below ? 18 : 6);
-    edge_mesh e = sort(&p, 1, 80 * degree);
-    uint32_t flags = flags_between(&e, e.places[0], e.places[1]);
+    primitive      p = of_faces(places, 5, corners, closed_below ? 18 : 6);
+    edge_mesh      e = sort(&p, 1, 80 * degree);
+    uint32_t       flags = flags_between(&e, e.places[0], e.places[1]);
     if (closed_below)
         assert_true(e.closed[0] && !e.inward[0]);
     edge_mesh_release(&e);
@@ -167,13 +168,13 @@ static void flat_faces_have_no_candidates(void **state)
     (void)state;
     for (uint32_t i = 0; i < 40; i++) {
         primitive p = grid_surface(plane_at, 20, 20, false, false, 0.6);
-        double away = i < 10 ? 0 : pow(10, i % 6);
+        double    away = i < 10 ? 0 : pow(10, i % 6);
         for (uint32_t v = 0; v < p.vertex_count; v++) {
             place3 q = turned_by((place3){p.positions[v].x, p.positions[v].y, p.positions[v].z}, 0.37 * i);
             p.positions[v] = (vec3){(float)(q.x + away), (float)(q.y - away), (float)(q.z + 0.3 * away)};
         }
         edge_mesh e = sort(&p, 1, 30 * degree);
-        uint32_t candidates = count_flag(&e, EDGE_CANDIDATE);
+        uint32_t  candidates = count_flag(&e, EDGE_CANDIDATE);
         if (candidates)
             printf("plane %u, %.0f away: %u of %u edges are candidates\n", i, away, candidates, e.all_edges);
         assert_int_equal(candidates, 0);
@@ -185,8 +186,9 @@ static void flat_faces_have_no_candidates(void **state)
 static void borders_are_borders(void **state)
 {
     (void)state;
-    static const vec3 places[6] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, -2, 0}};
-    static const uint32_t corners[12] = {0, 1, 2, 0, 2, 3, /* and below it two that meet it at the middle of its side */ 0, 5, 4, 4, 5, 1};
+    static const vec3     places[6] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, -2, 0}};
+    static const uint32_t corners[12] = {
+        0, 1, 2, 0, 2, 3, /* and below it two that meet it at the middle of its side */ 0, 5, 4, 4, 5, 1};
     primitive p = of_faces(places, 6, corners, 12);
     edge_mesh e = sort(&p, 1, 30 * degree);
     assert_int_equal(e.all_edges, 5 + 5);
@@ -205,8 +207,10 @@ static void borders_are_borders(void **state)
 static void faces_that_are_there_twice_count_once(void **state)
 {
     (void)state;
-    static const vec3 places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
-    static const uint32_t alike[12] = {0, 1, 2, 0, 2, 3, 1, 2, 0, 0, 2, 3}, flipped[12] = {0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0}, lone[6] = {0, 1, 2, 2, 1, 0}, twice[6] = {0, 1, 2, 1, 2, 0};
+    static const vec3     places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    static const uint32_t alike[12] = {0, 1, 2, 0, 2, 3, 1, 2, 0, 0, 2, 3},
+                          flipped[12] = {0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0}, lone[6] = {0, 1, 2, 2, 1, 0},
+                          twice[6] = {0, 1, 2, 1, 2, 0};
     const uint32_t *corners[4] = {alike, flipped, lone, twice}, counts[4] = {12, 12, 6, 6}, faces[4] = {2, 2, 1, 1};
     for (int i = 0; i < 4; i++) {
         primitive p = of_faces(places, 4, corners[i], counts[i]);
@@ -225,7 +229,7 @@ static void faces_inside_out_are_told(void **state)
 {
     (void)state;
     primitive p = shared_cube();
-    uint32_t other = p.indices[1];
+    uint32_t  other = p.indices[1];
     p.indices[1] = p.indices[2];
     p.indices[2] = other;
     edge_mesh e = sort(&p, 1, 30 * degree);
@@ -241,10 +245,10 @@ static void faces_inside_out_are_told(void **state)
 static void edges_of_three_faces_are_borders(void **state)
 {
     (void)state;
-    static const vec3 places[5] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
+    static const vec3     places[5] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
     static const uint32_t corners[9] = {0, 1, 2, 0, 1, 3, 0, 1, 4};
-    primitive p = of_faces(places, 5, corners, 9);
-    edge_mesh e = sort(&p, 1, 30 * degree);
+    primitive             p = of_faces(places, 5, corners, 9);
+    edge_mesh             e = sort(&p, 1, 30 * degree);
     assert_int_equal(e.all_edges, 7);
     assert_int_equal(e.loose_edges, 7);
     assert_int_equal(count_flag(&e, EDGE_BORDER), 7);
@@ -255,9 +259,9 @@ static void edges_of_three_faces_are_borders(void **state)
 static void materials_part_faces(void **state)
 {
     (void)state;
-    static const vec3 places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    static const vec3     places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
     static const uint32_t first[3] = {0, 1, 2}, second[3] = {0, 2, 3};
-    primitive p[2] = {of_faces(places, 4, first, 3), of_faces(places, 4, second, 3)};
+    primitive             p[2] = {of_faces(places, 4, first, 3), of_faces(places, 4, second, 3)};
     for (int same = 0; same < 2; same++) {
         p[1].material = same ? NONE : 0;
         edge_mesh e = sort(p, 2, 30 * degree);
@@ -272,14 +276,17 @@ static void materials_part_faces(void **state)
     primitive_release(&p[1]);
 }
 
-/* Vertices at one place are one, whatever sign their zeros have; edges without length and faces without area vanish. */
+/* Vertices at one place are one, whatever sign their zeros have; edges without length and faces without area
+ * vanish. */
 static void vertices_at_one_place_are_one(void **state)
 {
     (void)state;
-    static const vec3 places[8] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, -0.0f}, {0, 1, 0}, {-1, 0, 0}, {0, 1, 0}, {0.5f, 0, 0}};
-    static const uint32_t corners[12] = {0, 1, 2, 3, 4, 5, /* an edge without length; three in a line */ 2, 6, 1, 0, 7, 1};
-    primitive p = of_faces(places, 8, corners, 12);
-    edge_mesh e = sort(&p, 1, 30 * degree);
+    static const vec3     places[8] = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {-0.0f, 0, -0.0f},
+                                       {0, 1, 0}, {-1, 0, 0}, {0, 1, 0}, {0.5f, 0, 0}};
+    static const uint32_t corners[12] = {0, 1, 2, 3, 4, 5, /* an edge without length; three in a line */ 2,
+                                         6, 1, 0, 7, 1};
+    primitive             p = of_faces(places, 8, corners, 12);
+    edge_mesh             e = sort(&p, 1, 30 * degree);
     assert_int_equal(e.face_count, 2);
     assert_int_equal(e.all_edges, 5);
     assert_int_equal(count_flag(&e, EDGE_BORDER), 4);
@@ -308,13 +315,18 @@ static void inside_out_bodies_are_told(void **state)
 /* Is the far corner of the face beyond a half-edge below the face? In double precision. */
 static bool is_convex(const primitive *p, uint32_t h, uint32_t beyond)
 {
-    vec3 a = p->positions[p->indices[h / 3 * 3]], b = p->positions[p->indices[h / 3 * 3 + 1]], c = p->positions[p->indices[h / 3 * 3 + 2]];
-    vec3 d = p->positions[p->indices[beyond / 3 * 3 + (beyond + 2) % 3]];
-    double ux = (double)b.x - a.x, uy = (double)b.y - a.y, uz = (double)b.z - a.z, vx = (double)c.x - a.x, vy = (double)c.y - a.y, vz = (double)c.z - a.z;
-    return ((double)d.x - a.x) * (uy * vz - uz * vy) + ((double)d.y - a.y) * (uz * vx - ux * vz) + ((double)d.z - a.z) * (ux * vy - uy * vx) < 0;
+    vec3 a = p->positions[p->indices[h / 3 * 3]], b = p->positions[p->indices[h / 3 * 3 + 1]],
+         c = p->positions[p->indices[h / 3 * 3 + 2]];
+    vec3   d = p->positions[p->indices[beyond / 3 * 3 + (beyond + 2) % 3]];
+    double ux = (double)b.x - a.x, uy = (double)b.y - a.y, uz = (double)b.z - a.z, vx = (double)c.x - a.x,
+           vy = (double)c.y - a.y, vz = (double)c.z - a.z;
+    return ((double)d.x - a.x) * (uy * vz - uz * vy) + ((double)d.y - a.y) * (uz * vx - ux * vz) +
+               ((double)d.z - a.z) * (ux * vy - uy * vx) <
+           0;
 }
 
-/* Of all convex edges, those between front and back are found, in any view, and no others: that they were sorted before loses nothing. */
+/* Of all convex edges, those between front and back are found, in any view, and no others: that they were sorted
+ * before loses nothing. */
 static void nothing_that_is_an_outline_was_dropped(void **state)
 {
     (void)state;
@@ -322,16 +334,18 @@ static void nothing_that_is_an_outline_was_dropped(void **state)
     edge_mesh e = sort(&p, 1, 100 * degree);
     uint32_t *opposite = mesh_adjacency(&p), outlines = 0;
     for (uint32_t view = 0; view < 1000; view++) {
-        double z = 2 * hashed(3 * view) - 1, a = 2 * field_pi * hashed(3 * view + 1), s = sqrt(1 - z * z);
+        double       z = 2 * hashed(3 * view) - 1, a = 2 * field_pi * hashed(3 * view + 1), s = sqrt(1 - z * z);
         const double d[3] = {s * cos(a), s * sin(a), z};
-        uint32_t wanted = 0, got = 0;
+        uint32_t     wanted = 0, got = 0;
         for (uint32_t h = 0; h < p.index_count; h++) {
             vec3 m = e.normals[h / 3], n = e.normals[opposite[h] / 3];
-            wanted += h < opposite[h] && is_convex(&p, h, opposite[h]) && (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
+            wanted += h < opposite[h] && is_convex(&p, h, opposite[h]) &&
+                      (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
         }
         for (uint32_t i = 0; i < e.edge_count; i++) {
             vec3 m = e.normals[e.edges[i].face[0]], n = e.normals[e.edges[i].face[1]];
-            got += e.edges[i].flags & EDGE_CANDIDATE && (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
+            got += e.edges[i].flags & EDGE_CANDIDATE &&
+                   (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
         }
         assert_int_equal(got, wanted);
         outlines += wanted;
@@ -342,7 +356,7 @@ static void nothing_that_is_an_outline_was_dropped(void **state)
     primitive_release(&p);
 }
 
-/* --- what files say ------------------------------------------------------------------------------------------------ */
+/* --- what files say ------------------------------------------------------------------------------------- */
 
 /* The cube again, with all edges said to be something. */
 static edge_mesh said_cube(uint8_t word)
@@ -378,15 +392,17 @@ static void files_have_the_last_word(void **state)
 static void rims_that_are_said_to_be_outlines(void **state)
 {
     (void)state;
-    static const vec3 places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 1}};
+    static const vec3     places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 1}};
     static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
-    static const uint8_t words[6] = {SAID_SILHOUETTE, SAID_HARD, SAID_HARD, SAID_REPEATED, SAID_HIDDEN, SAID_SILHOUETTE};
-    primitive p = of_faces(places, 4, corners, 6);
+    static const uint8_t  words[6] = {SAID_SILHOUETTE, SAID_HARD,   SAID_HARD,
+                                      SAID_REPEATED,   SAID_HIDDEN, SAID_SILHOUETTE};
+    primitive             p = of_faces(places, 4, corners, 6);
     p.edges.values = mem_copy(words, sizeof words);
     edge_mesh e = sort(&p, 1, 30 * degree);
     assert_int_equal(flags_between(&e, places[0], places[1]), EDGE_BORDER);
     assert_int_equal(flags_between(&e, places[1], places[2]), EDGE_BORDER | EDGE_CREASE);
-    assert_int_equal(flags_between(&e, places[0], places[2]), EDGE_CREASE); /* hard on one side, repeated on the other */
+    assert_int_equal(flags_between(&e, places[0], places[2]),
+                     EDGE_CREASE); /* hard on one side, repeated on the other */
     assert_int_equal(flags_between(&e, places[2], places[3]), 0);
     assert_int_equal(flags_between(&e, places[3], places[0]), EDGE_BORDER);
     for (uint32_t i = 0; i < e.edge_count; i++)
@@ -399,21 +415,28 @@ static void rims_that_are_said_to_be_outlines(void **state)
 static void a_file_is_obeyed(void **state)
 {
     (void)state;
-    static const float places[12] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0};
+    static const float    places[12] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0};
     static const uint16_t corners[6] = {0, 1, 2, 0, 2, 3};
-    const uint8_t packed[2] = {SAID_HIDDEN | SAID_SILHOUETTE << 2 | SAID_HARD << 4 | SAID_REPEATED << 6, SAID_HARD | SAID_HIDDEN << 2};
-    static glb g;
+    const uint8_t         packed[2] = {SAID_HIDDEN | SAID_SILHOUETTE << 2 | SAID_HARD << 4 | SAID_REPEATED << 6,
+                                       SAID_HARD | SAID_HIDDEN << 2};
+    static glb            g;
     g.bin_size = 0;
-    size_t at = glb_put(&g, places, sizeof places), b = glb_put(&g, corners, sizeof corners), c = glb_put(&g, packed, sizeof packed);
+    size_t at = glb_put(&g, places, sizeof places), b = glb_put(&g, corners, sizeof corners),
+           c = glb_put(&g, packed, sizeof packed);
     snprintf(g.json, sizeof g.json,
-             "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":%zu,"
-             "\"byteLength\":48},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":2}],\"accessors\":["
-             "{\"bufferView\":0,\"count\":4,\"componentType\":5126,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[2,2,0]},{\"bufferView\":1,\"count\":6,\"componentType\":5123,\"type\":\"SCALAR\"},"
-             "{\"bufferView\":2,\"count\":2,\"componentType\":5121,\"type\":\"SCALAR\"}],\"extensionsUsed\":[\"EXT_mesh_primitive_edge_visibility\"],\"meshes\":[{\"primitives\":[{\"indices\":1,"
-             "\"attributes\":{\"POSITION\":0},\"extensions\":{\"EXT_mesh_primitive_edge_visibility\":{\"visibility\":2}}}]}]}",
+             "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{"
+             "\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":%zu,"
+             "\"byteLength\":48},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":%zu,"
+             "\"byteLength\":2}],\"accessors\":["
+             "{\"bufferView\":0,\"count\":4,\"componentType\":5126,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[2,2,0]},{"
+             "\"bufferView\":1,\"count\":6,\"componentType\":5123,\"type\":\"SCALAR\"},"
+             "{\"bufferView\":2,\"count\":2,\"componentType\":5121,\"type\":\"SCALAR\"}],\"extensionsUsed\":[\"EXT_"
+             "mesh_primitive_edge_visibility\"],\"meshes\":[{\"primitives\":[{\"indices\":1,"
+             "\"attributes\":{\"POSITION\":0},\"extensions\":{\"EXT_mesh_primitive_edge_visibility\":{\"visibility\":2}"
+             "}}]}]}",
              g.bin_size, at, b, c);
     lmn_scene *s = load_or_fail(glb_file(&g, "said.glb"));
-    edge_mesh e;
+    edge_mesh  e;
     assert_int_equal(edge_mesh_create(&e, &s->meshes[0], NULL, 30 * degree, NULL), LMN_OK);
     const vec3 p[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
     assert_int_equal(flags_between(&e, p[0], p[1]), 0);
@@ -428,10 +451,10 @@ static void a_file_is_obeyed(void **state)
 static void memory_may_run_out(void **state)
 {
     (void)state;
-    primitive p = ball(3, 0, (place3){1, 1, 1});
-    mesh m = {.primitives = &p, .primitive_count = 1};
+    primitive  p = ball(3, 0, (place3){1, 1, 1});
+    mesh       m = {.primitives = &p, .primitive_count = 1};
     lmn_status status = LMN_MEMORY;
-    long n = 1;
+    long       n = 1;
     for (; status != LMN_OK && n < 200; n++) {
         edge_mesh e;
         mem_fail_at(n);

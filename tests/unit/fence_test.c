@@ -39,7 +39,7 @@ static lmn_status refuse(const unsigned char *request, size_t size, fence_bytes 
 static lmn_status try_everything(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
     (void)error;
-    char able[128] = "";
+    char   able[128] = "";
     size_t count = 0;
     if (open("/etc/passwd", O_RDONLY) >= 0)
         able[count++] = 'r';
@@ -116,14 +116,14 @@ static uint32_t id_of_child(void)
     fence_bytes answer, none = {0};
     assert_int_equal(fence_call(&answer, own_id, "the test", &none, NULL), LMN_OK);
     fence_reader r = fence_read(answer.bytes, answer.size);
-    uint32_t id = fence_take_u32(&r);
+    uint32_t     id = fence_take_u32(&r);
     mem_free(answer.bytes);
     return id;
 }
 
 static lmn_task *begin(double time_s, uint64_t memory, lmn_progress_fn progress, void *user, bool in_process)
 {
-    lmn_task *task;
+    lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.limits.time_s = time_s;
     desc.limits.memory = memory;
@@ -156,8 +156,8 @@ static void errors_come_back(void **state)
 {
     (void)state;
     for (int in_process = 0; in_process < 2; in_process++) {
-        lmn_task *task = begin(0, 0, NULL, NULL, in_process);
-        lmn_error error;
+        lmn_task   *task = begin(0, 0, NULL, NULL, in_process);
+        lmn_error   error;
         fence_bytes answer, request = {0};
         fence_put_text(&request, "words");
         assert_int_equal(fence_call(&answer, refuse, "the test", &request, &error), LMN_UNSUPPORTED);
@@ -173,13 +173,13 @@ static void the_child_can_do_nothing(void **state)
     (void)state;
     if (strcmp(fence_kind(), "limits") == 0)
         skip();
-    lmn_task *task = begin(0, 0, NULL, NULL, false);
-    int open_here = open("/etc/passwd", O_RDONLY);
-    pid_t own = getpid();
+    lmn_task   *task = begin(0, 0, NULL, NULL, false);
+    int         open_here = open("/etc/passwd", O_RDONLY);
+    pid_t       own = getpid();
     fence_bytes answer, request = {.bytes = (unsigned char *)&own, .size = sizeof own};
     assert_int_equal(fence_call(&answer, try_everything, "the test", &request, NULL), LMN_OK);
     fence_reader r = fence_read(answer.bytes, answer.size);
-    char *able = fence_take_text(&r);
+    char        *able = fence_take_text(&r);
     assert_string_equal(able, "");
     mem_free(able);
     mem_free(answer.bytes);
@@ -207,8 +207,8 @@ static lmn_status fail_oddly(const unsigned char *request, size_t size, fence_by
 static void lies_do_no_harm(void **state)
 {
     (void)state;
-    lmn_task *task = begin(0, 0, NULL, NULL, false);
-    lmn_error error;
+    lmn_task   *task = begin(0, 0, NULL, NULL, false);
+    lmn_error   error;
     fence_bytes answer, none = {0};
     assert_int_equal(fence_call(&answer, lie, "the test", &none, &error), LMN_FORMAT);
     assert_null(answer.bytes);
@@ -242,8 +242,8 @@ static bool call_again(double fraction, const char *stage, void *user)
 static void callbacks_may_call_again(void **state)
 {
     (void)state;
-    int asked = 0;
-    lmn_task *task = begin(0, 0, call_again, &asked, false);
+    int         asked = 0;
+    lmn_task   *task = begin(0, 0, call_again, &asked, false);
     fence_bytes answer, request = {.bytes = (unsigned char *)"outer", .size = 5};
     for (int i = 0; i < 2; i++) {
         assert_int_equal(fence_call(&answer, dawdle, "the test", &request, NULL), LMN_OK);
@@ -265,7 +265,7 @@ static void closed_descriptors_do_no_harm(void **state)
     for (int i = 0; i < 3; i++)
         close(i);
     fence_bytes answer, request = {.bytes = (unsigned char *)"words", .size = 5};
-    lmn_status status = fence_call(&answer, echo, "the test", &request, NULL);
+    lmn_status  status = fence_call(&answer, echo, "the test", &request, NULL);
     for (int i = 0; i < 3; i++) {
         if (kept[i] >= 0)
             dup2(kept[i], i);
@@ -280,7 +280,7 @@ static void one_child_serves_a_task(void **state)
 {
     (void)state;
     lmn_task *task = begin(0, 0, NULL, NULL, false);
-    uint32_t first = id_of_child();
+    uint32_t  first = id_of_child();
     assert_int_not_equal(first, getpid());
     assert_int_equal(id_of_child(), first);
     lmn_task_end(&task);
@@ -293,10 +293,10 @@ static void one_child_serves_a_task(void **state)
 static void a_crash_is_an_error_for_one_request(void **state)
 {
     (void)state;
-    lmn_task *task = begin(0, 0, NULL, NULL, false);
-    lmn_error error;
+    lmn_task   *task = begin(0, 0, NULL, NULL, false);
+    lmn_error   error;
     fence_bytes answer, none = {0};
-    uint32_t first = id_of_child();
+    uint32_t    first = id_of_child();
     assert_int_equal(fence_call(&answer, crash, "the test", &none, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "the test crashed"));
     uint32_t second = id_of_child();
@@ -319,12 +319,12 @@ static bool never(double fraction, const char *stage, void *user)
 static void a_child_that_hangs_is_stopped(void **state)
 {
     (void)state;
-    lmn_error error = {0};
+    lmn_error   error = {0};
     fence_bytes answer, none = {0};
-    int asked = 0;
-    work w;
-    lmn_task *task = begin(0.2, 0, NULL, NULL, false);
-    double start = clock_ms();
+    int         asked = 0;
+    work        w;
+    lmn_task   *task = begin(0.2, 0, NULL, NULL, false);
+    double      start = clock_ms();
     work_begin(&w, NULL, NULL);
     assert_int_equal(work_end(&w, fence_call(&answer, hang, "the test", &none, &error), &error), LMN_LIMIT);
     assert_true(clock_ms() - start < 1500);
@@ -340,10 +340,10 @@ static void a_child_that_hangs_is_stopped(void **state)
 static void memory_of_the_child_is_limited(void **state)
 {
     (void)state;
-    lmn_error error = {0};
+    lmn_error   error = {0};
     fence_bytes answer, none = {0};
-    lmn_task *task = begin(20, 256 << 20, NULL, NULL, false);
-    lmn_status status = fence_call(&answer, eat, "the test", &none, &error);
+    lmn_task   *task = begin(20, 256 << 20, NULL, NULL, false);
+    lmn_status  status = fence_call(&answer, eat, "the test", &none, &error);
     assert_true(status == LMN_MEMORY || status == LMN_LIMIT);
     lmn_task_end(&task);
 }
@@ -365,10 +365,16 @@ static void readers_never_go_beyond_the_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_come_back_whole), cmocka_unit_test(errors_come_back), cmocka_unit_test(the_child_can_do_nothing),
-        cmocka_unit_test(one_child_serves_a_task), cmocka_unit_test(a_crash_is_an_error_for_one_request),
-        cmocka_unit_test(a_child_that_hangs_is_stopped), cmocka_unit_test(memory_of_the_child_is_limited),
-        cmocka_unit_test(readers_never_go_beyond_the_end), cmocka_unit_test(lies_do_no_harm), cmocka_unit_test(callbacks_may_call_again),
+        cmocka_unit_test(answers_come_back_whole),
+        cmocka_unit_test(errors_come_back),
+        cmocka_unit_test(the_child_can_do_nothing),
+        cmocka_unit_test(one_child_serves_a_task),
+        cmocka_unit_test(a_crash_is_an_error_for_one_request),
+        cmocka_unit_test(a_child_that_hangs_is_stopped),
+        cmocka_unit_test(memory_of_the_child_is_limited),
+        cmocka_unit_test(readers_never_go_beyond_the_end),
+        cmocka_unit_test(lies_do_no_harm),
+        cmocka_unit_test(callbacks_may_call_again),
         cmocka_unit_test(closed_descriptors_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

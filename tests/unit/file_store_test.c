@@ -1,4 +1,5 @@
-/* Writing of files: whole or not at all, whatever stands in the way. What limits or ends a process is done to a child. */
+/* Writing of files: whole or not at all, whatever stands in the way. What limits or ends a process is done to a
+ * child. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <errno.h>
@@ -124,7 +125,7 @@ static int store_large(void)
     return (int)file_store(at, large, sizeof large, &error);
 }
 
-/* --- files and what is there before -------------------------------------------------------------------------------------- */
+/* --- files and what is there before --------------------------------------------------------------------- */
 
 static void files_are_made_and_replaced(void **state)
 {
@@ -225,7 +226,7 @@ static void what_is_kept_follows_nothing(void **state)
     assert_names(3);
 }
 
-/* --- what cannot be written ----------------------------------------------------------------------------------------------- */
+/* --- what cannot be written ----------------------------------------------------------------------------- */
 
 static int store_beyond_the_limit(void)
 {
@@ -265,7 +266,8 @@ static int store_into_closed_pipe(void)
     close(ends[0]);
     close(ends[1]);
     for (int i = 0; i < 2; i++)
-        if (file_store(i ? "/dev/stdout" : "-", large, sizeof large, &error) != LMN_WRITE || !strstr(error.message, "Broken pipe"))
+        if (file_store(i ? "/dev/stdout" : "-", large, sizeof large, &error) != LMN_WRITE ||
+            !strstr(error.message, "Broken pipe"))
             return 2;
     sigpending(&pending);
     return sigismember(&pending, SIGPIPE) ? 3 : 0;
@@ -309,7 +311,8 @@ static int store_into_a_vanished_folder(void)
 static void places_that_take_nothing_are_named(void **state)
 {
     (void)state;
-    static const char *const places[] = {"/dev/full", "/proc/x.png", "/dev/null/x.png", "nosuch-folder/x.png", "/", "/dev/fd/999"};
+    static const char *const places[] = {"/dev/full",           "/proc/x.png", "/dev/null/x.png",
+                                         "nosuch-folder/x.png", "/",           "/dev/fd/999"};
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         lmn_error error = {0};
         assert_int_equal(file_store(places[i], "x", 1, &error), LMN_WRITE);
@@ -354,7 +357,7 @@ static void opened_files_are_written_where_they_are(void **state)
     assert_content(at, "onetwothree", 11);
 }
 
-/* --- pipes ------------------------------------------------------------------------------------------------------------------ */
+/* --- pipes ---------------------------------------------------------------------------------------------- */
 
 static pid_t fork_store(long stop)
 {
@@ -391,7 +394,9 @@ static void slow_readers_get_all(void **state)
     int reader = open(at, O_RDONLY);
     assert_true(reader >= 0);
     size_t size = 0;
-    for (ssize_t piece; size < sizeof got && (piece = read(reader, got + size, sizeof got - size < 65000 ? sizeof got - size : 65000)) > 0; usleep(1000))
+    for (ssize_t piece; size < sizeof got &&
+                        (piece = read(reader, got + size, sizeof got - size < 65000 ? sizeof got - size : 65000)) > 0;
+         usleep(1000))
         size += (size_t)piece;
     close(reader);
     assert_int_equal(end_of(child), LMN_OK);
@@ -432,7 +437,7 @@ static void regular_files_can_be_ended(void **state)
     assert_names(0);
 }
 
-/* --- temporary files --------------------------------------------------------------------------------------------------------- */
+/* --- temporary files ------------------------------------------------------------------------------------ */
 
 /* A process number that nobody has. */
 static long gone_process(void)
@@ -459,7 +464,8 @@ static void name_of_process(char out[TEMPORARY_NAME_ROOM], const char *stem, lon
 static void leftovers_go_with_the_next_file(void **state)
 {
     (void)state;
-    char        gone[TEMPORARY_NAME_ROOM], alive[TEMPORARY_NAME_ROOM], elsewhere[TEMPORARY_NAME_ROOM], link[TEMPORARY_NAME_ROOM], longer[TEMPORARY_NAME_ROOM];
+    char gone[TEMPORARY_NAME_ROOM], alive[TEMPORARY_NAME_ROOM], elsewhere[TEMPORARY_NAME_ROOM],
+        link[TEMPORARY_NAME_ROOM], longer[TEMPORARY_NAME_ROOM];
     struct stat facts;
     name_of_process(gone, ".x.png.", gone_process());
     name_of_process(alive, ".x.png.", (long)getppid());
@@ -537,7 +543,8 @@ static int store_named_for_ever(void)
     return forbid_unnamed_files() ? store_for_ever() : NO_FILTER;
 }
 
-/* Kills the child when the folder shows a temporary file, or, as there is none without a name, after some time; true: it showed one. */
+/* Kills the child when the folder shows a temporary file, or, as there is none without a name, after some time;
+ * true: it showed one. */
 static bool kill_in_the_middle(int (*run)(void))
 {
     bool  seen = false;
@@ -620,12 +627,26 @@ static void temporary_folders_go(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(files_are_made_and_replaced), CASE(long_names_are_no_hindrance), CASE(links_stay_links), CASE(links_in_circles_are_refused),
-        CASE(links_of_others_are_refused), CASE(what_is_kept_follows_nothing), CASE(too_large_a_file_is_an_error), CASE(closed_pipes_are_an_error),
-        CASE(signals_of_others_are_left_alone), CASE(places_that_take_nothing_are_named), CASE(folders_that_may_not_be_written_are_refused),
-        CASE(opened_files_are_written_where_they_are), CASE(slow_readers_get_all), CASE(readers_that_go_are_an_error), CASE(waiting_can_be_ended),
-        CASE(regular_files_can_be_ended), CASE(leftovers_go_with_the_next_file), CASE(file_systems_without_unnamed_files_do),
-        CASE(killed_writers_leave_nothing), CASE(temporary_folders_go),
+        CASE(files_are_made_and_replaced),
+        CASE(long_names_are_no_hindrance),
+        CASE(links_stay_links),
+        CASE(links_in_circles_are_refused),
+        CASE(links_of_others_are_refused),
+        CASE(what_is_kept_follows_nothing),
+        CASE(too_large_a_file_is_an_error),
+        CASE(closed_pipes_are_an_error),
+        CASE(signals_of_others_are_left_alone),
+        CASE(places_that_take_nothing_are_named),
+        CASE(folders_that_may_not_be_written_are_refused),
+        CASE(opened_files_are_written_where_they_are),
+        CASE(slow_readers_get_all),
+        CASE(readers_that_go_are_an_error),
+        CASE(waiting_can_be_ended),
+        CASE(regular_files_can_be_ended),
+        CASE(leftovers_go_with_the_next_file),
+        CASE(file_systems_without_unnamed_files_do),
+        CASE(killed_writers_leave_nothing),
+        CASE(temporary_folders_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

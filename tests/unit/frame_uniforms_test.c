@@ -1,4 +1,5 @@
-/* The frame's uniforms have one list, src/technique/frame.glsl: no shader declares one of them again, and no parameter is called like one. */
+/* The frame's uniforms have one list, src/technique/frame.glsl: no shader declares one of them again, and no
+ * parameter is called like one. */
 #include <ctype.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -66,11 +67,12 @@ static void test_declared_once(void **state)
 {
     (void)state;
     static char frame[NAMES_MAX][NAME_SIZE], own[NAMES_MAX][NAME_SIZE];
-    size_t count = list(frame);
-    assert_true(count > 20 && contains(frame, count, "u_size") && contains(frame, count, "u_window_depth") && contains(frame, count, "u_rest"));
+    size_t      count = list(frame);
+    assert_true(count > 20 && contains(frame, count, "u_size") && contains(frame, count, "u_window_depth") &&
+                contains(frame, count, "u_rest"));
     for (size_t i = 0; i < embedded_shaders_count; i++) {
         const char *path = embedded_shaders[i].path;
-        size_t found = uniforms_of(embedded_shaders[i].data, own);
+        size_t      found = uniforms_of(embedded_shaders[i].data, own);
         assert_true(found < NAMES_MAX);
         for (size_t k = 0; k < found; k++)
             if (strcmp(path, LIST) != 0 && contains(frame, count, own[k]))
@@ -90,7 +92,7 @@ static void test_no_guards(void **state)
 static void check_params(const kind *k, const param *params, size_t param_count, char frame[][NAME_SIZE], size_t count)
 {
     const char *prefix = k->id == KIND_LINES ? "u_line_" : k->id == KIND_PERTURB ? "u_perturb_" : "u_";
-    char name[2 * NAME_SIZE];
+    char        name[2 * NAME_SIZE];
     for (size_t i = 0; i < param_count; i++) {
         snprintf(name, sizeof name, "%s%s", prefix, params[i].key);
         if (!params[i].cpu_only && !params[i].variant && contains(frame, count, name))
@@ -102,7 +104,7 @@ static void test_parameters(void **state)
 {
     (void)state;
     static char frame[NAMES_MAX][NAME_SIZE];
-    size_t count = list(frame);
+    size_t      count = list(frame);
     for (int k = 0; k < KIND_COUNT; k++) {
         check_params(kinds[k], kinds[k]->common, kinds[k]->common_count, frame, count);
         for (size_t i = 0; i < kinds[k]->technique_count; i++)

@@ -1,5 +1,5 @@
-/* OpenSCAD's evaluated files: figures in the plane and what is made from them, hulls, sums, cuts, files beside the model; and the
- * collection of real files against OpenSCAD's own results. */
+/* OpenSCAD's evaluated files: figures in the plane and what is made from them, hulls, sums, cuts, files beside the
+ * model; and the collection of real files against OpenSCAD's own results. */
 #include "csg_support.h"
 
 #include <dirent.h>
@@ -13,8 +13,8 @@
 static double operand_volume(const lmn_scene *s)
 {
     solid_operand *o;
-    size_t count;
-    double volume = 0;
+    size_t         count;
+    double         volume = 0;
     assert_true(solid_operands(&s->solids[0], &o, &count));
     for (size_t i = 0; i < count; i++) {
         const primitive *p = &s->meshes[o[i].mesh].primitives[0];
@@ -22,7 +22,9 @@ static double operand_volume(const lmn_scene *s)
             vec3 a = mat4_transform_point(&o[i].matrix, p->positions[p->indices[k]]);
             vec3 b = mat4_transform_point(&o[i].matrix, p->positions[p->indices[k + 1]]);
             vec3 c = mat4_transform_point(&o[i].matrix, p->positions[p->indices[k + 2]]);
-            volume += (double)(a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x)) / 6;
+            volume += (double)(a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+                               a.z * (b.x * c.y - b.y * c.x)) /
+                      6;
         }
     }
     mem_free(o);
@@ -42,7 +44,7 @@ static void expect_volume(const char *text, double expected)
     lmn_scene_destroy(&s);
 }
 
-/* --- extrusions and figures -------------------------------------------------------------------------------------------- */
+/* --- extrusions and figures ----------------------------------------------------------------------------- */
 
 /* In a prism of height 1 the volume is the figure's area. */
 static void expect_area(const char *figures, double expected)
@@ -62,7 +64,9 @@ static void figures_have_their_areas(void **state)
     expect_area("polygon(points = [[0,0],[4,0],[0,3]], paths = undef, convexity = 1);", 6);
     expect_area("polygon([[0,0],[4,0],[4,4],[0,4],[1,1],[2,1],[2,2],[1,2]], [[0,1,2,3],[4,5,6,7]]);", 15);
     expect_area("polygon([[0,0],[4,0],[4,4],[0,4],[9,9]], [0,1,2,3]);", 16);
-    expect_area("difference() {square(size = 4); square(size = 1); multmatrix([[1,0,0,2],[0,1,0,2],[0,0,1,0],[0,0,0,1]]) {square();}}", 14);
+    expect_area("difference() {square(size = 4); square(size = 1); "
+                "multmatrix([[1,0,0,2],[0,1,0,2],[0,0,1,0],[0,0,0,1]]) {square();}}",
+                14);
     expect_area("intersection() {square(size = 4); square(size = [2, 9]);}", 8);
     expect_area("union() {square(size = 4); square(size = [2, 9]);} group() {color([1,0,0,1]) {square();}}", 26);
     expect_area("multmatrix([[-2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {square(size = 2);}", 8);
@@ -83,24 +87,28 @@ static void extrusions_take_their_parameters(void **state)
     expect_box("linear_extrude() {square(size = 2);}", 0, 0, 0, 2, 2, 100);
     expect_box("linear_extrude(height = 4, scale = [2, 3]) {square(size = 2);}", 0, 0, 0, 4, 6, 4);
     expect_box("linear_extrude(height = 4, scale = 0) {square(size = 2);}", 0, 0, 0, 2, 2, 4);
-    expect_box("linear_extrude(height = 4, twist = -90, slices = 3) {square(size = [2, 1]);}", -1, 0, 0, 2, sqrt(5) * sin(atan(0.5) + M_PI / 3),
-               4);
-    expect_box("rotate_extrude($fn = 4) {multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {square();}}", -3, -3, 0, 3, 3, 1);
+    expect_box("linear_extrude(height = 4, twist = -90, slices = 3) {square(size = [2, 1]);}", -1, 0, 0, 2,
+               sqrt(5) * sin(atan(0.5) + M_PI / 3), 4);
+    expect_box("rotate_extrude($fn = 4) {multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {square();}}", -3, -3, 0,
+               3, 3, 1);
     expect_box("rotate_extrude(angle = 90, $fn = 4) {square(size = [2, 1]);}", 0, 0, 0, 2, 2, 1);
     expect_box("rotate_extrude(angle = 90, start = 90, $fn = 4) {square(size = [2, 1]);}", -2, 0, 0, 0, 2, 1);
-    expect_box("rotate_extrude(angle = 360, start = 180, $fn = 3) {square(size = [2, 1]);}", -2, -sqrt(3), 0, 1, sqrt(3), 1);
+    expect_box("rotate_extrude(angle = 360, start = 180, $fn = 3) {square(size = [2, 1]);}", -2, -sqrt(3), 0, 1,
+               sqrt(3), 1);
 }
 
 static void figures_alone_are_plates(void **state)
 {
     (void)state;
     expect_box("square(size = [2, 3]);", 0, 0, -0.5, 2, 3, 0.5);
-    lmn_scene *s = load_text("group() {\n color(\"red\") {square(size = 2);}\n multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {color(\"blue\") {square(size = 2);}}\n}\n"
-                             "difference() {color(\"lime\") {square(size = 9);} square(size = 3);}\ncube(size = 20);");
+    lmn_scene *s =
+        load_text("group() {\n color(\"red\") {square(size = 2);}\n "
+                  "multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {color(\"blue\") {square(size = 2);}}\n}\n"
+                  "difference() {color(\"lime\") {square(size = 9);} square(size = 3);}\ncube(size = 20);");
     CHECK_BOX(s, 0, 0, -0.5, 9, 9, 0.5);
     assert_int_equal(warnings_of(s, WARNING_IGNORED), 1); /* the cube: the first object is flat */
     solid_operand *o;
-    size_t count;
+    size_t         count;
     assert_true(solid_operands(only_solid(s), &o, &count));
     assert_int_equal(count, 3);
     assert_true(o[0].mesh == o[1].mesh && o[0].colour.x == 1 && o[1].colour.z == 1 && o[2].colour.y == 1);
@@ -113,13 +121,15 @@ static void figures_alone_are_plates(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- hulls, sums, cuts, sizes ------------------------------------------------------------------------------------------ */
+/* --- hulls, sums, cuts, sizes --------------------------------------------------------------------------- */
 
 static void hulls_take_placed_points(void **state)
 {
     (void)state;
-    expect_volume("hull() {cube(); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {group() {cube(); cube();}}}", 4);
-    lmn_scene *s = load_text("hull() {\n difference() {cube(size = 2); cube();}\n intersection() {cube(); cube(size = 5);}\n}");
+    expect_volume("hull() {cube(); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {group() {cube(); cube();}}}",
+                  4);
+    lmn_scene *s =
+        load_text("hull() {\n difference() {cube(size = 2); cube();}\n intersection() {cube(); cube(size = 5);}\n}");
     CHECK_BOX(s, 0, 0, 0, 2, 2, 2);
     assert_int_equal(warnings_of(s, WARNING_APPROXIMATE), 2);
     lmn_scene_destroy(&s);
@@ -130,9 +140,11 @@ static void sums_of_solids(void **state)
     (void)state;
     expect_volume("minkowski() {cube(); cube(size = 2);}", 27);
     expect_volume("minkowski() {cube(); cube(size = 2); group(); cube();}", 64);
-    expect_box("minkowski() {group() {cube(); multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube();}} cube(size = 2);}", 0, 0, 0, 7, 3, 3);
+    expect_box("minkowski() {group() {cube(); multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube();}} "
+               "cube(size = 2);}",
+               0, 0, 0, 7, 3, 3);
     const char *angle = "linear_extrude(height = 1) {polygon([[0,0],[9,0],[9,1],[1,1],[1,5],[0,5]]);}";
-    char text[512];
+    char        text[512];
     snprintf(text, sizeof text, "minkowski() {%s cube(size = 2, center = true);}", angle);
     expect_box(text, -1, -1, -1, 10, 6, 2);
     snprintf(text, sizeof text, "minkowski() {%s %s}", angle, angle);
@@ -151,10 +163,17 @@ static void cuts_follow_the_tree(void **state)
 {
     (void)state;
     expect_area("projection(cut = true) {cube(size = [2, 3, 4], center = true);}", 6);
-    expect_area("projection(cut = true) {difference() {cube(size = 4, center = true); cube(size = [2, 2, 9], center = true);}}", 12);
-    expect_area("projection(cut = true) {intersection() {cube(size = 4, center = true); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube(size = 4, center = true);}}}", 12);
-    expect_area("projection() {cube(size = [2, 3, 4]); multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,9],[0,0,0,1]]) {cube(size = [3, 2, 1]);}}", 8);
-    lmn_scene *s = load_text("linear_extrude(height = 1) {projection(cut = false) {difference() {cube(size = 4); multmatrix([[1,0,0,1],[0,1,0,1],[0,0,1,1],[0,0,0,1]]) {cube(size = 2);}"
+    expect_area(
+        "projection(cut = true) {difference() {cube(size = 4, center = true); cube(size = [2, 2, 9], center = true);}}",
+        12);
+    expect_area("projection(cut = true) {intersection() {cube(size = 4, center = true); "
+                "multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube(size = 4, center = true);}}}",
+                12);
+    expect_area("projection() {cube(size = [2, 3, 4]); multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,9],[0,0,0,1]]) "
+                "{cube(size = [3, 2, 1]);}}",
+                8);
+    lmn_scene *s = load_text("linear_extrude(height = 1) {projection(cut = false) {difference() {cube(size = 4); "
+                             "multmatrix([[1,0,0,1],[0,1,0,1],[0,0,1,1],[0,0,0,1]]) {cube(size = 2);}"
                              "multmatrix([[1,0,0,3.5],[0,1,0,-1],[0,0,1,-1],[0,0,0,1]]) {cube(size = 9);}}}}");
     assert_int_equal(warnings_of(s, WARNING_APPROXIMATE), 1);
     assert_true(fabs(operand_volume(s) - 14) < 1e-3); /* the hollow is not seen, the part cut off is */
@@ -167,10 +186,12 @@ static void sizes_are_set(void **state)
     expect_box("resize(newsize = [10, 0, 20], auto = [0, 1, 0]) {cube(size = [2, 3, 4]);}", 0, 0, 0, 10, 15, 20);
     expect_box("resize(newsize = [10, 0, 0], auto = [1, 1, 1]) {cube(size = [2, 3, 4]);}", 0, 0, 0, 10, 15, 20);
     expect_box("resize(newsize = [10, 0, 0], auto = true) {cube(size = [2, 3, 4]);}", 0, 0, 0, 10, 15, 20);
-    expect_box("resize(newsize = [10, 0, 0]) {group() {cube(size = 2); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube(size = 2);}}}", 0, 0, 0, 10, 2, 2);
+    expect_box("resize(newsize = [10, 0, 0]) {group() {cube(size = 2); "
+               "multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube(size = 2);}}}",
+               0, 0, 0, 10, 2, 2);
 }
 
-/* --- texts ------------------------------------------------------------------------------------------------------------- */
+/* --- texts ---------------------------------------------------------------------------------------------- */
 
 static void texts_may_hold_anything(void **state)
 {
@@ -178,7 +199,9 @@ static void texts_may_hold_anything(void **state)
     static const char *const fine[] = {
         "text(text = \"one \\\"two\\\" three\", size = 10, valign = \"default\");",
         "text(text = \"raw \"quotes\" \\c stay\n\there\", size = 10);",
-        "text(text = \"\", size = 10);", "text(text = \"\\x41\\u00e9\\U01F600\\xzz\\uD800\");", "text(text = \"\xFF\xFE\");",
+        "text(text = \"\", size = 10);",
+        "text(text = \"\\x41\\u00e9\\U01F600\\xzz\\uD800\");",
+        "text(text = \"\xFF\xFE\");",
     };
     for (size_t i = 0; i < sizeof fine / sizeof *fine; i++) {
         lmn_scene *s = load_text(fine[i]);
@@ -186,14 +209,16 @@ static void texts_may_hold_anything(void **state)
     }
 }
 
-/* --- files beside the model -------------------------------------------------------------------------------------------- */
+/* --- files beside the model ----------------------------------------------------------------------------- */
 
 static const char *const drawing =
-    "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nunit\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n1\n21\n0\n0\nLINE\n8\n0\n10\n1\n20\n0\n11\n0\n21\n1\n"
+    "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nunit\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n1\n21\n0\n0\nLINE\n8\n0\n10\n1\n20\n0\n"
+    "11\n0\n21\n1\n"
     "0\nLINE\n8\n0\n10\n0\n20\n1\n11\n0\n21\n0\n0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
     "0\nLWPOLYLINE\n8\nplate\n70\n1\n10\n0\n20\n0\n10\n4\n20\n0\n10\n4\n20\n4\n10\n0\n20\n4\n"
     "0\nCIRCLE\n8\nplate\n10\n2\n20\n2\n40\n1\n"
-    "0\nPOLYLINE\n8\nold\n70\n1\n10\n7\n20\n7\n0\nVERTEX\n8\nold\n10\n0\n20\n0\n0\nVERTEX\n8\nold\n10\n3\n20\n0\n0\nVERTEX\n8\nold\n10\n0\n20\n4\n0\nSEQEND\n"
+    "0\nPOLYLINE\n8\nold\n70\n1\n10\n7\n20\n7\n0\nVERTEX\n8\nold\n10\n0\n20\n0\n0\nVERTEX\n8\nold\n10\n3\n20\n0\n0\nVER"
+    "TEX\n8\nold\n10\n0\n20\n4\n0\nSEQEND\n"
     "0\nLINE\n8\nopen\n10\n0\n20\n0\n11\n5\n21\n0\n0\nLINE\n8\nopen\n10\n5.0001\n20\n0\n11\n5\n21\n2\n"
     "0\nARC\n8\narc\n10\n0\n20\n0\n40\n2\n50\n270\n51\n90\n0\nLINE\n8\narc\n10\n0\n20\n2\n11\n0\n21\n-2\n"
     "0\nINSERT\n8\nput\n2\nunit\n10\n5\n20\n5\n41\n2\n42\n3\n50\n90\n0\nINSERT\n8\nput\n2\nnosuch\n"
@@ -211,7 +236,8 @@ static void drawings_are_joined_into_paths(void **state)
     expect_area("import(file = \"drawing.dxf\", layer = \"put\");", 3);
     expect_area("import(file = \"drawing.dxf\", layer = \"oval\", $fn = 4);", 16);
     expect_box("linear_extrude(height = 1) {import(file = \"drawing.dxf\", layer = \"put\");}", 2, 5, 0, 5, 7, 1);
-    expect_box("linear_extrude(file = \"drawing.dxf\", layer = \"old\", height = 2, origin = [1, 0], scale = 1);", -1, 0, 0, 2, 4, 2);
+    expect_box("linear_extrude(file = \"drawing.dxf\", layer = \"old\", height = 2, origin = [1, 0], scale = 1);", -1,
+               0, 0, 2, 4, 2);
     lmn_error error;
     for (size_t size = 0; size < strlen(drawing); size += 7) {
         temp_file("cut.dxf", drawing, size);
@@ -224,10 +250,14 @@ static void missing_files_are_told(void **state)
 {
     (void)state;
     static const char *const texts[] = {
-        "cube();\nimport(file = \"nosuch.stl\");", "cube();\nintersection() {cube(); import(file = \"nosuch.off\");}",
-        "cube();\nlinear_extrude(height = 1) {import(file = \"nosuch.dxf\");}", "cube();\nsurface(file = \"nosuch.png\");",
-        "cube();\nlinear_extrude(height = 1) {import(file = \"nosuch.svg\");}", "cube();\nimport(file = \"broken.stl\");",
-        "cube();\nlinear_extrude(height = 1) {import(file = \"broken.dxf\");}", "cube();\nsurface(file = \"broken.png\");",
+        "cube();\nimport(file = \"nosuch.stl\");",
+        "cube();\nintersection() {cube(); import(file = \"nosuch.off\");}",
+        "cube();\nlinear_extrude(height = 1) {import(file = \"nosuch.dxf\");}",
+        "cube();\nsurface(file = \"nosuch.png\");",
+        "cube();\nlinear_extrude(height = 1) {import(file = \"nosuch.svg\");}",
+        "cube();\nimport(file = \"broken.stl\");",
+        "cube();\nlinear_extrude(height = 1) {import(file = \"broken.dxf\");}",
+        "cube();\nsurface(file = \"broken.png\");",
         "cube();\nsurface(file = \"broken.stl\");",
     };
     temp_file("broken.stl", "solid cut off\n", 14);
@@ -247,17 +277,18 @@ static void missing_files_are_told(void **state)
 static void meshes_and_heights_are_read(void **state)
 {
     (void)state;
-    const char *tetrahedron = "solid\nfacet outer loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
-                              "facet outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
-                              "facet outer loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
-                              "facet outer loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid\n";
+    const char *tetrahedron =
+        "solid\nfacet outer loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
+        "facet outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+        "facet outer loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
+        "facet outer loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid\n";
     temp_file("body.stl", tetrahedron, strlen(tetrahedron));
     expect_volume("import(file = \"body.stl\", layer = \"\", origin = [0, 0], scale = 1);", 1.0 / 6);
     const char *off = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
     temp_file("body.off", off, strlen(off));
     expect_volume("import(\"body.off\");", 1.0 / 6);
     const char *open = strstr(tetrahedron, "endfacet") + 9;
-    char text[1024];
+    char        text[1024];
     snprintf(text, sizeof text, "solid\n%s", open);
     temp_file("open.stl", text, strlen(text));
     lmn_scene *s = load_text("import(file = \"open.stl\");");
@@ -268,16 +299,16 @@ static void meshes_and_heights_are_read(void **state)
     expect_box("surface(file = \"field.dat\", center = true);", -1, -0.5, 0, 1, 0.5, 4);
 }
 
-/* --- real files -------------------------------------------------------------------------------------------------------- */
+/* --- real files ----------------------------------------------------------------------------------------- */
 
 typedef void (*each_file)(const char *path, void *user);
 
 static void walk(const char *folder, each_file use, void *user)
 {
-    DIR *d = opendir(folder);
+    DIR           *d = opendir(folder);
     struct dirent *entry;
     while (d && (entry = readdir(d))) {
-        char path[2048];
+        char        path[2048];
         struct stat facts;
         snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
         if (entry->d_name[0] == '.' || stat(path, &facts) != 0)
@@ -297,7 +328,7 @@ static void load_one(const char *path, void *user)
     lmn_scene *s = load_or_fail(path);
     for (size_t i = 0; i < s->mesh_count; i++) {
         const primitive *p = &s->meshes[i].primitives[0];
-        uint32_t *twins = mesh_adjacency(p), open = 0;
+        uint32_t        *twins = mesh_adjacency(p), open = 0;
         for (uint32_t k = 0; k < p->index_count; k++)
             open += twins[k] == UINT32_MAX;
         if (open > 0)
@@ -312,9 +343,9 @@ static void load_one(const char *path, void *user)
 static void all_real_files_load(void **state)
 {
     (void)state;
-    char path[1100];
+    char        path[1100];
     const char *folder = data_folder();
-    int count = 0;
+    int         count = 0;
     if (!folder)
         skip();
     snprintf(path, sizeof path, "%s/csg", folder);
@@ -323,26 +354,26 @@ static void all_real_files_load(void **state)
     assert_true(count >= 116);
 }
 
-/* What the tree says a solid can fill holds all that OpenSCAD found; where nothing is taken away or cut out, it is the same. Its numbers
- * have six digits, and shadows that are put together from cuts differ more. */
+/* What the tree says a solid can fill holds all that OpenSCAD found; where nothing is taken away or cut out, it is
+ * the same. Its numbers have six digits, and shadows that are put together from cuts differ more. */
 static void check_reference(const char *name, const lmn_scene *s, const json_t *entry)
 {
     lmn_scene_info info = lmn_scene_info_of(s);
-    bool exact = true;
-    double within = has_warning(s, WARNING_APPROXIMATE) ? 0.1 : 5e-4;
+    bool           exact = true;
+    double         within = has_warning(s, WARNING_APPROXIMATE) ? 0.1 : 5e-4;
     for (size_t i = 0; i < s->solids[0].node_count; i++)
         exact = exact && (s->solids[0].nodes[i].kind == SOLID_UNION || s->solids[0].nodes[i].kind == SOLID_OPERAND);
     for (size_t k = 0; k < 3; k++) {
         double low = json_number_value(json_array_get(json_object_get(entry, "bbox_min"), k)) - info.bounds_min[k];
         double high = info.bounds_max[k] - json_number_value(json_array_get(json_object_get(entry, "bbox_max"), k));
-        bool good = low >= -within && high >= -within && (!exact || (low <= within && high <= within));
+        bool   good = low >= -within && high >= -within && (!exact || (low <= within && high <= within));
         if (!good)
             print_error("%s: axis %zu reaches %g too low and %g too high\n", name, k, low, high);
         assert_true(good);
     }
 }
 
-/* --- volumes: vertical lines through the solid, and what of each lies inside --------------------------------------------- */
+/* --- volumes: vertical lines through the solid, and what of each lies inside ---------------------------- */
 
 enum { LINES = 160 };
 
@@ -372,7 +403,7 @@ static void lines_over(double low, double high, double a, double b, double c, in
 static void cross_triangle(crossings *c, const lmn_scene_info *info, int32_t node, const vec3 corner[3])
 {
     const double *low = info->bounds_min, *high = info->bounds_max;
-    int first[2], last[2];
+    int           first[2], last[2];
     lines_over(low[0], high[0], (double)corner[0].x, (double)corner[1].x, (double)corner[2].x, &first[0], &last[0]);
     lines_over(low[1], high[1], (double)corner[0].y, (double)corner[1].y, (double)corner[2].y, &first[1], &last[1]);
     for (int i = first[0]; i <= last[0]; i++)
@@ -380,7 +411,8 @@ static void cross_triangle(crossings *c, const lmn_scene_info *info, int32_t nod
             double x = line_place(low[0], high[0], i), y = line_place(low[1], high[1], k), share[3], sum = 0, z = 0;
             for (int e = 0; e < 3; e++) {
                 vec3 a = corner[(e + 1) % 3], b = corner[(e + 2) % 3];
-                share[e] = ((double)b.x - (double)a.x) * (y - (double)a.y) - ((double)b.y - (double)a.y) * (x - (double)a.x);
+                share[e] =
+                    ((double)b.x - (double)a.x) * (y - (double)a.y) - ((double)b.y - (double)a.y) * (x - (double)a.x);
                 sum += share[e];
                 z += share[e] * (double)corner[e].z;
             }
@@ -414,13 +446,13 @@ static bool is_inside(const solid *s, bool *in)
 
 static double solid_volume(const lmn_scene *s)
 {
-    const solid *tree = &s->solids[0];
+    const solid   *tree = &s->solids[0];
     lmn_scene_info info = lmn_scene_info_of(s);
-    crossings all = {0};
+    crossings      all = {0};
     solid_operand *o;
-    size_t count;
-    double length = 0;
-    bool *in = mem_calloc(tree->node_count, sizeof *in);
+    size_t         count;
+    double         length = 0;
+    bool          *in = mem_calloc(tree->node_count, sizeof *in);
     assert_true(in && solid_operands(tree, &o, &count));
     for (size_t i = 0; i < count; i++) {
         const primitive *p = &s->meshes[o[i].mesh].primitives[0];
@@ -442,14 +474,15 @@ static double solid_volume(const lmn_scene *s)
     mem_free(all.items);
     mem_free(in);
     mem_free(o);
-    return length * (info.bounds_max[0] - info.bounds_min[0]) * (info.bounds_max[1] - info.bounds_min[1]) / (LINES * LINES);
+    return length * (info.bounds_max[0] - info.bounds_min[0]) * (info.bounds_max[1] - info.bounds_min[1]) /
+           (LINES * LINES);
 }
 
 /* Thin walls between few lines are counted coarsely. */
 static void check_volume(const char *name, const lmn_scene *s, const json_t *entry)
 {
     double expected = json_number_value(json_object_get(entry, "volume")), found = solid_volume(s);
-    bool good = fabs(found - expected) < 0.02 * expected;
+    bool   good = fabs(found - expected) < 0.02 * expected;
     if (!good)
         print_error("%s: volume %g, expected %g\n", name, found, expected);
     assert_true(good);
@@ -458,16 +491,17 @@ static void check_volume(const char *name, const lmn_scene *s, const json_t *ent
 static void results_agree_with_openscad(void **state)
 {
     (void)state;
-    char path[2048];
+    char        path[2048];
     const char *folder = data_folder(), *name;
-    json_t *entry;
-    int checked = 0;
+    json_t     *entry;
+    int         checked = 0;
     if (!folder)
         skip();
     snprintf(path, sizeof path, "%s/csg/ref/reference.json", folder);
     json_t *reference = json_load_file(path, 0, NULL);
     assert_non_null(reference);
-    json_object_foreach (reference, name, entry) {
+    json_object_foreach(reference, name, entry)
+    {
         if (strcmp(json_string_value(json_object_get(entry, "kind")), "3D") != 0)
             continue;
         snprintf(path, sizeof path, "%s/csg/%s", folder, name);

@@ -3,12 +3,15 @@
 
 #include "base/limits.h"
 
-/* --- syntax ------------------------------------------------------------------------------------------------------------ */
+/* --- syntax --------------------------------------------------------------------------------------------- */
 
 static void errors_tell_line_and_column(void **state)
 {
     (void)state;
-    static const struct { const char *text; int line, column; } cases[] = {
+    static const struct {
+        const char *text;
+        int         line, column;
+    } cases[] = {
         {"cube(size = 1)", 1, 15},
         {"cube(\n  size = 1 2);", 2, 12},
         {"cube(size = [1, 2);", 1, 18},
@@ -46,7 +49,11 @@ static void nesting_has_a_limit(void **state)
     (void)state;
     enum { DEEP = 10000 };
     static char text[DEEP * 10 + 64];
-    static const struct { const char *open, *middle, *close; int depth; lmn_status expected; } cases[] = {
+    static const struct {
+        const char *open, *middle, *close;
+        int         depth;
+        lmn_status  expected;
+    } cases[] = {
         {"group(){", "cube();", "}", DEEP, LMN_LIMIT},
         {"group(){", "cube();", "}", LIMIT_CSG_DEPTH, LMN_OK},
         {"hull(){", "cube();", "}", LIMIT_CSG_DEPTH - 1, LMN_OK},
@@ -58,7 +65,7 @@ static void nesting_has_a_limit(void **state)
         size = repeat(text, size, cases[i].open, cases[i].depth);
         size = repeat(text, size, cases[i].middle, 1);
         size = repeat(text, size, cases[i].close, cases[i].depth);
-        lmn_error error;
+        lmn_error  error;
         lmn_status status = load_status(temp_file("deep.csg", text, size), &error);
         if (status != cases[i].expected)
             print_error("%s: %d %s\n", cases[i].open, status, error.message);
@@ -69,10 +76,11 @@ static void nesting_has_a_limit(void **state)
 static void every_cut_is_an_error_or_a_model(void **state)
 {
     (void)state;
-    const char *text = "multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]){difference(){cube(size=[1,2,3],center=true);"
-                       "cylinder(h=4,r1=0.2,r2=1e-1,$fn=8);}}#color(\"red\"){sphere(r=1,$fn=6);}";
+    const char *text =
+        "multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]){difference(){cube(size=[1,2,3],center=true);"
+        "cylinder(h=4,r1=0.2,r2=1e-1,$fn=8);}}#color(\"red\"){sphere(r=1,$fn=6);}";
     for (size_t size = 1; size < strlen(text); size++) {
-        lmn_error error;
+        lmn_error  error;
         lmn_status status = load_status(temp_file("cut.csg", text, size), &error);
         assert_true(status == LMN_OK || status == LMN_FORMAT);
     }
@@ -81,9 +89,10 @@ static void every_cut_is_an_error_or_a_model(void **state)
 static void memory_that_runs_out_is_an_error(void **state)
 {
     (void)state;
-    const char *text = "color([1,0,0]){difference(){cube(size=2);hull(){sphere(r=1);cube(size=1);}cylinder(r=1);}}cube(size=2);";
+    const char *text =
+        "color([1,0,0]){difference(){cube(size=2);hull(){sphere(r=1);cube(size=1);}cylinder(r=1);}}cube(size=2);";
     const char *path = temp_file("memory.csg", text, strlen(text));
-    lmn_status status = LMN_MEMORY;
+    lmn_status  status = LMN_MEMORY;
     for (long n = 1; status != LMN_OK; n++) {
         lmn_scene *s = NULL;
         assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
@@ -96,7 +105,7 @@ static void memory_that_runs_out_is_an_error(void **state)
     }
 }
 
-/* --- plain solids ------------------------------------------------------------------------------------------------------ */
+/* --- plain solids --------------------------------------------------------------------------------------- */
 
 static void defaults_and_positions(void **state)
 {
@@ -111,8 +120,10 @@ static void defaults_and_positions(void **state)
     expect_box("cylinder(h = 2, d = 3, $fn = 4);", -1.5, -1.5, 0, 1.5, 1.5, 2);
     expect_box("cylinder(h = 2, r = 3, d2 = 2, $fn = 4);", -3, -3, 0, 3, 3, 2);
     expect_box("// a comment\ncube(size = +2e0,); /* another */;", 0, 0, 0, 2, 2, 2);
-    expect_box("\xEF\xBB\xBF" "cube(2);", 0, 0, 0, 2, 2, 2);
-    lmn_scene *s = load_text("sphere(d = 4, $fn = 8);");
+    expect_box("\xEF\xBB\xBF"
+               "cube(2);",
+               0, 0, 0, 2, 2, 2);
+    lmn_scene     *s = load_text("sphere(d = 4, $fn = 8);");
     lmn_scene_info info = lmn_scene_info_of(s);
     assert_true(fabs(info.bounds_max[0] - 2 * cos(M_PI / 8)) < 1e-5);
     lmn_scene_destroy(&s);
@@ -122,7 +133,7 @@ static void polyhedra_are_kept_when_flawed(void **state)
 {
     (void)state;
     const char *points = "polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], ";
-    char text[256];
+    char        text[256];
     snprintf(text, sizeof text, "%sfaces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], convexity = 1);", points);
     expect_box(text, 0, 0, 0, 1, 1, 1);
     snprintf(text, sizeof text, "%striangles = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);", points);
@@ -142,13 +153,14 @@ static void polyhedra_are_kept_when_flawed(void **state)
     }
 }
 
-/* --- the tree ---------------------------------------------------------------------------------------------------------- */
+/* --- the tree ------------------------------------------------------------------------------------------- */
 
 static void operations_become_a_tree(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("group() {\n difference() {\n  group() { cube(size = 2); }\n  union() { cylinder(); sphere(); }\n }\n}\n"
-                             "intersection() {\n cube(size = 2);\n cube(size = 3);\n}\n");
+    lmn_scene *s = load_text(
+        "group() {\n difference() {\n  group() { cube(size = 2); }\n  union() { cylinder(); sphere(); }\n }\n}\n"
+        "intersection() {\n cube(size = 2);\n cube(size = 3);\n}\n");
     const solid *tree = only_solid(s);
     assert_string_equal(s->parts[0].name, "model");
     assert_int_equal(tree->nodes[0].kind, SOLID_UNION);
@@ -177,12 +189,13 @@ static void operations_become_a_tree(void **state)
 static void equal_leaves_share_a_mesh(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("cube(size = 2);\nmultmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube( size = 2 );}\n"
-                             "cube(size = 2, center = true);cube(size = 2.5);"
-                             "hull() {cube(size = 1); cylinder(h = 3, $fn = 5);} hull() {\n cube(size = 1);\n cylinder(h = 3, $fn = 5);\n}");
-    const solid *tree = only_solid(s);
+    lmn_scene *s = load_text(
+        "cube(size = 2);\nmultmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube( size = 2 );}\n"
+        "cube(size = 2, center = true);cube(size = 2.5);"
+        "hull() {cube(size = 1); cylinder(h = 3, $fn = 5);} hull() {\n cube(size = 1);\n cylinder(h = 3, $fn = 5);\n}");
+    const solid   *tree = only_solid(s);
     solid_operand *operands;
-    size_t count;
+    size_t         count;
     assert_true(solid_operands(tree, &operands, &count));
     assert_int_equal(count, 6);
     assert_int_equal(s->mesh_count, 4);
@@ -195,7 +208,10 @@ static void equal_leaves_share_a_mesh(void **state)
 static void empty_operands_count_as_openscad_says(void **state)
 {
     (void)state;
-    static const struct { const char *text; size_t parts; } cases[] = {
+    static const struct {
+        const char *text;
+        size_t      parts;
+    } cases[] = {
         {"intersection() {cube(); group();}", 0},
         {"intersection() {cube(); cube(size = 0);}", 0},
         {"difference() {group(); cube();}", 0},
@@ -223,12 +239,14 @@ static void matrices_place_and_mirror(void **state)
     (void)state;
     expect_box("multmatrix([[2,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube();}", 1, 0, 0, 3, 1, 1);
     expect_box("multmatrix([[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {cube(); cube(size = 2);}", -2, 0, 0, 0, 2, 2);
-    expect_box("multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {multmatrix([[0,-1,0,0],[1,0,0,0],[0,0,1,0],[0,0,0,1]]) {cube(size = [1, 2, 3]);}}",
+    expect_box("multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) "
+               "{multmatrix([[0,-1,0,0],[1,0,0,0],[0,0,1,0],[0,0,0,1]]) {cube(size = [1, 2, 3]);}}",
                3, 0, 0, 5, 1, 3);
     expect_box("multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,2]]) {cube();}", 1, 0, 0, 1.5, 0.5, 0.5);
-    static const char *const wrong[] = {"[[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]]", "[[1,0,0,nan],[0,1,0,0],[0,0,1,0],[0,0,0,1]]",
-                                        "[[1,0,0,inf],[0,1,0,0],[0,0,1,0],[0,0,0,1]]", "[[1e30,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]",
-                                        "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[1,0,0,1]]", "3"};
+    static const char *const wrong[] = {
+        "[[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]]",   "[[1,0,0,nan],[0,1,0,0],[0,0,1,0],[0,0,0,1]]",
+        "[[1,0,0,inf],[0,1,0,0],[0,0,1,0],[0,0,0,1]]", "[[1e30,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]",
+        "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[1,0,0,1]]",   "3"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char text[256];
         snprintf(text, sizeof text, "cube();multmatrix(%s){cube(size = 2);}", wrong[i]);
@@ -242,11 +260,11 @@ static void matrices_place_and_mirror(void **state)
 static void the_outermost_colour_decides(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("color([1, 0.5, 0, 0.25]) {group() {cube(); color(\"blue\") {cylinder();}}}\n"
-                             "color(\"lime\", alpha = 0.5) {cube();}\ncolor([-1, -1, -1, 1]) {cube();}\n"
-                             "color(\"red\") {color(\"blue\") {cube();}}");
+    lmn_scene     *s = load_text("color([1, 0.5, 0, 0.25]) {group() {cube(); color(\"blue\") {cylinder();}}}\n"
+                                     "color(\"lime\", alpha = 0.5) {cube();}\ncolor([-1, -1, -1, 1]) {cube();}\n"
+                                     "color(\"red\") {color(\"blue\") {cube();}}");
     solid_operand *o;
-    size_t count;
+    size_t         count;
     assert_true(solid_operands(only_solid(s), &o, &count));
     assert_int_equal(count, 5);
     for (int i = 0; i < 2; i++) {
@@ -265,13 +283,15 @@ static void the_outermost_colour_decides(void **state)
 static void modifiers_choose(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("cube();\n%cube(size = 5);\n*cube(size = 6);\n#cube(size = 2);\n% group() {cube(size = 9); nosuch();}");
+    lmn_scene *s = load_text(
+        "cube();\n%cube(size = 5);\n*cube(size = 6);\n#cube(size = 2);\n% group() {cube(size = 9); nosuch();}");
     CHECK_BOX(s, 0, 0, 0, 2, 2, 2);
     assert_int_equal(warnings_of(s, WARNING_BACKGROUND), 2);
     assert_int_equal(s->warnings.count, 2);
     assert_non_null(strstr(s->warnings.items[0].text, "model.csg, line 2: cube()"));
     lmn_scene_destroy(&s);
-    expect_box("cube(size = 9); group() {multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {!cube();}}", 0, 0, 0, 1, 1, 1);
+    expect_box("cube(size = 9); group() {multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {!cube();}}", 0, 0, 0, 1,
+               1, 1);
     s = load_text("roof(method = \"voronoi\") {\n square();\n}\ncube();\nnosuch(a = [1, \"x\"]);");
     assert_int_equal(warnings_of(s, WARNING_IGNORED), 2);
     assert_non_null(strstr(s->warnings.items[1].text, "line 5: nosuch()"));
@@ -281,8 +301,8 @@ static void modifiers_choose(void **state)
 static void bad_numbers_leave_their_object_out(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"cube(size = [nan, 1, 1]);", "sphere(r = inf);", "cylinder(h = -inf);", "cube(size = 1e30);",
-                                        "sphere(r = 1e308);", "cube(size = 1e999);"};
+    static const char *const wrong[] = {"cube(size = [nan, 1, 1]);", "sphere(r = inf);",   "cylinder(h = -inf);",
+                                        "cube(size = 1e30);",        "sphere(r = 1e308);", "cube(size = 1e999);"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char text[256];
         snprintf(text, sizeof text, "cube();\n%s", wrong[i]);
@@ -304,7 +324,7 @@ static void too_many_operands_are_a_limit(void **state)
 {
     (void)state;
     size_t count = SOLID_OPERANDS_MAX + 1, size = 0;
-    char *text = mem_alloc(count * 8 + 1);
+    char  *text = mem_alloc(count * 8 + 1);
     for (size_t i = 0; i < count; i++, size += 7)
         memcpy(text + size, "cube();", 8);
     lmn_error error;
@@ -313,7 +333,7 @@ static void too_many_operands_are_a_limit(void **state)
     mem_free(text);
 }
 
-/* --- programs ---------------------------------------------------------------------------------------------------------- */
+/* --- programs ------------------------------------------------------------------------------------------- */
 
 static bool has_openscad(void)
 {
@@ -335,7 +355,7 @@ static void programs_are_evaluated_by_openscad(void **state)
         skip();
     }
     const char *text = "n = 3;\nfor (i = [0 : n - 1]) translate([2 * i, 0, 0]) cube(1);\n";
-    lmn_scene *s = load_or_fail(temp_file("-row.scad", text, strlen(text)));
+    lmn_scene  *s = load_or_fail(temp_file("-row.scad", text, strlen(text)));
     CHECK_BOX(s, 0, 0, 0, 5, 1, 1);
     assert_string_equal(s->parts[0].name, "-row");
     lmn_scene_destroy(&s);
@@ -356,7 +376,8 @@ static void programs_are_evaluated_by_openscad(void **state)
     lmn_scene_destroy(&s);
 }
 
-static lmn_status load_program(const char *name, const char *text, const char *const *defines, size_t count, bool strict, lmn_scene **out, lmn_error *error)
+static lmn_status load_program(const char *name, const char *text, const char *const *defines, size_t count,
+                               bool strict, lmn_scene **out, lmn_error *error)
 {
     lmn_load_desc desc = LMN_LOAD_DESC_INIT;
     desc.defines = defines;
@@ -451,7 +472,7 @@ static void programs_need_openscad(void **state)
     (void)state;
     char *path = mem_copy_text(getenv("PATH"));
     setenv("PATH", "/nowhere::relative", 1);
-    lmn_error error;
+    lmn_error  error;
     lmn_status status = load_status(temp_file("cube.scad", "cube();", 7), &error);
     setenv("PATH", path, 1);
     mem_free(path);

@@ -1,5 +1,5 @@
-/* The readers against the collection of real models: counts from its index, compressed against plain, damaged files, cut
- * files, and memory that runs out. */
+/* The readers against the collection of real models: counts from its index, compressed against plain, damaged
+ * files, cut files, and memory that runs out. */
 #include "import_support.h"
 
 #include <dirent.h>
@@ -38,15 +38,15 @@ static void counts_agree_with_the_index(void **state)
 {
     (void)state;
     const char *folder = data_folder();
-    char path[2048], line[4096];
-    int checked = 0;
+    char        path[2048], line[4096];
+    int         checked = 0;
     if (!folder)
         skip();
     snprintf(path, sizeof path, "%s/index.csv", folder);
     FILE *f = fopen(path, "r");
     assert_non_null(f);
     while (fgets(line, sizeof line, f)) {
-        char name[512];
+        char               name[512];
         unsigned long long bytes, triangles;
         if ((strncmp(line, "mesh/", 5) != 0 && strncmp(line, "gltf/", 5) != 0) ||
             sscanf(line, "%511[^,],%llu,%llu", name, &bytes, &triangles) != 3)
@@ -68,13 +68,13 @@ static void counts_agree_with_the_index(void **state)
 /* Vertices in the world, in the rest pose, without the root's rotation. */
 static size_t world_vertices(const lmn_scene *s, vec3 *out, size_t room)
 {
-    mat4 *worlds = scene_world_matrices(s);
+    mat4  *worlds = scene_world_matrices(s);
     size_t count = 0;
     for (size_t i = 0; i < s->part_count; i++) {
         const node *n = &s->nodes[s->parts[i].node];
         const mesh *m = &s->meshes[n->mesh];
-        size_t joints = n->skin == NONE ? 0 : s->skins[n->skin].joint_count;
-        mat4 *matrices = mem_alloc((joints + 1) * sizeof *matrices);
+        size_t      joints = n->skin == NONE ? 0 : s->skins[n->skin].joint_count;
+        mat4       *matrices = mem_alloc((joints + 1) * sizeof *matrices);
         for (size_t j = 0; j < joints; j++)
             matrices[j] = mat4_multiply(&worlds[s->skins[n->skin].joints[j]], &s->skins[n->skin].inverse_binds[j]);
         for (size_t k = 0; k < m->primitive_count; k++) {
@@ -129,9 +129,9 @@ static void compressed_models_equal_their_originals(void **state)
         snprintf(path, sizeof path, "%s/gltf/%s", folder, pairs[i][0]);
         lmn_scene *a = load_or_fail(path);
         snprintf(path, sizeof path, "%s/gltf/%s", folder, pairs[i][1]);
-        lmn_scene *b = load_or_fail(path);
+        lmn_scene     *b = load_or_fail(path);
         lmn_scene_info x = lmn_scene_info_of(a), y = lmn_scene_info_of(b);
-        double size = 0;
+        double         size = 0;
         for (int k = 0; k < 3; k++)
             size += (y.bounds_max[k] - y.bounds_min[k]) * (y.bounds_max[k] - y.bounds_min[k]);
         size = sqrt(size);
@@ -147,7 +147,7 @@ static void compressed_models_equal_their_originals(void **state)
     }
 }
 
-/* --- damaged files ------------------------------------------------------------------------------------------------ */
+/* --- damaged files -------------------------------------------------------------------------------------- */
 
 typedef struct tally {
     int files, accepted, refused, valid;
@@ -160,7 +160,7 @@ static bool is_valid(const char *path)
     snprintf(name, sizeof name, "%s.report.json", path);
     json_t *report = json_load_file(name, 0, NULL);
     json_t *errors = json_object_get(json_object_get(report, "issues"), "numErrors");
-    bool valid = json_is_integer(errors) && json_integer_value(errors) == 0;
+    bool    valid = json_is_integer(errors) && json_integer_value(errors) == 0;
     json_decref(report);
     return valid;
 }
@@ -168,12 +168,13 @@ static bool is_valid(const char *path)
 /* Statuses of a file that is read: whatever is in it, it is the file that is wrong. */
 static void load_one(const char *path, tally *t)
 {
-    lmn_error error;
+    lmn_error  error;
     lmn_status status = load_status(path, &error);
     if (status != LMN_OK && !error.file[0])
         print_error("%s: the message names no file: %s\n", path, error.message);
     assert_true(status == LMN_OK || error.file[0]);
-    assert_true(status == LMN_OK || status == LMN_READ || status == LMN_FORMAT || status == LMN_LIMIT || status == LMN_UNSUPPORTED);
+    assert_true(status == LMN_OK || status == LMN_READ || status == LMN_FORMAT || status == LMN_LIMIT ||
+                status == LMN_UNSUPPORTED);
     t->files++;
     t->accepted += status == LMN_OK;
     t->refused += status != LMN_OK;
@@ -187,11 +188,11 @@ static void load_one(const char *path, tally *t)
 
 static void load_folder(const char *folder, tally *t)
 {
-    DIR *list = opendir(folder);
+    DIR           *list = opendir(folder);
     struct dirent *entry;
     assert_non_null(list);
     while ((entry = readdir(list))) {
-        char path[2048];
+        char        path[2048];
         struct stat facts;
         if (entry->d_name[0] == '.')
             continue;
@@ -208,11 +209,11 @@ static void load_folder(const char *folder, tally *t)
 static void load_damaged(bool in_process)
 {
     const char *folder = data_folder();
-    char path[2048];
-    tally t = {0};
+    char        path[2048];
+    tally       t = {0};
     if (!folder)
         skip();
-    lmn_task *task;
+    lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.limits = lmn_limits_safe();
     desc.limits.time_s = 3;
@@ -242,13 +243,13 @@ static void valid_ply_syntax_is_accepted(void **state)
     (void)state;
     static const char *const names[] = {"cube.ply", "cube_binary.ply", "cube_uv.ply",
                                         "cube_binary_header_with_RN_newline.ply", "cube_binary_starts_with_nl.ply"};
-    const char *folder = data_folder();
+    const char              *folder = data_folder();
     if (!folder)
         skip();
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[2048];
         snprintf(path, sizeof path, "%s/robust/scenes/ply-syntax/%s", folder, names[i]);
-        lmn_scene *s = load_or_fail(path);
+        lmn_scene     *s = load_or_fail(path);
         lmn_scene_info info = lmn_scene_info_of(s);
         assert_int_equal(info.triangles, 12);
         double side = info.bounds_max[0] - info.bounds_min[0];
@@ -261,13 +262,13 @@ static void valid_ply_syntax_is_accepted(void **state)
 
 static void cut_file(const char *relative, const char *ending, bool must_fail)
 {
-    char path[2048], name[64];
+    char      path[2048], name[64];
     file_data file;
     snprintf(path, sizeof path, "%s/%s", data_folder(), relative);
     assert_int_equal(file_load(&file, path, NULL), LMN_OK);
     snprintf(name, sizeof name, "cut%s", ending);
     for (size_t size = 0; size < file.size; size += 1024) {
-        lmn_error error;
+        lmn_error  error;
         lmn_status status = load_status(temp_file(name, file.data, size), &error);
         if (must_fail && status == LMN_OK)
             print_error("%s cut at %zu was accepted\n", relative, size);
@@ -295,21 +296,26 @@ static void cut_files_are_refused(void **state)
 static void memory_may_run_out(void **state)
 {
     (void)state;
-    static const char *const names[] = {
-        "gltf/animated/BoxAnimated.glb",  "gltf/compressed/BoxMeshopt.glb", "gltf/animated/RiggedSimple.glb",
-        "gltf/features/UnlitTest.glb",    "gltf/features/SimpleMorph/SimpleMorph.gltf", "gltf/compressed/BoxDraco.gltf",
-        "mesh/cad-atlas/l_hand.stl",      "robust/scenes/stl-syntax/triangle_with_two_solids.stl", "mesh/cube.ply",
-        "robust/scenes/obj-syntax/cube_usemtl.obj"};
-    const char *folder = data_folder();
+    static const char *const names[] = {"gltf/animated/BoxAnimated.glb",
+                                        "gltf/compressed/BoxMeshopt.glb",
+                                        "gltf/animated/RiggedSimple.glb",
+                                        "gltf/features/UnlitTest.glb",
+                                        "gltf/features/SimpleMorph/SimpleMorph.gltf",
+                                        "gltf/compressed/BoxDraco.gltf",
+                                        "mesh/cad-atlas/l_hand.stl",
+                                        "robust/scenes/stl-syntax/triangle_with_two_solids.stl",
+                                        "mesh/cube.ply",
+                                        "robust/scenes/obj-syntax/cube_usemtl.obj"};
+    const char              *folder = data_folder();
     if (!folder)
         skip();
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[2048];
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         lmn_scene *s = load_or_fail(path);
-        uint64_t revision = s->revision;
-        size_t parts = s->part_count, nodes = s->node_count;
-        long n = 1;
+        uint64_t   revision = s->revision;
+        size_t     parts = s->part_count, nodes = s->node_count;
+        long       n = 1;
         for (; n < 100000; n++) {
             lmn_error error = {0};
             mem_fail_at(n);

@@ -18,7 +18,7 @@ static void binary_stl_is_welded(void **state)
 {
     (void)state;
     unsigned char bytes[512];
-    size_t size = build_stl(bytes, 2, two_triangles);
+    size_t        size = build_stl(bytes, 2, two_triangles);
     memcpy(bytes, "solid pretends to be text", 25);
     lmn_scene *s = load_or_fail(temp_file("two.stl", bytes, size));
     assert_int_equal(s->part_count, 1);
@@ -39,8 +39,8 @@ static void wrong_stl_counts_are_explained(void **state)
 {
     (void)state;
     unsigned char bytes[512];
-    lmn_error error;
-    size_t size = build_stl(bytes, 2, two_triangles);
+    lmn_error     error;
+    size_t        size = build_stl(bytes, 2, two_triangles);
     put_u32(bytes + 80, 0xFFFFFFFF);
     assert_int_equal(load_status(temp_file("absurd.stl", bytes, size), &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "4294967295"));
@@ -60,40 +60,42 @@ static void bad_triangles_are_left_out(void **state)
 {
     (void)state;
     unsigned char bytes[512];
-    float nan_value, inf_value;
-    uint32_t nan_bits = 0x7FC00000, inf_bits = 0x7F800000;
+    float         nan_value, inf_value;
+    uint32_t      nan_bits = 0x7FC00000, inf_bits = 0x7F800000;
     memcpy(&nan_value, &nan_bits, 4);
     memcpy(&inf_value, &inf_bits, 4);
     const float triangles[4][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
                                    {0, 0, 0, 1, 0, 0, 2, 0, 0},
                                    {0, 0, 0, nan_value, 0, 0, 0, 1, 0},
                                    {0, 0, 0, 1, inf_value, 0, 0, 1, 0}};
-    lmn_scene *s = load_or_fail(temp_file("bad.stl", bytes, build_stl(bytes, 4, triangles)));
+    lmn_scene  *s = load_or_fail(temp_file("bad.stl", bytes, build_stl(bytes, 4, triangles)));
     assert_int_equal(lmn_scene_info_of(s).triangles, 1);
     assert_int_equal(s->meshes[0].primitives[0].vertex_count, 3);
     assert_true(has_warning(s, WARNING_BAD_GEOMETRY));
     assert_true(lmn_scene_info_of(s).bounds_max[0] == 1);
     lmn_scene_destroy(&s);
     lmn_error error;
-    assert_int_equal(load_status(temp_file("worse.stl", bytes, build_stl(bytes, 3, triangles + 1)), &error), LMN_FORMAT);
+    assert_int_equal(load_status(temp_file("worse.stl", bytes, build_stl(bytes, 3, triangles + 1)), &error),
+                     LMN_FORMAT);
     assert_non_null(strstr(error.message, "none of the 3 triangles"));
 }
 
 static void text_stl_has_solids(void **state)
 {
     (void)state;
-    const char *text = "\xEF\xBB\xBFSOLID first one\r\n  facet normal 0 0 1\r\n outer loop\r\n vertex 0 0 0\r\n"
-                       " vertex 1e0 0 0\r\n vertex 0 +1.0 0\r\n endloop\r\n endfacet\r\nendsolid first one\r\n"
-                       "solid empty\nendsolid\n"
-                       "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 vertex 0 1 0 endloop\n"
-                       "endfacet endsolid";
+    const char *text =
+        "\xEF\xBB\xBFSOLID first one\r\n  facet normal 0 0 1\r\n outer loop\r\n vertex 0 0 0\r\n"
+        " vertex 1e0 0 0\r\n vertex 0 +1.0 0\r\n endloop\r\n endfacet\r\nendsolid first one\r\n"
+        "solid empty\nendsolid\n"
+        "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 vertex 0 1 0 endloop\n"
+        "endfacet endsolid";
     lmn_scene *s = load_or_fail(temp_file("text.stl", text, strlen(text)));
     assert_int_equal(s->part_count, 2);
     assert_string_equal(s->parts[0].name, "first one");
     assert_int_equal(s->parts[0].triangles, 1);
     assert_int_equal(s->parts[1].triangles, 2);
     lmn_scene_destroy(&s);
-    lmn_error error;
+    lmn_error   error;
     const char *wrong = "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n";
     assert_int_equal(load_status(temp_file("wrong.stl", wrong, strlen(wrong)), &error), LMN_FORMAT);
     assert_int_equal(error.line, 4);
@@ -104,8 +106,8 @@ static void endings_and_content_must_agree(void **state)
 {
     (void)state;
     unsigned char bytes[512];
-    lmn_error error;
-    size_t size = build_stl(bytes, 2, two_triangles);
+    lmn_error     error;
+    size_t        size = build_stl(bytes, 2, two_triangles);
     assert_int_equal(load_status(temp_file("two.ply", bytes, size), &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "STL"));
     assert_non_null(strstr(error.message, ".ply"));
@@ -126,7 +128,7 @@ static void ply_text_reads_everything(void **state)
         "element face 1\nproperty list uchar uint vertex_index\nproperty uchar flags\nend_header\n"
         "255 5 0 0 0 128 0 0 9\n0 5 1 0 0 0 1 0 9\n0 5 1 0 1 0 1 1 9\n0 5 0 255 1 0 0 1 9\n"
         "3 1 2 3\n0\n4 0 1 2 3 7\n";
-    lmn_scene *s = load_or_fail(temp_file("all.ply", text, strlen(text)));
+    lmn_scene       *s = load_or_fail(temp_file("all.ply", text, strlen(text)));
     const primitive *p = &s->meshes[0].primitives[0];
     assert_int_equal(p->vertex_count, 4);
     assert_int_equal(p->index_count, 6);
@@ -156,12 +158,12 @@ static void ply_binary_reads_both_orders(void **state)
     (void)state;
     for (int big = 0; big < 2; big++) {
         unsigned char bytes[1024];
-        size_t at = (size_t)snprintf((char *)bytes, sizeof bytes,
-                                     "ply\nformat binary_%s_endian 1.0\nelement vertex 4\nproperty double x\n"
-                                     "property short y\nproperty float z\nelement tristrips 1\n"
-                                     "property list int int vertex_indices\nend_header\n",
+        size_t        at = (size_t)snprintf((char *)bytes, sizeof bytes,
+                                            "ply\nformat binary_%s_endian 1.0\nelement vertex 4\nproperty double x\n"
+                                                   "property short y\nproperty float z\nelement tristrips 1\n"
+                                                   "property list int int vertex_indices\nend_header\n",
                                      big ? "big" : "little");
-        const double xs[4] = {0, 1, 0, 1};
+        const double  xs[4] = {0, 1, 0, 1};
         const int16_t ys[4] = {0, 0, 1, -300};
         const int32_t strip[8] = {7, 0, 1, 2, 3, -1, 1, 2};
         for (int i = 0; i < 4; i++) {
@@ -172,9 +174,9 @@ static void ply_binary_reads_both_orders(void **state)
         }
         for (int i = 0; i < 8; i++)
             at += put_number(bytes + at, &strip[i], 4, big);
-        lmn_scene *s = load_or_fail(temp_file("binary.ply", bytes, at));
+        lmn_scene       *s = load_or_fail(temp_file("binary.ply", bytes, at));
         const primitive *p = &s->meshes[0].primitives[0];
-        const uint32_t expected[6] = {0, 1, 2, 2, 1, 3};
+        const uint32_t   expected[6] = {0, 1, 2, 2, 1, 3};
         assert_int_equal(p->index_count, 6);
         assert_memory_equal(p->indices, expected, sizeof expected);
         assert_true(p->positions[3].y == -300 && p->positions[3].z == 3);
@@ -189,7 +191,7 @@ static void concave_polygons_keep_their_area(void **state)
     const char *text = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
                        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                        "1 2 0\n0 2 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n6 0 1 2 3 4 5\n";
-    lmn_scene *s = load_or_fail(temp_file("ell.ply", text, strlen(text)));
+    lmn_scene  *s = load_or_fail(temp_file("ell.ply", text, strlen(text)));
     const primitive *p = &s->meshes[0].primitives[0];
     assert_int_equal(p->index_count, 12);
     double area = 0;
@@ -213,19 +215,21 @@ static void wrong_ply_is_explained(void **state)
     } cases[] = {
         {"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n", "end_header"},
         {"ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\n"
-         "end_header\n1 2 3\n", "99999999999"},
+         "end_header\n1 2 3\n",
+         "99999999999"},
         {"ply\nformat ascii 1.0\nelement vertex 18446744073709551615\nend_header\n", "element NAME COUNT"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n", "x, y, z"},
         {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "out of range"},
         {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n", "expected a number"},
         {"ply\nformat ascii 1.0\n" POINTS FACES "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n", "longer than the rest"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n" POINTS "end_header\n"
-         "3 0 1 2\n", "before element"},
+         "3 0 1 2\n",
+         "before element"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\nend_header\n", "unknown type"},
         {"ply\n" POINTS "end_header\n", "format"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lmn_error error;
+        lmn_error  error;
         lmn_status status = load_status(temp_file("wrong.ply", cases[i].text, strlen(cases[i].text)), &error);
         if (status != LMN_FORMAT || !strstr(error.message, cases[i].said))
             print_error("case %zu says: %s\n", i, error.message);

@@ -17,9 +17,10 @@ static lmn_scene *load_text(const char *name, const char *lines)
 static void sharing_stays_as_it_is(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("shared.obj", "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\nf -4/1/-1 -2/3/-1 \\\r\n -1/2/-1");
+    lmn_scene       *s = load_text("shared.obj",
+                                   "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\nf -4/1/-1 -2/3/-1 \\\r\n -1/2/-1");
     const primitive *p = &s->meshes[0].primitives[0];
-    const uint32_t expected[6] = {0, 1, 2, 0, 2, 3};
+    const uint32_t   expected[6] = {0, 1, 2, 0, 2, 3};
     assert_int_equal(p->vertex_count, 4);
     assert_memory_equal(p->indices, expected, sizeof expected);
     assert_true(p->uvs[0][2].x == 1 && p->uvs[0][2].y == 0);
@@ -55,8 +56,9 @@ static void materials_come_from_the_library(void **state)
     const char *library = "# made by hand\nnewmtl red\nKd 1 0 0\nKe 0 1 0\nNs 30\nd 0.5\nnewmtl two words\n  Tr 0.25\n"
                           "newmtl lost\nmap_Kd -s 1 1 1 -clamp on textures\\lost.png\n";
     temp_file("lib one.mtl", library, strlen(library));
-    lmn_scene *s = load_text("materials.obj", "mtllib lib one.mtl\r\nmtllib none.mtl\nusemtl red\nf 1 2 3\nusemtl two words\n"
-                                              "f 1 3 4\nusemtl unknown\nf 2 3 4\nusemtl red\nf 1 2 4\n");
+    lmn_scene *s =
+        load_text("materials.obj", "mtllib lib one.mtl\r\nmtllib none.mtl\nusemtl red\nf 1 2 3\nusemtl two words\n"
+                                   "f 1 3 4\nusemtl unknown\nf 2 3 4\nusemtl red\nf 1 2 4\n");
     const mesh *m = &s->meshes[0];
     assert_int_equal(m->primitive_count, 3);
     assert_int_equal(m->primitives[0].index_count, 6);
@@ -76,9 +78,10 @@ static void materials_come_from_the_library(void **state)
 static void colours_and_polygons_are_read(void **state)
 {
     (void)state;
-    const char *text = "\xEF\xBB\xBFv 0 0 0\nv 2 0 0 1 0 0.5019608\nv 2 2 0 0 1 0\nv 1 0.5 0 0 0 1\nv 0 2 0 1 1 1\nf 1 2 3 4 5 # concave\n"
+    const char *text = "\xEF\xBB\xBFv 0 0 0\nv 2 0 0 1 0 0.5019608\nv 2 2 0 0 1 0\nv 1 0.5 0 0 0 1\nv 0 2 0 1 1 1\nf 1 "
+                       "2 3 4 5 # concave\n"
                        "l 1 2\np 1\ns off\ncurv 1\nf 1 2\n";
-    lmn_scene *s = load_or_fail(temp_file("colours.obj", text, strlen(text)));
+    lmn_scene  *s = load_or_fail(temp_file("colours.obj", text, strlen(text)));
     const primitive *p = &s->meshes[0].primitives[0];
     assert_int_equal(p->index_count, 9);
     for (uint32_t i = 0; i < p->vertex_count; i++) {
@@ -103,9 +106,10 @@ static void colours_and_polygons_are_read(void **state)
 static void wrong_lines_are_told(void **state)
 {
     (void)state;
-    static const char *const cases[] = {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
-                                        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n",
-                                        "v 0 0 0\nv 1 0 0\n\nv 0 1\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n"};
+    static const char *const cases[] = {
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",  "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n",
+        "v 0 0 0\nv 1 0 0\n\nv 0 1\n",           "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n"};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lmn_error error;
         assert_int_equal(load_status(temp_file("wrong.obj", cases[i], strlen(cases[i])), &error), LMN_FORMAT);
@@ -118,7 +122,7 @@ static void broken_streams_are_refused(void **state)
 {
     (void)state;
     unsigned char bytes[1024], changed[1024];
-    size_t size = 0;
+    size_t        size = 0;
     const float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const uint32_t counts[] = {0, 0, 0, 1, 1}, mesh_facts[] = {0, 0, 3, 3, 0}, corners[3] = {0, 1, 2};
     const uint32_t node_count = 1, root = UINT32_MAX, name = 0, own[2] = {1, 0};
@@ -158,7 +162,7 @@ static void foreign_formats_come_through_the_child(void **state)
 {
     (void)state;
     const char *text = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
-    lmn_scene *s = load_or_fail(temp_file("square.off", text, strlen(text)));
+    lmn_scene  *s = load_or_fail(temp_file("square.off", text, strlen(text)));
     assert_int_equal(lmn_scene_info_of(s).triangles, 2);
     assert_int_equal(s->meshes[0].primitives[0].vertex_count, 4); /* shared again */
     lmn_scene_destroy(&s);
@@ -170,9 +174,12 @@ static void foreign_formats_come_through_the_child(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sharing_stays_as_it_is),          cmocka_unit_test(objects_and_groups_are_parts),
-        cmocka_unit_test(materials_come_from_the_library), cmocka_unit_test(colours_and_polygons_are_read),
-        cmocka_unit_test(wrong_lines_are_told),            cmocka_unit_test(broken_streams_are_refused),
+        cmocka_unit_test(sharing_stays_as_it_is),
+        cmocka_unit_test(objects_and_groups_are_parts),
+        cmocka_unit_test(materials_come_from_the_library),
+        cmocka_unit_test(colours_and_polygons_are_read),
+        cmocka_unit_test(wrong_lines_are_told),
+        cmocka_unit_test(broken_streams_are_refused),
         cmocka_unit_test(foreign_formats_come_through_the_child),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

@@ -73,7 +73,7 @@ static inline int remove_temp_folder(void **state)
 static inline lmn_scene *load_or_fail(const char *path)
 {
     lmn_scene *scene = NULL;
-    lmn_error error = {0};
+    lmn_error  error = {0};
     assert_int_equal(lmn_scene_create(&scene, &error), LMN_OK);
     lmn_status status = lmn_scene_add_file(scene, path, NULL, &error);
     if (status != LMN_OK)
@@ -107,7 +107,7 @@ static inline bool has_warning(const lmn_scene *scene, warning_code code)
     return false;
 }
 
-/* --- GLB building ------------------------------------------------------------------------------------------------ */
+/* --- GLB building --------------------------------------------------------------------------------------- */
 
 typedef struct glb {
     unsigned char bin[65536];

@@ -1,4 +1,5 @@
-/* Lapped patches: every point is covered, places are hardly stretched and run along the field, and nothing about it is left to chance. */
+/* Lapped patches: every point is covered, places are hardly stretched and run along the field, and nothing about it
+ * is left to chance. */
 #include "field_shapes.h"
 
 #include "scene/lapped.h"
@@ -24,7 +25,8 @@ static uint32_t *triangles_around(const primitive *p, uint32_t **list)
 static origins find_origins(const primitive *p, const lapped_mesh *m)
 {
     uint32_t *around, *at = triangles_around(p, &around), count = m->index_count / 3, triangles = p->index_count / 3;
-    origins o = {mem_alloc(count * sizeof *o.of), mem_calloc((size_t)triangles + 2, sizeof *o.starts), mem_alloc(count * sizeof *o.list)};
+    origins   o = {mem_alloc(count * sizeof *o.of), mem_calloc((size_t)triangles + 2, sizeof *o.starts),
+                   mem_alloc(count * sizeof *o.list)};
     for (uint32_t k = 0; k < count; k++) {
         uint32_t key[3];
         for (uint32_t c = 0; c < 3; c++)
@@ -54,7 +56,8 @@ static void origins_release(origins *o)
 
 static bool is_inside(const lapped_mesh *m, uint32_t k, double a, double b, double radius)
 {
-    const float *p = m->places[m->indices[3 * k]], *q = m->places[m->indices[3 * k + 1]], *r = m->places[m->indices[3 * k + 2]];
+    const float *p = m->places[m->indices[3 * k]], *q = m->places[m->indices[3 * k + 1]],
+                *r = m->places[m->indices[3 * k + 2]];
     if (p[2] == 1.0f)
         return true;
     double x = (double)p[0] + a * ((double)q[0] - (double)p[0]) + b * ((double)r[0] - (double)p[0]);
@@ -101,10 +104,12 @@ static void check_form(const primitive *p, const lapped_mesh *m)
 static double stretch_of(const primitive *p, const lapped_mesh *m, uint32_t k)
 {
     const uint32_t *n = m->indices + 3 * (size_t)k;
-    const float *a = m->places[n[0]], *b = m->places[n[1]], *c = m->places[n[2]];
+    const float    *a = m->places[n[0]], *b = m->places[n[1]], *c = m->places[n[2]];
     vec3 o = p->positions[m->source[n[0]]], q = p->positions[m->source[n[1]]], r = p->positions[m->source[n[2]]];
-    const double u[3] = {(double)q.x - o.x, (double)q.y - o.y, (double)q.z - o.z}, v[3] = {(double)r.x - o.x, (double)r.y - o.y, (double)r.z - o.z};
-    double uu = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], uv = u[0] * v[0] + u[1] * v[1] + u[2] * v[2], vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const double u[3] = {(double)q.x - o.x, (double)q.y - o.y, (double)q.z - o.z},
+                 v[3] = {(double)r.x - o.x, (double)r.y - o.y, (double)r.z - o.z};
+    double uu = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], uv = u[0] * v[0] + u[1] * v[1] + u[2] * v[2],
+           vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     double x = (double)b[0] - a[0], y = (double)b[1] - a[1], z = (double)c[0] - a[0], w = (double)c[1] - a[1];
     double xx = x * x + y * y, xz = x * z + y * w, zz = z * z + w * w, det = uu * vv - uv * uv;
     if (!(det > 1e-6 * uu * vv))
@@ -124,7 +129,7 @@ static int by_size(const void *a, const void *b)
 static void check_stretch(const primitive *p, const lapped_mesh *m, double *mean)
 {
     uint32_t count = m->index_count / 3;
-    double *all = mem_alloc(count * sizeof *all);
+    double  *all = mem_alloc(count * sizeof *all);
     *mean = 0;
     for (uint32_t k = 0; k < count; k++) {
         all[k] = stretch_of(p, m, k);
@@ -139,7 +144,7 @@ static void check_stretch(const primitive *p, const lapped_mesh *m, double *mean
 static lapped_mesh lap(const primitive *p, double radius, uint32_t seed)
 {
     direction_field f;
-    lapped_mesh m;
+    lapped_mesh     m;
     assert_int_equal(direction_field_make(&f, p, 0.8, 0, NULL), LMN_OK);
     assert_int_equal(lapped_make(&m, p, &f, radius, seed, NULL), LMN_OK);
     direction_field_release(&f);
@@ -148,18 +153,20 @@ static lapped_mesh lap(const primitive *p, double radius, uint32_t seed)
 
 static void check_coverage(const char *name, primitive p, double radius)
 {
-    double before = seconds_now();
+    double      before = seconds_now();
     lapped_mesh m = lap(&p, radius, 5);
-    double after = seconds_now();
+    double      after = seconds_now();
     check_form(&p, &m);
     origins o = find_origins(&p, &m);
-    double mean;
+    double  mean;
     check_stretch(&p, &m, &mean);
     size_t samples = 0, missing = uncovered(&p, &m, &o, radius, &samples), base = 0;
     for (uint32_t k = 0; k < m.index_count; k += 3)
         base += m.places[m.indices[k]][2] == 1.0f;
-    printf("%-16s radius %-6g %7u triangles %6u patches %5.2f times, %6zu without outline, stretch %.3f (mean %.3f), %zu of %zu uncovered, %.2f s\n", name, radius,
-           p.index_count / 3, m.patch_count, (double)m.index_count / p.index_count, base, m.stretch, mean, missing, samples, after - before);
+    printf("%-16s radius %-6g %7u triangles %6u patches %5.2f times, %6zu without outline, stretch %.3f (mean %.3f), "
+           "%zu of %zu uncovered, %.2f s\n",
+           name, radius, p.index_count / 3, m.patch_count, (double)m.index_count / p.index_count, base, m.stretch, mean,
+           missing, samples, after - before);
     assert_int_equal(missing, 0);
     assert_true(m.stretch >= 1 && m.stretch <= 1.5);
     origins_release(&o);
@@ -191,8 +198,12 @@ static void models_are_covered(void **state)
     (void)state;
     static const struct {
         const char *name;
-        double radius;
-    } models[] = {{"mesh/suzanne.obj", 0.3}, {"mesh/spot.obj", 0.2}, {"mesh/teapot.obj", 0.5}, {"mesh/scifihelmet-binary.ply", 0.3}, {"mesh/gearbox-100k.stl", 8}};
+        double      radius;
+    } models[] = {{"mesh/suzanne.obj", 0.3},
+                  {"mesh/spot.obj", 0.2},
+                  {"mesh/teapot.obj", 0.5},
+                  {"mesh/scifihelmet-binary.ply", 0.3},
+                  {"mesh/gearbox-100k.stl", 8}};
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
         primitive p;
         if (!model_primitive(models[i].name, &p))
@@ -201,14 +212,20 @@ static void models_are_covered(void **state)
     }
 }
 
-/* cos 2θ times sureness for how the x axis of places runs on a triangle: the surface's direction in which x grows and y does not, as shares of the edges from the first corner. */
-static double along_field(const primitive *p, const lapped_mesh *m, const direction_field *f, uint32_t k, uint32_t origin, double *sure)
+/* cos 2θ times sureness for how the x axis of places runs on a triangle: the surface's direction in which x grows
+ * and y does not, as shares of the edges from the first corner. */
+static double along_field(const primitive *p, const lapped_mesh *m, const direction_field *f, uint32_t k,
+                          uint32_t origin, double *sure)
 {
-    const float *a = m->places[m->indices[3 * k]], *b = m->places[m->indices[3 * k + 1]], *c = m->places[m->indices[3 * k + 2]];
-    double ux = (double)b[0] - a[0], uy = (double)b[1] - a[1], vx = (double)c[0] - a[0], vy = (double)c[1] - a[1], det = ux * vy - uy * vx;
+    const float *a = m->places[m->indices[3 * k]], *b = m->places[m->indices[3 * k + 1]],
+                *c = m->places[m->indices[3 * k + 2]];
+    double ux = (double)b[0] - a[0], uy = (double)b[1] - a[1], vx = (double)c[0] - a[0], vy = (double)c[1] - a[1],
+           det = ux * vy - uy * vx;
     double s = vy / det, t = -uy / det;
-    vec3 o = p->positions[p->indices[3 * origin]], q = p->positions[p->indices[3 * origin + 1]], r = p->positions[p->indices[3 * origin + 2]];
-    double l[3] = {s * (q.x - o.x) + t * (r.x - o.x), s * (q.y - o.y) + t * (r.y - o.y), s * (q.z - o.z) + t * (r.z - o.z)};
+    vec3   o = p->positions[p->indices[3 * origin]], q = p->positions[p->indices[3 * origin + 1]],
+         r = p->positions[p->indices[3 * origin + 2]];
+    double l[3] = {s * (q.x - o.x) + t * (r.x - o.x), s * (q.y - o.y) + t * (r.y - o.y),
+                   s * (q.z - o.z) + t * (r.z - o.z)};
     double length = sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]), sum[6] = {0}, size = 0;
     if (!(length > 0) || !isfinite(length))
         return 0;
@@ -220,18 +237,19 @@ static double along_field(const primitive *p, const lapped_mesh *m, const direct
     *sure += sqrt(size / 2) / 3;
     for (int j = 0; j < 3; j++)
         l[j] /= length;
-    return (sum[0] * l[0] * l[0] + sum[1] * l[1] * l[1] + sum[2] * l[2] * l[2] + 2 * (sum[3] * l[0] * l[1] + sum[4] * l[1] * l[2] + sum[5] * l[2] * l[0])) /
+    return (sum[0] * l[0] * l[0] + sum[1] * l[1] * l[1] + sum[2] * l[2] * l[2] +
+            2 * (sum[3] * l[0] * l[1] + sum[4] * l[1] * l[2] + sum[5] * l[2] * l[0])) /
            3;
 }
 
 static void check_direction(const char *name, primitive p, double radius, double least)
 {
     direction_field f;
-    lapped_mesh m;
+    lapped_mesh     m;
     assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
     assert_int_equal(lapped_make(&m, &p, &f, radius, 3, NULL), LMN_OK);
     origins o = find_origins(&p, &m);
-    double sum = 0, sure = 0;
+    double  sum = 0, sure = 0;
     for (uint32_t k = 0; k < m.index_count / 3; k++)
         sum += along_field(&p, &m, &f, k, o.of[k], &sure);
     printf("%s: cos 2θ between x and the field is %.3f on average\n", name, sum / sure);
@@ -264,13 +282,13 @@ static void places_run_along_the_field(void **state)
 static void a_plane_is_not_stretched(void **state)
 {
     (void)state;
-    primitive p = grid_surface(plane_at, 30, 10, false, false, 0.6);
+    primitive   p = grid_surface(plane_at, 30, 10, false, false, 0.6);
     lapped_mesh m = lap(&p, 0.3, 1);
     for (uint32_t k = 0; k < m.index_count; k++) {
         uint32_t i = m.indices[k], j = m.indices[k % 3 == 2 ? k - 2 : k + 1];
-        vec3 a = p.positions[m.source[i]], b = p.positions[m.source[j]];
-        double there = sqrt(pow((double)a.x - b.x, 2) + pow((double)a.y - b.y, 2) + pow((double)a.z - b.z, 2));
-        double here = hypot((double)m.places[i][0] - m.places[j][0], (double)m.places[i][1] - m.places[j][1]);
+        vec3     a = p.positions[m.source[i]], b = p.positions[m.source[j]];
+        double   there = sqrt(pow((double)a.x - b.x, 2) + pow((double)a.y - b.y, 2) + pow((double)a.z - b.z, 2));
+        double   here = hypot((double)m.places[i][0] - m.places[j][0], (double)m.places[i][1] - m.places[j][1]);
         assert_true(fabs(here - there) < 1e-4);
         /* x of places is ±x of the plane. */
         assert_true(fabs(fabs((double)m.places[i][0] - m.places[j][0]) - fabs((double)a.x - b.x)) < 1e-3);
@@ -279,7 +297,8 @@ static void a_plane_is_not_stretched(void **state)
     primitive_release(&p);
 }
 
-/* Away from the middle the outline turns: no stretch of a tenth of the way around is as straight as a quad's side would be. */
+/* Away from the middle the outline turns: no stretch of a tenth of the way around is as straight as a quad's side
+ * would be. */
 static void outlines_have_no_straight_sides(void **state)
 {
     (void)state;
@@ -294,7 +313,8 @@ static void outlines_have_no_straight_sides(void **state)
                 p[j][1] = r * sin(a);
             }
             for (int q = 1; q < 20; q++) {
-                double a = 2 * field_pi * (i / 200.0 + q / 200.0), r = lapped_outline(k, a), dx = p[2][0] - p[0][0], dy = p[2][1] - p[0][1];
+                double a = 2 * field_pi * (i / 200.0 + q / 200.0), r = lapped_outline(k, a), dx = p[2][0] - p[0][0],
+                       dy = p[2][1] - p[0][1];
                 off = fmax(off, fabs((r * cos(a) - p[0][0]) * dy - (r * sin(a) - p[0][1]) * dx) / hypot(dx, dy));
             }
             straightest = fmin(straightest, off);
@@ -307,8 +327,8 @@ static void the_seed_decides_alone(void **state)
 {
     (void)state;
     const place3 axes = {3, 2, 1};
-    primitive p = ball(20, 0.3, axes);
-    lapped_mesh a = lap(&p, 0.5, 7), b = lap(&p, 0.5, 7), c = lap(&p, 0.5, 8);
+    primitive    p = ball(20, 0.3, axes);
+    lapped_mesh  a = lap(&p, 0.5, 7), b = lap(&p, 0.5, 7), c = lap(&p, 0.5, 8);
     assert_int_equal(a.vertex_count, b.vertex_count);
     assert_int_equal(a.index_count, b.index_count);
     assert_memory_equal(a.places, b.places, a.vertex_count * sizeof *a.places);
@@ -326,8 +346,8 @@ static void size_does_not_matter(void **state)
 {
     (void)state;
     const double scales[2] = {1048576, 1.0 / 1048576};
-    primitive p = grid_surface(torus_at, 48, 20, true, true, 0.4);
-    lapped_mesh a = lap(&p, 0.8, 2);
+    primitive    p = grid_surface(torus_at, 48, 20, true, true, 0.4);
+    lapped_mesh  a = lap(&p, 0.8, 2);
     for (int i = 0; i < 2; i++) {
         primitive q = empty_primitive(p.vertex_count, p.index_count);
         memcpy(q.positions, p.positions, p.vertex_count * sizeof *p.positions);
@@ -348,13 +368,15 @@ static void size_does_not_matter(void **state)
 static void barely_meshes_are_covered(void **state)
 {
     (void)state;
-    primitive torus = grid_surface(torus_at, 48, 20, true, true, 0.4), p = empty_primitive(torus.vertex_count, torus.index_count + 60);
+    primitive torus = grid_surface(torus_at, 48, 20, true, true, 0.4),
+              p = empty_primitive(torus.vertex_count, torus.index_count + 60);
     memcpy(p.positions, torus.positions, torus.vertex_count * sizeof *torus.positions);
     for (uint32_t t = 0; t < torus.index_count / 3; t++)
         for (uint32_t k = 0; k < 3; k++)
             p.indices[3 * t + k] = torus.indices[3 * t + (hashed(t) < 0.3 ? k : 2 - k)];
     for (uint32_t i = 0; i < 60; i++)
-        p.indices[torus.index_count + i] = i < 30 ? torus.indices[i / 3 * 3 + (i + 1) % 3] : (uint32_t)(hashed(i) * torus.vertex_count * 0.999);
+        p.indices[torus.index_count + i] =
+            i < 30 ? torus.indices[i / 3 * 3 + (i + 1) % 3] : (uint32_t)(hashed(i) * torus.vertex_count * 0.999);
     check_coverage("disagreeing", p, 0.8);
     primitive_release(&torus);
     p = empty_primitive(3, 3);
@@ -369,7 +391,8 @@ static void barely_meshes_are_covered(void **state)
     primitive_release(&p);
     p = empty_primitive(12, 120);
     for (uint32_t v = 0; v < 12; v++)
-        p.positions[v] = (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)), (float)rint(2 * hashed(v + 200))};
+        p.positions[v] =
+            (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)), (float)rint(2 * hashed(v + 200))};
     for (uint32_t i = 0; i < 120; i++)
         p.indices[i] = (uint32_t)(hashed(i + 1000) * 11.99);
     m = lap(&p, 0.5, 0);
@@ -381,12 +404,12 @@ static void barely_meshes_are_covered(void **state)
 static void memory_may_run_out(void **state)
 {
     (void)state;
-    primitive p = grid_surface(torus_at, 12, 8, true, true, 0);
+    primitive       p = grid_surface(torus_at, 12, 8, true, true, 0);
     direction_field f;
     assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
     long n = 1;
     for (; n < 100000; n++) {
-        lmn_error error = {0};
+        lmn_error   error = {0};
         lapped_mesh m;
         mem_fail_at(n);
         lmn_status status = lapped_make(&m, &p, &f, 1.5, 1, &error);
@@ -407,14 +430,14 @@ static void memory_may_run_out(void **state)
 static void large_surfaces(void **state)
 {
     (void)state;
-    primitive p = grid_surface(torus_at, 500, 200, true, true, 0.4);
+    primitive       p = grid_surface(torus_at, 500, 200, true, true, 0.4);
     direction_field f;
-    lapped_mesh m;
+    lapped_mesh     m;
     assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
     double before = seconds_now();
     assert_int_equal(lapped_make(&m, &p, &f, 0.7, 1, NULL), LMN_OK);
-    printf("torus of %u triangles: %.2f s, %u patches, %.2f times, stretch %.3f\n", p.index_count / 3, seconds_now() - before, m.patch_count,
-           (double)m.index_count / p.index_count, m.stretch);
+    printf("torus of %u triangles: %.2f s, %u patches, %.2f times, stretch %.3f\n", p.index_count / 3,
+           seconds_now() - before, m.patch_count, (double)m.index_count / p.index_count, m.stretch);
     check_form(&p, &m);
     lapped_release(&m);
     direction_field_release(&f);

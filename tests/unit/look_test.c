@@ -20,7 +20,8 @@ static const char two_rules[] =
     "{\"version\": 1, \"name\": \"two\", \"doc\": \"Two rules.\", \"x-author\": {\"any\": 1},\n"
     " \"scene\": {\"crease_angle\": 45}, \"finish\": {\"ground\": \"#eeeeff\"},\n"
     " \"rules\": [\n"
-    "  {\"name\": \"wheels\", \"select\": \"Wheel*\", \"surface\": {\"technique\": \"toon\", \"bands\": 4, \"x-note\": null},\n"
+    "  {\"name\": \"wheels\", \"select\": \"Wheel*\", \"surface\": {\"technique\": \"toon\", \"bands\": 4, \"x-note\": "
+    "null},\n"
     "   \"lines\": [\"four-tap\", {\"operator\": \"id\", \"width\": 3, \"colour\": \"red\"}]},\n"
     "  {\"select\": \"*\", \"surface\": \"lit\", \"lines\": null}\n"
     " ]}\n";
@@ -34,10 +35,11 @@ static lmn_look *parse(const char *json)
     return look;
 }
 
-static const char *value_of(const lmn_look *look, size_t rule_index, kind_id id, size_t use, const char *key, char out[128])
+static const char *value_of(const lmn_look *look, size_t rule_index, kind_id id, size_t use, const char *key,
+                            char out[128])
 {
     const technique_use *u = kinds[id]->look_wide ? &look->wide[id] : &look->rules[rule_index].uses[id][use];
-    const param *p = kind_find_param(kinds[id], u->technique, key);
+    const param         *p = kind_find_param(kinds[id], u->technique, key);
     assert_non_null(p);
     param_print(p, u->values, out, 128);
     return out;
@@ -46,7 +48,7 @@ static const char *value_of(const lmn_look *look, size_t rule_index, kind_id id,
 static void test_parse(void **state)
 {
     (void)state;
-    char out[128];
+    char      out[128];
     lmn_look *look = parse(two_rules);
     assert_string_equal(lmn_look_name(look), "two");
     assert_int_equal(look->rule_count, 2);
@@ -79,31 +81,40 @@ static void test_wrong_files(void **state)
         {"{\"version\": \"1\"}", "whole number", "", 1, 2},
         {"{\"version\": 1, \"version\": 1}", "not valid JSON: duplicate", "", 1, -1},
         {"{\"version\": 1}", "no rule", "add", 1, 1},
-        {"{\"version\": 1,\n  \"rules\": [{\"surfce\": \"lit\"}]}", "rules[0]: unknown key 'surfce'", "'surface'", 2, 14},
+        {"{\"version\": 1,\n  \"rules\": [{\"surfce\": \"lit\"}]}", "rules[0]: unknown key 'surfce'", "'surface'", 2,
+         14},
         {"{\"version\": 1, \"rule\": []}", "unknown key 'rule'", "'rules'", 1, 16},
         {"{\"version\": 1, \"lines\": \"id\"}", "unknown key 'lines'", "into a rule", 1, 16},
         {"{\"version\": 1, \"rules\": [{\"scene\": {}}]}", "unknown key 'scene'", "beside 'rules'", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"surface\":\n {\"technique\": \"lit\",\n  \"bands\": 3}}]}",
-         "rules[0].surface: surface technique 'lit' has no parameter 'bands'; these have it: ", "surface.technique", 3, 3},
-        {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"band\": 3}}]}", "no parameter 'band'", "'bands'", 1, -1},
+         "rules[0].surface: surface technique 'lit' has no parameter 'bands'; these have it: ", "surface.technique", 3,
+         3},
+        {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"band\": 3}}]}", "no parameter 'band'",
+         "'bands'", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"bands\": 300}}]}",
          "bands is '300'; allowed is a whole number from 1 to 16", "", 1, 60},
-        {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"bands\": \"3\"}}]}", "bands must be a whole number", "", 1, -1},
-        {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"bands\": 3.5}}]}", "bands must be a whole number", "", 1, -1},
+        {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"bands\": \"3\"}}]}",
+         "bands must be a whole number", "", 1, -1},
+        {"{\"version\": 1, \"rules\": [{\"surface\": {\"technique\": \"toon\", \"bands\": 3.5}}]}",
+         "bands must be a whole number", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"surface\": \"tooon\"}]}", "no surface technique 'tooon'", "'toon'", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"surface\": null}]}", "rules[0].surface: cannot be none", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"surface\": [\"lit\"]}]}", "holds one technique", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"surface\": 3}]}", "technique's name or an object", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"lines\": {\"width\": 3}}]}", "'operator' is missing", "four-tap", 1, -1},
-        {"{\"version\": 1, \"rules\": [{\"lines\": [\"id\", {\"operator\": \"id\", \"technique\": \"id\"}]}]}", "rules[0].lines[1]: ", "", 1, -1},
+        {"{\"version\": 1, \"rules\": [{\"lines\": [\"id\", {\"operator\": \"id\", \"technique\": \"id\"}]}]}",
+         "rules[0].lines[1]: ", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"lines\": {\"operator\": 1}}]}", "text in quotes", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"select\": \"a,\"}]}", "selector 'a,'", "", 1, -1},
         {"{\"version\": 1, \"rules\": [{\"select\": 1}]}", "select must be text", "", 1, -1},
-        {"{\"version\": 1, \"rules\": [{\"select\": \"a\"},\n {\"select\": \"b\"},\n {\"surfce\": 1}]}", "rules[2]: unknown key", "", 3, 3},
+        {"{\"version\": 1, \"rules\": [{\"select\": \"a\"},\n {\"select\": \"b\"},\n {\"surfce\": 1}]}",
+         "rules[2]: unknown key", "", 3, 3},
         {"{\"version\": 1, \"rules\": {}}", "array of rules", "", 1, -1},
         {"{\"version\": 1, \"rules\": [1]}", "rules[0]: must be an object", "", 1, 26},
-        {"{\"version\": 1, \"scene\": {\"light_direction\": [0, 0, 0]}, \"rules\": [{}]}", "scene: light_direction is", "", 1, -1},
-        {"{\"version\": 1, \"scene\": {\"light_direction\": [0, \"1\", 0]}, \"rules\": [{}]}", "array of three numbers", "", 1, -1},
+        {"{\"version\": 1, \"scene\": {\"light_direction\": [0, 0, 0]}, \"rules\": [{}]}", "scene: light_direction is",
+         "", 1, -1},
+        {"{\"version\": 1, \"scene\": {\"light_direction\": [0, \"1\", 0]}, \"rules\": [{}]}", "array of three numbers",
+         "", 1, -1},
         {"{\"version\": 1, \"scene\": null, \"rules\": [{}]}", "scene: must be", "", 1, -1},
     };
     for (size_t i = 0; i < PARAM_COUNT(cases); i++) {
@@ -113,7 +124,8 @@ static void test_wrong_files(void **state)
         assert_null(look);
         assert_string_equal(error.file, "test.json");
         if (!strstr(error.message, cases[i].message) || !strstr(error.hint, cases[i].hint) ||
-            (cases[i].line >= 0 && error.line != cases[i].line) || (cases[i].column >= 0 && error.column != cases[i].column))
+            (cases[i].line >= 0 && error.line != cases[i].line) ||
+            (cases[i].column >= 0 && error.column != cases[i].column))
             fail_msg("case %zu: %d:%d: %s (%s)", i, error.line, error.column, error.message, error.hint);
     }
 }
@@ -121,7 +133,7 @@ static void test_wrong_files(void **state)
 /* "[x,x,…]" in a look that is otherwise right. */
 static void check_limit(const char *before, const char *item, size_t count, const char *after)
 {
-    text json = {0};
+    text      json = {0};
     lmn_look *look = NULL;
     lmn_error error = {0};
     text_append(&json, "{\"version\": 1, %s", before);
@@ -171,7 +183,7 @@ static void test_round_trip(void **state)
 {
     (void)state;
     lmn_look *look = parse(two_rules);
-    char *first = lmn_look_json(look);
+    char     *first = lmn_look_json(look);
     lmn_look_destroy(&look);
     look = parse(first);
     char *second = lmn_look_json(look);
@@ -192,14 +204,14 @@ static void test_every_parameter_round_trips(void **state)
     for (size_t k = 0; k < KIND_COUNT; k++)
         for (size_t t = 0; t < kinds[k]->technique_count; t++) {
             const technique *tech = kinds[k]->techniques[t];
-            char key[64];
-            lmn_error error = {0};
-            lmn_look *look = parse("{\"version\": 1, \"rules\": [{\"lines\": \"id\"}]}"), *again = NULL;
+            char             key[64];
+            lmn_error        error = {0};
+            lmn_look        *look = parse("{\"version\": 1, \"rules\": [{\"lines\": \"id\"}]}"), *again = NULL;
             snprintf(key, sizeof key, "%s.technique", kinds[k]->name);
             assert_int_equal(lmn_look_set(look, key, tech->name, &error), LMN_OK);
             technique_use *use = kinds[k]->look_wide ? &look->wide[k] : look->rules[0].uses[k];
             for (size_t i = 0; i < kind_param_count(kinds[k], tech); i++) {
-                const param *p = kind_param_at(kinds[k], tech, i);
+                const param             *p = kind_param_at(kinds[k], tech, i);
                 static const char *const tries[] = {"true", "false", "#123456", "0.1,-2,3", "0.7", "1", "2", "7", "-1"};
                 for (size_t n = 0; n < PARAM_COUNT(tries) && param_is_default(p, use->values); n++)
                     param_set_text(p, use->values, tries[n], NULL);
@@ -221,7 +233,7 @@ static void test_every_parameter_round_trips(void **state)
 static void test_set(void **state)
 {
     (void)state;
-    char out[128];
+    char      out[128];
     lmn_look *look = parse(two_rules);
     assert_int_equal(lmn_look_set(look, "lines.width", "5", NULL), LMN_OK);
     assert_string_equal(value_of(look, 0, KIND_LINES, 0, "width", out), "5");
@@ -243,7 +255,7 @@ static void test_set(void **state)
 static void test_exchange(void **state)
 {
     (void)state;
-    char out[128];
+    char      out[128];
     lmn_look *look = parse(two_rules);
     assert_int_equal(lmn_look_set(look, "lines[1].operator", "sobel", NULL), LMN_OK);
     assert_string_equal(look->rules[0].uses[KIND_LINES][1].technique->name, "sobel");
@@ -269,7 +281,8 @@ static void test_exchange(void **state)
     assert_int_equal(lmn_look_set(look, "surface.technique", "gooch", NULL), LMN_OK);
     assert_string_equal(look->rules[1].uses[KIND_SURFACE]->technique->name, "gooch");
     /* a value that nobody set is the new technique's default, not the old one's */
-    const param *specular = kind_find_param(kinds[KIND_SURFACE], look->rules[1].uses[KIND_SURFACE]->technique, "specular");
+    const param *specular =
+        kind_find_param(kinds[KIND_SURFACE], look->rules[1].uses[KIND_SURFACE]->technique, "specular");
     assert_true(param_is_default(specular, look->rules[1].uses[KIND_SURFACE]->values));
     lmn_look_destroy(&look);
 }
@@ -305,9 +318,9 @@ static void test_set_refused(void **state)
         {"", "3", "does not name", ""},
     };
     lmn_look *look = parse(two_rules);
-    char *before = lmn_look_json(look);
+    char     *before = lmn_look_json(look);
     for (size_t i = 0; i < PARAM_COUNT(cases); i++) {
-        lmn_error error = {0};
+        lmn_error  error = {0};
         lmn_status status = lmn_look_set(look, cases[i].key, cases[i].value, &error);
         if (status != LMN_USAGE || !strstr(error.message, cases[i].message) || !strstr(error.hint, cases[i].hint))
             fail_msg("%s=%s: %s (%s)", cases[i].key, cases[i].value, error.message, error.hint);
@@ -323,7 +336,7 @@ static void test_reference(void **state)
 {
     (void)state;
     lmn_error error = {0};
-    char *text = NULL;
+    char     *text = NULL;
     assert_int_equal(lmn_look_reference_json(&text, NULL, &error), LMN_OK);
     json_t *root = json_loads(text, 0, NULL);
     assert_non_null(root);
@@ -342,14 +355,14 @@ static void test_reference(void **state)
 static void check_row(const kind *k, const technique *t, size_t index)
 {
     const param *p = kind_param_at(k, t, index);
-    const char *where = p->key;
+    const char  *where = p->key;
     for (size_t i = 0; i < index; i++)
         if (strcmp(kind_param_at(k, t, i)->key, p->key) == 0)
             fail_msg("%s.%s: %s is declared twice", k->name, t->name, where);
     if (!p->doc || !*p->doc || p->doc[strlen(p->doc) - 1] != '.')
         fail_msg("%s.%s: %s has no doc that ends in a full stop", k->name, t->name, where);
     technique_use use;
-    char printed[128];
+    char          printed[128];
     assert_true(use_create(&use, k, t));
     param_print(p, use.values, printed, sizeof printed);
     if (param_set_text(p, use.values, printed, NULL) != LMN_OK)
@@ -375,9 +388,9 @@ static void test_tables(void **state)
         assert_int_equal(k->id, i);
         for (size_t n = 0; n < k->technique_count; n++) {
             const technique *t = k->techniques[n];
-            char json[1024];
-            lmn_look *look = NULL;
-            lmn_error error = {0};
+            char             json[1024];
+            lmn_look        *look = NULL;
+            lmn_error        error = {0};
             assert_non_null(t->doc);
             assert_int_equal(t->doc[strlen(t->doc) - 1], '.');
             assert_ptr_equal(kind_find_technique(k, t->name), t);
@@ -404,7 +417,7 @@ static void test_memory(void **state)
         lmn_error error = {0};
         mem_fail_at(n);
         lmn_status status = lmn_look_parse(&look, two_rules, "test.json", &error);
-        char *printed = NULL, *reference = NULL;
+        char      *printed = NULL, *reference = NULL;
         if (status == LMN_OK)
             status = lmn_look_set(look, "lines.operator", "sobel", &error);
         if (status == LMN_OK)
@@ -432,9 +445,9 @@ static void test_damage(void **state)
 {
     (void)state;
     static const char spice[] = "{}[]\",:-.0123456789eE\\ \ntfnulx\xff";
-    uint32_t random = 1;
+    uint32_t          random = 1;
     for (int round = 0; round < 20000; round++) {
-        char json[sizeof two_rules], key[] = "wheels:lines[1].width";
+        char      json[sizeof two_rules], key[] = "wheels:lines[1].width";
         lmn_look *look = NULL, *again = NULL;
         memcpy(json, two_rules, sizeof json);
         for (int i = 0; i < 1 + round % 3; i++) {
@@ -457,11 +470,12 @@ static void test_damage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parse),       cmocka_unit_test(test_wrong_files), cmocka_unit_test(test_load),
-        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_parse),       cmocka_unit_test(test_wrong_files),
+        cmocka_unit_test(test_load),        cmocka_unit_test(test_limits),
         cmocka_unit_test(test_round_trip),  cmocka_unit_test(test_every_parameter_round_trips),
-        cmocka_unit_test(test_set),         cmocka_unit_test(test_exchange),    cmocka_unit_test(test_set_refused),
-        cmocka_unit_test(test_reference),   cmocka_unit_test(test_tables),      cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_set),         cmocka_unit_test(test_exchange),
+        cmocka_unit_test(test_set_refused), cmocka_unit_test(test_reference),
+        cmocka_unit_test(test_tables),      cmocka_unit_test(test_memory),
         cmocka_unit_test(test_damage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,5 @@
-/* Thresholds of marks, and polygons that shrink: against numbers worked out by hand and shapes cut the other way round. Seed 001, chapter 5; rows EX-01 to EX-08, EX-15, EX-16. */
+/* Thresholds of marks, and polygons that shrink: against numbers worked out by hand and shapes cut the other way
+ * round. Seed 001, chapter 5; rows EX-01 to EX-08, EX-15, EX-16. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +18,7 @@ static void assert_near(double value, double wanted, double off)
         fail_msg("%.9g is not %.9g within %.3g", value, wanted, off);
 }
 
-/* --- EX-01 ----------------------------------------------------------------------------------------------------------- */
+/* --- EX-01 ---------------------------------------------------------------------------------------------- */
 
 /* Visible needs both priorities; equality counts. */
 static void test_two_thresholds(void **state)
@@ -29,20 +30,22 @@ static void test_two_thresholds(void **state)
     assert_true(mark_is_drawn(1.2f, 1, 1, 0)); /* raised by indication: stays in full light */
 }
 
-/* Sets nest as light and as distance grow; priorities drawn at random leave in orders that have nothing to do with each other. */
+/* Sets nest as light and as distance grow; priorities drawn at random leave in orders that have nothing to do with
+ * each other. */
 static void test_sets_nest(void **state)
 {
     (void)state;
     enum { COUNT = 2000, STEPS = 40 };
     random_source r = random_start(5, 1);
-    float light[COUNT], distance[COUNT];
-    int gone_light[COUNT], gone_distance[COUNT];
+    float         light[COUNT], distance[COUNT];
+    int           gone_light[COUNT], gone_distance[COUNT];
     for (int i = 0; i < COUNT; i++) {
         light[i] = (float)random_unit(&r);
         distance[i] = (float)random_unit(&r);
         gone_light[i] = gone_distance[i] = STEPS + 1;
         for (int k = 0; k <= STEPS; k++) {
-            bool by_light = mark_is_drawn(light[i], distance[i], (float)k / STEPS, 0), by_distance = mark_is_drawn(light[i], distance[i], 0, (float)k / STEPS);
+            bool by_light = mark_is_drawn(light[i], distance[i], (float)k / STEPS, 0),
+                 by_distance = mark_is_drawn(light[i], distance[i], 0, (float)k / STEPS);
             assert_false(by_light && gone_light[i] <= STEPS);
             assert_false(by_distance && gone_distance[i] <= STEPS);
             if (!by_light && gone_light[i] > STEPS)
@@ -64,7 +67,7 @@ static void test_sets_nest(void **state)
     assert_near(correlation, 0, 0.08);
 }
 
-/* --- EX-02 ----------------------------------------------------------------------------------------------------------- */
+/* --- EX-02 ---------------------------------------------------------------------------------------------- */
 
 static void project(const double p[3], double focal, bool orthographic, double out[2])
 {
@@ -101,11 +104,11 @@ static void random_frame(random_source *r, double n[3], double u[3], double v[3]
 static void test_page_area(void **state)
 {
     (void)state;
-    const double SIDE = 1e-4;
+    const double  SIDE = 1e-4;
     random_source r = random_start(7, 2);
     for (int i = 0; i < 2000; i++) {
         double n[3], u[3], v[3], focal = 200 + 3000 * random_unit(&r), corners[4][2], way[3];
-        bool flat = i % 3 == 0;
+        bool   flat = i % 3 == 0;
         double place[3] = {random_signed(&r) * 2, random_signed(&r) * 2, -2 - 8 * random_unit(&r)};
         random_frame(&r, n, u, v);
         for (int c = 0; c < 4; c++) {
@@ -118,14 +121,15 @@ static void test_page_area(void **state)
         for (int c = 0; c < 4; c++)
             area += 0.5 * (corners[c][0] * corners[(c + 1) % 4][1] - corners[c][1] * corners[(c + 1) % 4][0]);
         double unit = flat ? focal : focal / -place[2];
-        assert_near(mark_page_area(place, n, focal, flat) / (unit * unit), fabs(area) / (SIDE * SIDE) / (unit * unit), 0.003);
+        assert_near(mark_page_area(place, n, focal, flat) / (unit * unit), fabs(area) / (SIDE * SIDE) / (unit * unit),
+                    0.003);
         memcpy(way, u, sizeof way);
         double length = hypot(corners[1][0] - corners[0][0], corners[1][1] - corners[0][1]) / SIDE;
         assert_near(mark_page_length(place, way, focal, flat) / unit, length / unit, 0.003);
     }
 }
 
-/* --- EX-03 to EX-05 ------------------------------------------------------------------------------------------------------ */
+/* --- EX-03 to EX-05 ------------------------------------------------------------------------------------- */
 
 static double share_drawn(double share)
 {
@@ -146,7 +150,7 @@ static void test_distance_and_slope(void **state)
     assert_true(mark_share_by_distance((const double[]){0, 0, -1}, 2) > 1); /* nearer: all */
     const double angles[] = {0, 60, 90}, shares[] = {1, 0.5, 0};
     for (int i = 0; i < 3; i++) {
-        double a = angles[i] * (3.14159265358979 / 180);
+        double       a = angles[i] * (3.14159265358979 / 180);
         const double place[3] = {0, 0, -5}, normal[3] = {sin(a), 0, cos(a)}, back[3] = {-sin(a), 0, -cos(a)};
         assert_near(share_drawn(mark_share_by_slope(place, normal)), shares[i], 0.02);
         assert_near(mark_share_by_slope(place, back), mark_share_by_slope(place, normal), 1e-12);
@@ -161,8 +165,10 @@ static void test_combined(void **state)
     for (int i = 0; i < 100; i++) {
         double n[3], u[3], v[3], place[3] = {random_signed(&r), random_signed(&r), -1 - 4 * random_unit(&r)};
         random_frame(&r, n, u, v);
-        assert_near(mark_share(MARK_LAW_THESIS, place, n, u, 1.7, false), mark_share_by_distance(place, 1.7) * mark_share_by_slope(place, n), 1e-12);
-        /* What is drawn, times what of it is seen on the page, is the same everywhere for the law that belongs to the mark. */
+        assert_near(mark_share(MARK_LAW_THESIS, place, n, u, 1.7, false),
+                    mark_share_by_distance(place, 1.7) * mark_share_by_slope(place, n), 1e-12);
+        /* What is drawn, times what of it is seen on the page, is the same everywhere for the law that belongs to
+         * the mark. */
         double area = mark_page_area(place, n, 1, false);
         assert_near(mark_share(MARK_LAW_DOT, place, n, u, 1.7, false) / area, 1.7 * 1.7, 1e-9);
         double length = mark_page_length(place, u, 1, false);
@@ -170,19 +176,20 @@ static void test_combined(void **state)
             assert_near(mark_share(MARK_LAW_LINE, place, n, u, 1.7, false) * length / area, 1.7, 1e-9);
     }
     /* Lines across the tilt keep their number, those along it need the cosine. */
-    const double place[3] = {0, 0, -1}, tilted[3] = {sin(1.2), 0, cos(1.2)}, along[3] = {0, 1, 0}, across[3] = {cos(1.2), 0, -sin(1.2)};
+    const double place[3] = {0, 0, -1}, tilted[3] = {sin(1.2), 0, cos(1.2)}, along[3] = {0, 1, 0},
+                 across[3] = {cos(1.2), 0, -sin(1.2)};
     assert_near(mark_share(MARK_LAW_LINE, place, tilted, along, 1, false), cos(1.2), 1e-9);
     assert_near(mark_share(MARK_LAW_LINE, place, tilted, across, 1, false), 1, 1e-9);
 }
 
-/* --- EX-06 to EX-08 ------------------------------------------------------------------------------------------------------ */
+/* --- EX-06 to EX-08 ------------------------------------------------------------------------------------- */
 
 static void test_light(void **state)
 {
     (void)state;
     for (int degrees = 0; degrees <= 180; degrees += 10) {
         double light = fmax(cos(degrees * (3.14159265358979 / 180)), 0);
-        int drawn = 0;
+        int    drawn = 0;
         for (int i = 0; i < 1000; i++)
             drawn += mark_is_drawn(((float)i + 0.5f) / 1000, 1, (float)light, 0);
         assert_near(drawn / 1000.0, 1 - light, 0.02);
@@ -192,7 +199,7 @@ static void test_light(void **state)
 static void test_fade(void **state)
 {
     (void)state;
-    const float thresholds[] = {0, 0.25f, 0.5f, 0.75f, 1};
+    const float  thresholds[] = {0, 0.25f, 0.5f, 0.75f, 1};
     const double means[] = {1, 0.775, 0.5, 0.225, 0};
     for (int t = 0; t < 5; t++) {
         double sum = 0;
@@ -204,7 +211,8 @@ static void test_fade(void **state)
     assert_near((double)mark_fade(0.5f, 0.9f, 0.55f, 0, 0.1f), (double)mark_fade(0.5f, 0.2f, 0.55f, 0, 0.1f), 1e-6);
     for (int i = 0; i < 50; i++)
         for (int k = 0; k < 400; k++) {
-            float p = (float)i / 50, step = 1.0f / 400, a = mark_fade(p, 1, (float)k * step, 0, 0.1f), b = mark_fade(p, 1, (float)(k + 1) * step, 0, 0.1f);
+            float p = (float)i / 50, step = 1.0f / 400, a = mark_fade(p, 1, (float)k * step, 0, 0.1f),
+                  b = mark_fade(p, 1, (float)(k + 1) * step, 0, 0.1f);
             assert_true(fabsf(a - b) <= 1.1f * step / 0.1f + 1e-5f);
             assert_false(a >= 1 && b <= 0);
         }
@@ -217,9 +225,9 @@ static void test_dot_ink(void **state)
     (void)state;
     enum { COUNT = 20000 };
     for (int s = 1; s <= 40; s++) {
-        float share = 0.05f * (float)s;
+        float  share = 0.05f * (float)s;
         double sum = 0;
-        float before = INFINITY;
+        float  before = INFINITY;
         for (int i = 0; i < COUNT; i++) {
             float ink = mark_dot_ink(1 - (float)i / COUNT, share, 0.2f, 2.25f);
             assert_true(ink <= before + 1e-6f); /* by rank */
@@ -230,10 +238,11 @@ static void test_dot_ink(void **state)
     }
     assert_true(mark_dot_ink(1, 0, 0.2f, 1) == 0);
     mark_line line = {.light = 0.5f, .perspective = 0.7f};
-    assert_true(mark_line_ink(&line, 0.6f, 0.9f, 0) == 1 && mark_line_ink(&line, 0.4f, 0.9f, 0) == 0 && mark_line_ink(&line, 0.6f, 0.2f, 0) == 0);
+    assert_true(mark_line_ink(&line, 0.6f, 0.9f, 0) == 1 && mark_line_ink(&line, 0.4f, 0.9f, 0) == 0 &&
+                mark_line_ink(&line, 0.6f, 0.2f, 0) == 0);
 }
 
-/* --- EX-15, EX-16 --------------------------------------------------------------------------------------------------------- */
+/* --- EX-15, EX-16 --------------------------------------------------------------------------------------- */
 
 static double area_of(double (*p)[2], int count)
 {
@@ -247,9 +256,10 @@ static void test_shapes(void **state)
 {
     (void)state;
     /* Onto an edge: linear; onto a point: quadratic; towards a point outside of the triangle. */
-    const mark_corner to_edge[3] = {{{1, 0}, {0, 0}}, {{1, 0}, {1, 0}}, {{0.2, 1}, {0.2, 1}}}; /* first corner moves from the second */
+    const mark_corner to_edge[3] = {
+        {{1, 0}, {0, 0}}, {{1, 0}, {1, 0}}, {{0.2, 1}, {0.2, 1}}}; /* first corner moves from the second */
     const mark_corner to_point[3] = {{{3, 2}, {0, 0}}, {{3, 2}, {1, 0}}, {{3, 2}, {0.2, 1}}};
-    double out[3][2], whole[3][2];
+    double            out[3][2], whole[3][2];
     for (int i = 0; i <= 10; i++) {
         double p = i / 10.0;
         mark_corner_at(to_edge, 3, 1, whole);
@@ -264,11 +274,11 @@ static void test_shapes(void **state)
 static int cut_by_line(double (*p)[2], int count, const double a[2], const double b[2], double sign)
 {
     double out[16][2];
-    int n = 0;
+    int    n = 0;
     for (int i = 0; i < count; i++) {
         const double *from = p[i], *to = p[(i + 1) % count];
-        double s = sign * ((b[0] - a[0]) * (from[1] - a[1]) - (b[1] - a[1]) * (from[0] - a[0]));
-        double e = sign * ((b[0] - a[0]) * (to[1] - a[1]) - (b[1] - a[1]) * (to[0] - a[0]));
+        double        s = sign * ((b[0] - a[0]) * (from[1] - a[1]) - (b[1] - a[1]) * (from[0] - a[0]));
+        double        e = sign * ((b[0] - a[0]) * (to[1] - a[1]) - (b[1] - a[1]) * (to[0] - a[0]));
         if (s >= 0)
             memcpy(out[n++], from, sizeof out[0]);
         if ((s >= 0) != (e >= 0)) {
@@ -284,7 +294,7 @@ static void test_cut(void **state)
 {
     (void)state;
     random_source r = random_start(11, 4);
-    int most = 0, obtuse = 0;
+    int           most = 0, obtuse = 0;
     for (int i = 0; i < 20000; i++) {
         double mark[3][2], onto[3][2];
         for (int k = 0; k < 3; k++)
@@ -293,16 +303,19 @@ static void test_cut(void **state)
                 onto[k][c] = random_unit(&r);
             }
         mark_cut cut;
-        mark_cut_make(&cut, (const double (*)[2])mark, (const double (*)[2])onto);
+        mark_cut_make(&cut, (const double(*)[2])mark, (const double(*)[2])onto);
         most = cut.count > most ? cut.count : most;
-        double turn = (onto[1][0] - onto[0][0]) * (onto[2][1] - onto[0][1]) - (onto[1][1] - onto[0][1]) * (onto[2][0] - onto[0][0]);
+        double turn = (onto[1][0] - onto[0][0]) * (onto[2][1] - onto[0][1]) -
+                      (onto[1][1] - onto[0][1]) * (onto[2][0] - onto[0][0]);
         for (int step = 0; step <= 10; step++) {
             double p = step / 10.0, shrunk[16][2], out[MARK_POLYGON_MAX + 1][2];
             memcpy(shrunk, mark, sizeof mark);
             for (int c = 0; c < 2; c++)
                 shrunk[2][c] = mark[1][c] + p * (mark[2][c] - mark[1][c]);
-            double angle = acos(((shrunk[2][0] - mark[0][0]) * (mark[1][0] - mark[0][0]) + (shrunk[2][1] - mark[0][1]) * (mark[1][1] - mark[0][1])) /
-                                (hypot(shrunk[2][0] - mark[0][0], shrunk[2][1] - mark[0][1]) * hypot(mark[1][0] - mark[0][0], mark[1][1] - mark[0][1])));
+            double angle = acos(((shrunk[2][0] - mark[0][0]) * (mark[1][0] - mark[0][0]) +
+                                 (shrunk[2][1] - mark[0][1]) * (mark[1][1] - mark[0][1])) /
+                                (hypot(shrunk[2][0] - mark[0][0], shrunk[2][1] - mark[0][1]) *
+                                 hypot(mark[1][0] - mark[0][0], mark[1][1] - mark[0][1])));
             obtuse += angle > 1.5707963;
             int count = 3;
             for (int k = 0; k < 3; k++)
@@ -319,8 +332,10 @@ static void test_cut(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two_thresholds), cmocka_unit_test(test_sets_nest), cmocka_unit_test(test_page_area), cmocka_unit_test(test_distance_and_slope),
-        cmocka_unit_test(test_combined),       cmocka_unit_test(test_light),     cmocka_unit_test(test_fade),      cmocka_unit_test(test_dot_ink),
+        cmocka_unit_test(test_two_thresholds), cmocka_unit_test(test_sets_nest),
+        cmocka_unit_test(test_page_area),      cmocka_unit_test(test_distance_and_slope),
+        cmocka_unit_test(test_combined),       cmocka_unit_test(test_light),
+        cmocka_unit_test(test_fade),           cmocka_unit_test(test_dot_ink),
         cmocka_unit_test(test_shapes),         cmocka_unit_test(test_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,11 +3,12 @@
 
 #include <math.h>
 
-static const vec3 cube_corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+static const vec3 cube_corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 /* Two triangles a face: −z, +z, −y, +x, +y, −x. */
 static const uint32_t cube_triangles[36] = {0, 3, 2, 0, 2, 1, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                             1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-static const double pi = 3.14159265358979323846;
+static const double   pi = 3.14159265358979323846;
 
 static primitive make_primitive(const vec3 *positions, uint32_t vertices, const uint32_t *indices, uint32_t count)
 {
@@ -72,7 +73,7 @@ static void adjacency_of_a_cube_is_closed(void **state)
 {
     (void)state;
     primitive p = unshared_cube();
-    uint32_t identity[36];
+    uint32_t  identity[36];
     for (uint32_t i = 0; i < 36; i++)
         identity[i] = i;
     p.indices = mem_copy(identity, sizeof identity);
@@ -94,11 +95,11 @@ static void adjacency_of_a_cube_is_closed(void **state)
 static void adjacency_knows_borders_and_crowded_edges(void **state)
 {
     (void)state;
-    const vec3 points[] = {{0, 0, 0},  {0, 0, 1},  {1, 0, 0}, {0, 1, 0}, {-1, 0, 0},
-                           {0, -1, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
+    const vec3     points[] = {{0, 0, 0},  {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0},
+                               {0, -1, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
     const uint32_t triangles[] = {0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 5, 6, 7, 8};
-    primitive p = make_primitive(points, 9, triangles, 15);
-    uint32_t *opposite = mesh_adjacency(&p);
+    primitive      p = make_primitive(points, 9, triangles, 15);
+    uint32_t      *opposite = mesh_adjacency(&p);
     assert_int_equal(opposite[0], 3); /* the first with the second, the third with the fourth */
     assert_int_equal(opposite[3], 0);
     assert_int_equal(opposite[6], 9);
@@ -114,8 +115,8 @@ static void cube_normals_split_at_the_crease(void **state)
 {
     (void)state;
     static const vec3 faces[6] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
-    primitive p = make_primitive(cube_corners, 8, cube_triangles, 36);
-    render_vertices r;
+    primitive         p = make_primitive(cube_corners, 8, cube_triangles, 36);
+    render_vertices   r;
     assert_int_equal(mesh_make_normals(&r, &p, 0.5, NULL), LMN_OK);
     assert_int_equal(r.vertex_count, 24);
     for (int i = 0; i < 36; i++) {
@@ -154,7 +155,7 @@ static void sphere_normals_are_radial(void **state)
     uint32_t *out = p.indices;
     for (uint32_t i = 0; i < ROWS; i++)
         for (uint32_t k = 0; k < COLUMNS; k++, out += 6) {
-            uint32_t a = i * (COLUMNS + 1) + k, b = a + COLUMNS + 1;
+            uint32_t       a = i * (COLUMNS + 1) + k, b = a + COLUMNS + 1;
             const uint32_t quad[6] = {a, b, b + 1, a, b + 1, a + 1};
             memcpy(out, quad, sizeof quad);
         }
@@ -162,7 +163,7 @@ static void sphere_normals_are_radial(void **state)
     assert_int_equal(mesh_make_normals(&r, &p, 0.7, NULL), LMN_OK);
     double worst = 1;
     for (uint32_t i = 0; i < p.index_count; i++) {
-        vec3 n = r.normals[r.indices ? r.indices[i] : p.indices[i]], c = p.positions[p.indices[i]];
+        vec3   n = r.normals[r.indices ? r.indices[i] : p.indices[i]], c = p.positions[p.indices[i]];
         double d = (double)n.x * c.x + (double)n.y * c.y + (double)n.z * c.z;
         worst = d < worst ? d : worst;
     }
@@ -201,21 +202,21 @@ static void a_huge_fan_ends(void **state)
 static void poses_follow_morphs_and_joints(void **state)
 {
     (void)state;
-    const vec3 points[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+    const vec3     points[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
     const uint32_t triangle[] = {0, 1, 2};
-    primitive p = make_primitive(points, 3, triangle, 3);
-    vec3 offsets[] = {{0, 0, 2}, {0, 0, 0}, {0, 0, 0}};
-    morph_target morph = {.positions = offsets};
-    uint16_t joints[12] = {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
-    vec4 weights[3] = {{0.5f, 0.5f, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
+    primitive      p = make_primitive(points, 3, triangle, 3);
+    vec3           offsets[] = {{0, 0, 2}, {0, 0, 0}, {0, 0, 0}};
+    morph_target   morph = {.positions = offsets};
+    uint16_t       joints[12] = {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
+    vec4           weights[3] = {{0.5f, 0.5f, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
     p.morphs = &morph;
     p.morph_count = 1;
     p.joints = joints;
     p.weights = weights;
-    double up[3] = {0, 10, 0}, zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
-    double still[4] = {0, 0, 0, 1}, quarter[4] = {0, 0, sqrt(0.5), sqrt(0.5)};
-    mat4 matrices[2] = {mat4_from_trs(up, still, one), mat4_from_trs(zero, quarter, one)};
-    vec3 out[3], normals[3] = {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}}, turned[3];
+    double      up[3] = {0, 10, 0}, zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
+    double      still[4] = {0, 0, 0, 1}, quarter[4] = {0, 0, sqrt(0.5), sqrt(0.5)};
+    mat4        matrices[2] = {mat4_from_trs(up, still, one), mat4_from_trs(zero, quarter, one)};
+    vec3        out[3], normals[3] = {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}}, turned[3];
     const float half = 0.5f;
     mesh_pose(&p, &half, 1, matrices, 2, normals, NULL, 3, out, turned);
     /* (1,0,1): half moved to (1,10,1), half turned to (0,1,1). */

@@ -17,8 +17,8 @@ enum { SIDE = 320 };
 
 static const double pi = 3.14159265358979323846;
 
-static float   edges[SIDE * SIDE * 4], surfaces[SIDE * SIDE * 4];
-static uint8_t ink[SIDE * SIDE];
+static float    edges[SIDE * SIDE * 4], surfaces[SIDE * SIDE * 4];
+static uint8_t  ink[SIDE * SIDE];
 static uint32_t words[SIDE * SIDE * 2];
 
 static void clear(void)
@@ -64,21 +64,28 @@ static void draw_circle(double cx, double cy, double radius, double width)
 
 static lines_common lines_of(float width, float length)
 {
-    return (lines_common){.colour = {0, 0, 0, 1}, .inner_colour = {.r = NAN}, .id_colour = {.r = NAN}, .width = width,
-                          .profile_weight = 1, .inner_weight = 1, .id_weight = 1, .overshoot = length};
+    return (lines_common){.colour = {0, 0, 0, 1},
+                          .inner_colour = {.r = NAN},
+                          .id_colour = {.r = NAN},
+                          .width = width,
+                          .profile_weight = 1,
+                          .inner_weight = 1,
+                          .id_weight = 1,
+                          .overshoot = length};
 }
 
 static pass_pixels input(bool with_surfaces)
 {
-    return (pass_pixels){.values = {edges, with_surfaces ? surfaces : NULL}, .width = SIDE, .height = SIDE, .pixel = 1, .scale = 1};
+    return (pass_pixels){
+        .values = {edges, with_surfaces ? surfaces : NULL}, .width = SIDE, .height = SIDE, .pixel = 1, .scale = 1};
 }
 
 static extension_set find(float width, float length, bool with_surfaces)
 {
     extension_set extensions;
-    chain_set chains;
-    lines_common lines = lines_of(width, length);
-    pass_pixels in = input(with_surfaces);
+    chain_set     chains;
+    lines_common  lines = lines_of(width, length);
+    pass_pixels   in = input(with_surfaces);
     lines_find_ink(ink, edges, SIDE * SIDE, &lines);
     assert_true(chains_trace(&chains, ink, SIDE, SIDE, LINES_SPUR));
     assert_true(overshoot_find(&extensions, &chains, &in, ink, &(overshoot_style){length, width, 4, 0.75f}));
@@ -108,7 +115,8 @@ typedef struct worst {
 } worst;
 
 /* The line runs on from its end, about as far as was asked for, in its own direction. */
-static void judge(const extension_set *set, const double from[2], const double to[2], double length, worst *w, const char *what)
+static void judge(const extension_set *set, const double from[2], const double to[2], double length, worst *w,
+                  const char *what)
 {
     const extension *s = stroke_of(set, from, to);
     if (!s) {
@@ -117,7 +125,8 @@ static void judge(const extension_set *set, const double from[2], const double t
     }
     double size = hypot(to[0] - from[0], to[1] - from[1]), ux = (to[0] - from[0]) / size, uy = (to[1] - from[1]) / size;
     double wanted = fmin(length, 0.4 * size), off = fabs(((double)s->x - to[0]) * uy - ((double)s->y - to[1]) * ux);
-    double turn = degrees_between((double)s->dx, (double)s->dy, ux, uy), ends = ((double)s->x - to[0]) * ux + ((double)s->y - to[1]) * uy;
+    double turn = degrees_between((double)s->dx, (double)s->dy, ux, uy),
+           ends = ((double)s->x - to[0]) * ux + ((double)s->y - to[1]) * uy;
     w->place = fmax(w->place, fmax(off, fabs(ends)));
     w->degrees = fmax(w->degrees, turn);
     if (off > 1 || fabs(ends) > 4 || turn > 3)
@@ -134,7 +143,7 @@ static void squares_of_every_slope(void **state)
         for (int degrees = 0; degrees < 90; degrees++)
             for (int size = 28; size <= 124; size += 16) {
                 double corners[4][2];
-                char what[64];
+                char   what[64];
                 for (int k = 0; k < 4; k++) {
                     double angle = (degrees + 90 * k) * pi / 180;
                     corners[k][0] = SIDE / 2 + size / sqrt(2) * cos(angle);
@@ -200,7 +209,8 @@ static void curves_and_bends_do_not(void **state)
     assert_int_equal(set.count, 0);
     overshoot_release(&set);
     for (int bend = 4; bend <= 20; bend += 4) { /* a line that bends a little */
-        double a[2] = {40, 150}, b[2] = {160, 150}, d[2] = {160 + 120 * cos(bend * pi / 180), 150 + 120 * sin(bend * pi / 180)};
+        double a[2] = {40, 150}, b[2] = {160, 150},
+               d[2] = {160 + 120 * cos(bend * pi / 180), 150 + 120 * sin(bend * pi / 180)};
         clear();
         draw_line(a, b, 2, 0);
         draw_line(b, d, 2, 0);
@@ -260,7 +270,7 @@ static void paints_the_class(void **state)
 {
     (void)state;
     static const int channels[3] = {0, 1, 3};
-    lines_common lines = lines_of(2, 20);
+    lines_common     lines = lines_of(2, 20);
     for (int k = 0; k < 3; k++) {
         clear();
         draw_line((double[]){60, 100}, (double[]){160, 100}, 2, channels[k]);
@@ -284,7 +294,8 @@ static void paints_the_class(void **state)
     }
 }
 
-/* A line that ends behind a surface stays behind it; one that comes to the front does not. Beyond, it has the depth that it has in space. */
+/* A line that ends behind a surface stays behind it; one that comes to the front does not. Beyond, it has the depth
+ * that it has in space. */
 static void goes_on_in_space(void **state)
 {
     (void)state;
@@ -320,7 +331,7 @@ static void leaves_others_alone(void **state)
 {
     (void)state;
     static uint8_t own[SIDE * SIDE];
-    lines_common lines = lines_of(2, 20);
+    lines_common   lines = lines_of(2, 20);
     clear();
     draw_line((double[]){60, 100}, (double[]){160, 100}, 2, 0);
     draw_line((double[]){160, 100}, (double[]){160, 220}, 2, 0);
@@ -351,14 +362,19 @@ static void noise_is_harmless(void **state)
     (void)state;
     uint32_t seed = 3;
     for (int round = 0; round < 60; round++) {
-        int width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
-        uint32_t share = next_random(&seed) % 256;
-        pass_pixels in = {.values = {edges, surfaces}, .width = width, .height = height, .pixel = 0.01f, .scale = 1, .perspective = round % 2};
+        int         width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
+        uint32_t    share = next_random(&seed) % 256;
+        pass_pixels in = {.values = {edges, surfaces},
+                          .width = width,
+                          .height = height,
+                          .pixel = 0.01f,
+                          .scale = 1,
+                          .perspective = round % 2};
         for (int i = 0; i < width * height * 4; i++) {
             edges[i] = next_random(&seed) % 256 < share ? 0 : 1;
             surfaces[i] = (float)(next_random(&seed) % 5);
         }
-        lines_common lines = lines_of(1 + (float)(round % 4), 64);
+        lines_common    lines = lines_of(1 + (float)(round % 4), 64);
         static uint32_t twice[2][90 * 90 * 2];
         for (int k = 0; k < 2; k++) {
             memset(twice[k], 0, sizeof twice[k]);
@@ -389,10 +405,11 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(squares_of_every_slope), cmocka_unit_test(legs_and_stems),      cmocka_unit_test(curves_and_bends_do_not),
-        cmocka_unit_test(tangents),               cmocka_unit_test(short_lines_less),    cmocka_unit_test(paints_the_class),
-        cmocka_unit_test(goes_on_in_space),       cmocka_unit_test(leaves_others_alone), cmocka_unit_test(noise_is_harmless),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(squares_of_every_slope),  cmocka_unit_test(legs_and_stems),
+        cmocka_unit_test(curves_and_bends_do_not), cmocka_unit_test(tangents),
+        cmocka_unit_test(short_lines_less),        cmocka_unit_test(paints_the_class),
+        cmocka_unit_test(goes_on_in_space),        cmocka_unit_test(leaves_others_alone),
+        cmocka_unit_test(noise_is_harmless),       cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

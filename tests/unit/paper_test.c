@@ -1,4 +1,5 @@
-/* Papers: seamless, of flat heights, each with a tooth of its own, and what a pencil finds on their hills and flanks. Row P28 of the notes on the pencil city. */
+/* Papers: seamless, of flat heights, each with a tooth of its own, and what a pencil finds on their hills and
+ * flanks. Row P28 of the notes on the pencil city. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,7 +39,7 @@ static double likeness(const paper *p, int across, int up)
     return sum / all;
 }
 
-/* --- heights ----------------------------------------------------------------------------------------------------------- */
+/* --- heights -------------------------------------------------------------------------------------------- */
 
 static void check_flat(const int *counts, int bins)
 {
@@ -81,13 +82,15 @@ static void borders_are_like_the_inside(void **state)
             for (int line = 0; line < SIDE; line++) {
                 double sum = 0;
                 for (int i = 0; i < SIDE; i++)
-                    sum += fabs((double)(across ? height_at(&p, line, i) - height_at(&p, line + 1, i) : height_at(&p, i, line) - height_at(&p, i, line + 1)));
+                    sum += fabs((double)(across ? height_at(&p, line, i) - height_at(&p, line + 1, i)
+                                                : height_at(&p, i, line) - height_at(&p, i, line + 1)));
                 seam = sum; /* the last one */
                 sums += sum / SIDE;
                 squares += sum * sum / SIDE;
             }
             double off = (seam - sums) / sqrt(squares - sums * sums);
-            printf("    %s, %s: the seam's steps are %.2f deviations off\n", paper_names[kind], across ? "across" : "up", off);
+            printf("    %s, %s: the seam's steps are %.2f deviations off\n", paper_names[kind],
+                   across ? "across" : "up", off);
             assert_true(fabs(off) < 3.5);
         }
         paper_release(&p);
@@ -136,8 +139,9 @@ static void papers_differ(void **state)
             tooth[kind][up] = tooth_of(&p, up);
             regular[kind][up] = repeats(&p, up, &period[kind][up]);
         }
-        printf("    %s: tooth %.1f and %.1f texels; alike by %.2f after %d across, %.2f after %d up\n", paper_names[kind], tooth[kind][0], tooth[kind][1], regular[kind][0],
-               period[kind][0], regular[kind][1], period[kind][1]);
+        printf("    %s: tooth %.1f and %.1f texels; alike by %.2f after %d across, %.2f after %d up\n",
+               paper_names[kind], tooth[kind][0], tooth[kind][1], regular[kind][0], period[kind][0], regular[kind][1],
+               period[kind][1]);
         paper_release(&p);
     }
     /* Felted papers have no direction and nothing that comes back, and differ by the size of their tooth. */
@@ -148,7 +152,8 @@ static void papers_differ(void **state)
     assert_true(tooth[PAPER_DRAWING][0] > 1.1 * tooth[PAPER_SMOOTH][0]);
     assert_true(tooth[PAPER_ROUGH][0] > 1.4 * tooth[PAPER_DRAWING][0]);
     /* 96 ribs run across; 64 threads do both ways, every second of which is alike. */
-    assert_true(regular[PAPER_LAID][1] > 0.2 && whole_periods(period[PAPER_LAID][1], 96) < 0.1 && tooth[PAPER_LAID][0] > 1.5 * tooth[PAPER_LAID][1]);
+    assert_true(regular[PAPER_LAID][1] > 0.2 && whole_periods(period[PAPER_LAID][1], 96) < 0.1 &&
+                tooth[PAPER_LAID][0] > 1.5 * tooth[PAPER_LAID][1]);
     for (int up = 0; up < 2; up++)
         assert_true(regular[PAPER_CANVAS][up] > 0.2 && whole_periods(period[PAPER_CANVAS][up], 64) < 0.1);
 }
@@ -164,7 +169,9 @@ static void there_are_no_clouds(void **state)
         for (int block = 0; block < TEXELS / BLOCK / BLOCK; block++) {
             double mean = 0;
             for (int i = 0; i < BLOCK * BLOCK; i++)
-                mean += (double)height_at(&p, block * BLOCK % SIDE + i % BLOCK, block * BLOCK / SIDE * BLOCK + i / BLOCK) / (BLOCK * BLOCK);
+                mean +=
+                    (double)height_at(&p, block * BLOCK % SIDE + i % BLOCK, block * BLOCK / SIDE * BLOCK + i / BLOCK) /
+                    (BLOCK * BLOCK);
             squares += (mean - 0.5) * (mean - 0.5) / (TEXELS / BLOCK / BLOCK);
         }
         printf("    %s: means of blocks of %d texels differ by %.4f\n", paper_names[kind], BLOCK, sqrt(squares));
@@ -179,7 +186,8 @@ static void nothing_is_finer_than_a_texel(void **state)
     (void)state;
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
         paper p = sheet_of((paper_kind)kind, 0);
-        printf("    %s: neighbours are alike by %.2f and %.2f\n", paper_names[kind], likeness(&p, 1, 0), likeness(&p, 0, 1));
+        printf("    %s: neighbours are alike by %.2f and %.2f\n", paper_names[kind], likeness(&p, 1, 0),
+               likeness(&p, 0, 1));
         assert_true(likeness(&p, 1, 0) > 0.75 && likeness(&p, 0, 1) > 0.75);
         paper_release(&p);
     }
@@ -199,7 +207,7 @@ static void the_same_seed_gives_the_same_sheet(void **state)
     paper_release(&c);
 }
 
-/* --- what a pencil finds ----------------------------------------------------------------------------------------------- */
+/* --- what a pencil finds -------------------------------------------------------------------------------- */
 
 static void normals_lean_away_from_hills(void **state)
 {
@@ -208,7 +216,8 @@ static void normals_lean_away_from_hills(void **state)
         paper  p = sheet_of((paper_kind)kind, 0);
         double steepest = 0;
         for (int i = 0; i < TEXELS; i += 7) {
-            float n[3], across = height_at(&p, i % SIDE + 1, i / SIDE) - height_at(&p, i % SIDE - 1, i / SIDE), up = height_at(&p, i % SIDE, i / SIDE + 1) - height_at(&p, i % SIDE, i / SIDE - 1);
+            float n[3], across = height_at(&p, i % SIDE + 1, i / SIDE) - height_at(&p, i % SIDE - 1, i / SIDE),
+                        up = height_at(&p, i % SIDE, i / SIDE + 1) - height_at(&p, i % SIDE, i / SIDE - 1);
             paper_normal(&p, i % SIDE, i / SIDE, n);
             assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5f && n[2] > 0);
             assert_true(fabsf(n[0] * up - n[1] * across) < 1e-5f && n[0] * across + n[1] * up <= 0);
@@ -220,7 +229,8 @@ static void normals_lean_away_from_hills(void **state)
     }
 }
 
-/* Of places alike in height, those that face the stroke are touched first; of places that lean alike, the higher ones. */
+/* Of places alike in height, those that face the stroke are touched first; of places that lean alike, the higher
+ * ones. */
 static void contact_is_of_height_and_of_flanks(void **state)
 {
     (void)state;
@@ -274,9 +284,15 @@ static void failing_memory_is_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_tenth_covers_a_tenth),          cmocka_unit_test(borders_are_like_the_inside),        cmocka_unit_test(papers_differ),
-        cmocka_unit_test(nothing_is_finer_than_a_texel),      cmocka_unit_test(the_same_seed_gives_the_same_sheet), cmocka_unit_test(normals_lean_away_from_hills),
-        cmocka_unit_test(there_are_no_clouds),                cmocka_unit_test(contact_is_of_height_and_of_flanks), cmocka_unit_test(failing_memory_is_reported),
+        cmocka_unit_test(each_tenth_covers_a_tenth),
+        cmocka_unit_test(borders_are_like_the_inside),
+        cmocka_unit_test(papers_differ),
+        cmocka_unit_test(nothing_is_finer_than_a_texel),
+        cmocka_unit_test(the_same_seed_gives_the_same_sheet),
+        cmocka_unit_test(normals_lean_away_from_hills),
+        cmocka_unit_test(there_are_no_clouds),
+        cmocka_unit_test(contact_is_of_height_and_of_flanks),
+        cmocka_unit_test(failing_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* examples/pump.glb is what it says: closed parts that stand for solids, none of which cuts into another or is inside of its
- * material. Looks that see through, and sections even more, show every mistake in that. */
+/* examples/pump.glb is what it says: closed parts that stand for solids, none of which cuts into another or is
+ * inside of its material. Looks that see through, and sections even more, show every mistake in that. */
 #include <math.h>
 
 #include "closed_parts.h"
@@ -12,8 +12,8 @@ typedef struct corner3 {
 typedef struct solid {
     const char *name;
     size_t      count; /* of triangles */
-    corner3   (*triangles)[3];
-    double      low[3], high[3];
+    corner3 (*triangles)[3];
+    double low[3], high[3];
 } solid;
 
 static lmn_scene *scene;
@@ -29,8 +29,8 @@ static void place_of(int32_t at, double offset[3])
 static solid solid_of_part(const part *p)
 {
     const primitive *shape = scene->meshes[scene->nodes[p->node].mesh].primitives;
-    solid s = {p->name, shape->index_count / 3, NULL, {1, 1, 1}, {-1, -1, -1}};
-    double offset[3] = {0};
+    solid            s = {p->name, shape->index_count / 3, NULL, {1, 1, 1}, {-1, -1, -1}};
+    double           offset[3] = {0};
     place_of(p->node, offset);
     s.triangles = mem_alloc(s.count * sizeof *s.triangles);
     assert_non_null(s.triangles);
@@ -69,16 +69,17 @@ static int unload_pump(void **state)
 
 static void has_its_parts(void **state)
 {
-    static const char *const names[] = {"Housing", "Gasket", "Cover", "Drive shaft", "Drive gear", "Gear key", "Coupling",
-                                        "Coupling key", "Idler shaft", "Idler gear", "Seal", "Bush 1", "Bush 4", "Bolt 1",
-                                        "Bolt 6", "Valve ball", "Valve spring", "Valve plug"};
+    static const char *const names[] = {"Housing",    "Gasket",       "Cover",        "Drive shaft", "Drive gear",
+                                        "Gear key",   "Coupling",     "Coupling key", "Idler shaft", "Idler gear",
+                                        "Seal",       "Bush 1",       "Bush 4",       "Bolt 1",      "Bolt 6",
+                                        "Valve ball", "Valve spring", "Valve plug"};
     (void)state;
     assert_int_equal(scene->part_count, 24);
     assert_int_equal(scene->warnings.count, 0);
     assert_int_equal(scene->animation_count, 1);
     for (size_t n = 0; n < sizeof names / sizeof *names; n++)
         assert_one_part(scene, names[n]);
-    lmn_scene_info info = lmn_scene_info_of(scene);
+    lmn_scene_info      info = lmn_scene_info_of(scene);
     static const double low[3] = {-0.056, -0.066, -0.0305}, high[3] = {0.056, 0.0565, 0.098};
     for (int k = 0; k < 3; k++) {
         assert_float_equal(info.bounds_min[k], low[k], 1e-5);
@@ -122,7 +123,7 @@ static void parts_enclose_material(void **state)
 static bool passes(corner3 p, corner3 d, double reach, const corner3 t[3])
 {
     corner3 a = minus(t[0], p), b = minus(t[1], p), c = minus(t[2], p);
-    double u = triple(d, b, c), v = triple(d, c, a), w = triple(d, a, b);
+    double  u = triple(d, b, c), v = triple(d, c, a), w = triple(d, a, b);
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0))
         return false;
     double sum = u + v + w, at = triple(a, b, c);
@@ -131,9 +132,12 @@ static bool passes(corner3 p, corner3 d, double reach, const corner3 t[3])
 
 static bool triangle_outside(const corner3 t[3], const double low[3], const double high[3])
 {
-    return (t[0].x < low[0] && t[1].x < low[0] && t[2].x < low[0]) || (t[0].x > high[0] && t[1].x > high[0] && t[2].x > high[0]) ||
-           (t[0].y < low[1] && t[1].y < low[1] && t[2].y < low[1]) || (t[0].y > high[1] && t[1].y > high[1] && t[2].y > high[1]) ||
-           (t[0].z < low[2] && t[1].z < low[2] && t[2].z < low[2]) || (t[0].z > high[2] && t[1].z > high[2] && t[2].z > high[2]);
+    return (t[0].x < low[0] && t[1].x < low[0] && t[2].x < low[0]) ||
+           (t[0].x > high[0] && t[1].x > high[0] && t[2].x > high[0]) ||
+           (t[0].y < low[1] && t[1].y < low[1] && t[2].y < low[1]) ||
+           (t[0].y > high[1] && t[1].y > high[1] && t[2].y > high[1]) ||
+           (t[0].z < low[2] && t[1].z < low[2] && t[2].z < low[2]) ||
+           (t[0].z > high[2] && t[1].z > high[2] && t[2].z > high[2]);
 }
 
 static size_t edges_through(const solid *a, const solid *b)
@@ -145,7 +149,8 @@ static size_t edges_through(const solid *a, const solid *b)
             continue;
         double low[3] = {fmin(fmin(edges[0].x, edges[1].x), edges[2].x), fmin(fmin(edges[0].y, edges[1].y), edges[2].y),
                          fmin(fmin(edges[0].z, edges[1].z), edges[2].z)};
-        double high[3] = {fmax(fmax(edges[0].x, edges[1].x), edges[2].x), fmax(fmax(edges[0].y, edges[1].y), edges[2].y),
+        double high[3] = {fmax(fmax(edges[0].x, edges[1].x), edges[2].x),
+                          fmax(fmax(edges[0].y, edges[1].y), edges[2].y),
                           fmax(fmax(edges[0].z, edges[1].z), edges[2].z)};
         for (size_t k = 0; k < b->count; k++)
             if (!triangle_outside(b->triangles[k], low, high))
@@ -158,7 +163,7 @@ static size_t edges_through(const solid *a, const solid *b)
 static bool begins_inside(const solid *a, const solid *b)
 {
     const corner3 oblique = {0.3141, 0.8765, 0.4567};
-    size_t crossed = 0;
+    size_t        crossed = 0;
     for (size_t k = 0; k < b->count; k++)
         crossed += passes(a->triangles[0][0], oblique, 10, b->triangles[k]);
     return crossed % 2 == 1;
@@ -173,7 +178,8 @@ static void parts_keep_clear(void **state)
             size_t through = i == k ? 0 : edges_through(&solids[i], &solids[k]);
             bool   inside = i != k && begins_inside(&solids[i], &solids[k]);
             if (through || inside)
-                print_error("%s, %s: %zu edges go through%s\n", solids[i].name, solids[k].name, through, inside ? ", inside" : "");
+                print_error("%s, %s: %zu edges go through%s\n", solids[i].name, solids[k].name, through,
+                            inside ? ", inside" : "");
             wrong += through || inside;
         }
     assert_int_equal(wrong, 0);

@@ -1,4 +1,5 @@
-/* Ribbons: how strokes made by hand are drawn. Every expectation is worked out from the lines' places, not from ribbons. */
+/* Ribbons: how strokes made by hand are drawn. Every expectation is worked out from the lines' places, not from
+ * ribbons. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,8 +30,15 @@ static void begin(void)
 
 static stroke_style plain_style(void)
 {
-    stroke_style style = {.width = 2, .crease_width = 0.5f, .wobble_length = 30, .repeats = 1, .hidden = HIDDEN_SOLID, .hidden_colour = {NAN, 0, 0, 1}, .hidden_width = 1,
-                          .hidden_gap = 4, .hidden_fade = 1};
+    stroke_style style = {.width = 2,
+                          .crease_width = 0.5f,
+                          .wobble_length = 30,
+                          .repeats = 1,
+                          .hidden = HIDDEN_SOLID,
+                          .hidden_colour = {NAN, 0, 0, 1},
+                          .hidden_width = 1,
+                          .hidden_gap = 4,
+                          .hidden_fade = 1};
     for (int i = 0; i < STROKE_CLASS_COUNT; i++)
         style.colours[i] = (colour){NAN, 0, 0, 1};
     style.colours[STROKE_CONTOUR] = (colour){0, 0, 0, 1};
@@ -45,8 +53,13 @@ static stroke *add(const float (*places)[3], uint32_t count, uint32_t hidden_by,
     assert_true(d.set.stroke_count < STROKES_MOST && d.set.point_count + count <= POINTS_MOST);
     if (!goes_on)
         d.set.chain_count++;
-    *s = (stroke){.kind = STROKE_CONTOUR, .part = 1, .hidden_by = hidden_by, .chain = (uint32_t)d.set.chain_count - 1, .id = 77 * d.set.chain_count,
-                  .first = (uint32_t)d.set.point_count, .count = count};
+    *s = (stroke){.kind = STROKE_CONTOUR,
+                  .part = 1,
+                  .hidden_by = hidden_by,
+                  .chain = (uint32_t)d.set.chain_count - 1,
+                  .id = 77 * d.set.chain_count,
+                  .first = (uint32_t)d.set.point_count,
+                  .count = count};
     for (uint32_t i = 0; i < count; i++) {
         if (i > 0)
             arc += hypotf(places[i][0] - places[i - 1][0], places[i][1] - places[i - 1][1]);
@@ -73,7 +86,7 @@ static stroke *add_circle(float x, float y, float radius, int pieces, uint32_t h
         places[i][1] = y + radius * (float)sin(angle);
         places[i][2] = 5;
     }
-    stroke *s = add((const float (*)[3])places, (uint32_t)pieces + 1, hidden_by, false);
+    stroke *s = add((const float(*)[3])places, (uint32_t)pieces + 1, hidden_by, false);
     s->closed = true;
     return s;
 }
@@ -101,11 +114,11 @@ static const ribbon_point *end_of(const ribbon_set *r, size_t i)
     return point_of(r, i, r->ribbons[i].count - 1);
 }
 
-/* --- plain ---------------------------------------------------------------------------------------------------------- */
+/* --- plain ---------------------------------------------------------------------------------------------- */
 
 static void test_plain(void **state)
 {
-    const float bent[4][3] = {{10, 10, 1}, {50, 10, 1}, {50, 40, 2}, {90, 80, 3}};
+    const float  bent[4][3] = {{10, 10, 1}, {50, 10, 1}, {50, 40, 2}, {90, 80, 3}};
     stroke_style style = plain_style();
     (void)state;
     begin();
@@ -123,7 +136,8 @@ static void test_plain(void **state)
         assert_float_equal(point_of(&r, 1, i)->x, bent[i][0], 1e-5);
         assert_float_equal(point_of(&r, 1, i)->y, bent[i][1], 1e-5);
         assert_float_equal(point_of(&r, 1, i)->depth, bent[i][2], 1e-5);
-        assert_float_equal(point_of(&r, 1, i)->half, 0.5f, 1e-6); /* a crease: half of 2, and half the width to a side */
+        assert_float_equal(point_of(&r, 1, i)->half, 0.5f,
+                           1e-6); /* a crease: half of 2, and half the width to a side */
     }
     ribbon_set_release(&r);
     style.hidden = HIDDEN_NONE;
@@ -149,7 +163,7 @@ static void test_colours_and_fading(void **state)
     d.strokes[0].kind = STROKE_CREASE;
     style.hidden_colour = (colour){0, 0, 1, 0.5f};
     style.hidden_fade = 0.5f;
-    ribbon_set r = make(&style);
+    ribbon_set  r = make(&style);
     const float wanted[6] = {1, 1, 0.5f, 0.5f, 0.25f, 1}; /* behind 1 … 5 surfaces, then the visible one */
     for (size_t i = 0; i < 6; i++)
         assert_float_equal(point_of(&r, i, 0)->alpha, wanted[i], 1e-6);
@@ -160,7 +174,7 @@ static void test_colours_and_fading(void **state)
     ribbon_set_release(&r);
 }
 
-/* --- dashes --------------------------------------------------------------------------------------------------------- */
+/* --- dashes --------------------------------------------------------------------------------------------- */
 
 static void test_dashes(void **state)
 {
@@ -203,7 +217,7 @@ static void test_closed_dashes(void **state)
     style.dash = 6;
     style.gap = 6;
     ribbon_set r = make(&style);
-    float length = d.strokes[0].chain_length, inked = 0;
+    float      length = d.strokes[0].chain_length, inked = 0;
     for (size_t i = 0; i < r.ribbon_count; i++)
         inked += end_of(&r, i)->arc - point_of(&r, i, 0)->arc;
     assert_float_equal(inked, length / 2, 0.02f * length); /* as much ink as gaps, all around */
@@ -216,10 +230,12 @@ static void test_closed_dashes(void **state)
     ribbon_set_release(&r);
 }
 
-/* A chain that goes behind something: dashes there, which begin and end with ink where they meet the visible stretches. */
+/* A chain that goes behind something: dashes there, which begin and end with ink where they meet the visible
+ * stretches. */
 static void test_hidden_dashes(void **state)
 {
-    const float one[2][3] = {{0, 0, 5}, {33, 0, 5}}, two[2][3] = {{33, 0, 5}, {151, 0, 5}}, three[2][3] = {{151, 0, 5}, {200, 0, 5}};
+    const float one[2][3] = {{0, 0, 5}, {33, 0, 5}}, two[2][3] = {{33, 0, 5}, {151, 0, 5}},
+                three[2][3] = {{151, 0, 5}, {200, 0, 5}};
     stroke_style style = plain_style();
     (void)state;
     style.hidden = HIDDEN_DASHED;
@@ -244,7 +260,7 @@ static void test_hidden_dashes(void **state)
     ribbon_set_release(&r);
 }
 
-/* --- halos ---------------------------------------------------------------------------------------------------------- */
+/* --- halos ---------------------------------------------------------------------------------------------- */
 
 static void test_halos(void **state)
 {
@@ -258,8 +274,8 @@ static void test_halos(void **state)
     add_line(90, 20, 90, 48, 1, 0);  /* in front, and does not reach it */
     add_line(20, 0, 20, 100, 1, 1);  /* nearer, but hidden itself: nobody sees it */
     ribbon_set r = make(&style);
-    float ends[4] = {0};
-    int   pieces = 0;
+    float      ends[4] = {0};
+    int        pieces = 0;
     for (size_t i = 0; i < r.ribbon_count; i++)
         if (r.ribbons[i].chain == 0 && pieces < 2) {
             ends[2 * pieces] = point_of(&r, i, 0)->x;
@@ -299,7 +315,8 @@ static void test_halo_crumbs(void **state)
 /* A stroke that ends at what hides it. And the edges of a corner, which meet at one place and leave no gaps. */
 static void test_halos_at_ends(void **state)
 {
-    const float corner[2][3] = {{200, 200, 5}, {260, 200, 7}}, other[2][3] = {{200, 200, 5}, {200, 260, 7}}, third[2][3] = {{200, 200, 5}, {150, 150, 7}};
+    const float corner[2][3] = {{200, 200, 5}, {260, 200, 7}}, other[2][3] = {{200, 200, 5}, {200, 260, 7}},
+                third[2][3] = {{200, 200, 5}, {150, 150, 7}};
     stroke_style style = plain_style();
     (void)state;
     style.halo = 3;
@@ -319,10 +336,11 @@ static void test_halos_at_ends(void **state)
     ribbon_set_release(&r);
 }
 
-/* Two lines that cross on the page, one from near to far: which is in front there depends on how depth runs between its ends. */
+/* Two lines that cross on the page, one from near to far: which is in front there depends on how depth runs between
+ * its ends. */
 static void test_halos_in_perspective(void **state)
 {
-    const float deep[2][3] = {{0, 50, 1}, {100, 50, 9}};
+    const float  deep[2][3] = {{0, 50, 1}, {100, 50, 9}};
     stroke_style style = plain_style();
     (void)state;
     style.halo = 3;
@@ -339,7 +357,7 @@ static void test_halos_in_perspective(void **state)
     }
 }
 
-/* --- hidden lines that crowd ----------------------------------------------------------------------------------------- */
+/* --- hidden lines that crowd ---------------------------------------------------------------------------- */
 
 static void test_crowds(void **state)
 {
@@ -356,9 +374,9 @@ static void test_crowds(void **state)
     add_line(300, 20, 310, 20, 5, 1); /* a crumb, and what is just more */
     add_line(300, 40, 314, 40, 5, 1);
     ribbon_set r = make(&style);
-    float before = -100;
-    int   left = 0;
-    bool  across = false, alone = false, crumb = false, more = false;
+    float      before = -100;
+    int        left = 0;
+    bool       across = false, alone = false, crumb = false, more = false;
     for (size_t i = 0; i < r.ribbon_count; i++) {
         const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
         across = across || (a->x == b->x && b->y - a->y > 100);
@@ -368,8 +386,8 @@ static void test_crowds(void **state)
         assert_false(r.ribbons[i].hidden_by > 0 && a->y == 63 && b->y == 63);
         if (a->y != b->y || a->y < 90 || a->y > 150)
             continue;
-        assert_true(a->y - before >= 5 - 1e-3f); /* apart */
-        assert_float_equal(b->x - a->x, 200, 1e-3); /* and whole */
+        assert_true(a->y - before >= 5 - 1e-3f);     /* apart */
+        assert_float_equal(b->x - a->x, 200, 1e-3);  /* and whole */
         assert_int_equal(r.ribbons[i].hidden_by, 1); /* the nearest */
         before = a->y;
         left++;
@@ -407,7 +425,7 @@ static void test_crowds_in_turns(void **state)
 /* A spring seen from the side: one chain whose windings crowd each other. */
 static void test_spring(void **state)
 {
-    float places[1200][3];
+    float        places[1200][3];
     stroke_style style = plain_style();
     (void)state;
     begin();
@@ -417,7 +435,7 @@ static void test_spring(void **state)
         places[i][1] = 50 + 2.0f * (float)(angle / 6.2831853); /* 2 pixels a winding, 38 windings */
         places[i][2] = 5;
     }
-    add((const float (*)[3])places, 1200, 1, false);
+    add((const float(*)[3])places, 1200, 1, false);
     ribbon_set r = make(&style);
     assert_int_equal(r.ribbon_count, 1);
     ribbon_set_release(&r);
@@ -427,7 +445,7 @@ static void test_spring(void **state)
     ribbon_set_release(&r);
 }
 
-/* --- the hand --------------------------------------------------------------------------------------------------------- */
+/* --- the hand ------------------------------------------------------------------------------------------- */
 
 static float place_at(const ribbon_set *r, uint32_t chain, float arc, float *y)
 {
@@ -445,14 +463,14 @@ static float place_at(const ribbon_set *r, uint32_t chain, float arc, float *y)
 
 static void test_wobble(void **state)
 {
-    const float one[2][3] = {{0, 50, 5}, {90, 50, 5}}, two[2][3] = {{90, 50, 5}, {300, 50, 5}};
+    const float  one[2][3] = {{0, 50, 5}, {90, 50, 5}}, two[2][3] = {{90, 50, 5}, {300, 50, 5}};
     stroke_style style = plain_style();
     (void)state;
     style.wobble = 3;
     begin();
     add_line(0, 50, 300, 50, 5, 0);
     ribbon_set whole = make(&style), other = make_seeded(&style, 1);
-    float most = 0, y = 0, other_y = 0, differ = 0;
+    float      most = 0, y = 0, other_y = 0, differ = 0;
     for (uint32_t i = 0; i < whole.ribbons[0].count; i++)
         most = fmaxf(most, fabsf(point_of(&whole, 0, i)->y - 50));
     assert_true(most > 1 && most <= 3);
@@ -496,13 +514,14 @@ static void test_wobble(void **state)
     assert_true(round.ribbons[0].closed);
     const ribbon_point *a = point_of(&round, 0, 0), *b = end_of(&round, 0), *c = b - 1, *after = a + 1;
     assert_float_equal(a->x, b->x, 1e-5);
-    assert_true((b->x - c->x) * (after->x - a->x) + (b->y - c->y) * (after->y - a->y) > 0); /* no kink where it closes */
+    assert_true((b->x - c->x) * (after->x - a->x) + (b->y - c->y) * (after->y - a->y) >
+                0); /* no kink where it closes */
     ribbon_set_release(&round);
 }
 
 static void test_overshoot(void **state)
 {
-    float arc[40][3];
+    float        arc[40][3];
     stroke_style style = plain_style();
     (void)state;
     style.overshoot = 10;
@@ -515,7 +534,7 @@ static void test_overshoot(void **state)
         arc[i][1] = 200 + 8 * sinf((float)i * 0.1f);
         arc[i][2] = 5;
     }
-    add((const float (*)[3])arc, 40, 0, false);
+    add((const float(*)[3])arc, 40, 0, false);
     ribbon_set r = make(&style);
     assert_int_equal(r.ribbon_count, 4);
     assert_float_equal(point_of(&r, 0, 0)->x, 50, 1e-4); /* the hidden one */
@@ -591,7 +610,7 @@ static void test_repeats(void **state)
     ribbon_set_release(&r);
 }
 
-/* --- hostile ---------------------------------------------------------------------------------------------------------- */
+/* --- hostile -------------------------------------------------------------------------------------------- */
 
 static void everything(stroke_style *style)
 {
@@ -628,7 +647,8 @@ static void test_hostile(void **state)
     d.points[1].weight = NAN;
     r = make(&style);
     for (size_t i = 0; i < r.point_count; i++)
-        assert_true(isfinite(r.points[i].x) && isfinite(r.points[i].y) && isfinite(r.points[i].half) && isfinite(r.points[i].alpha));
+        assert_true(isfinite(r.points[i].x) && isfinite(r.points[i].y) && isfinite(r.points[i].half) &&
+                    isfinite(r.points[i].alpha));
     assert_true(r.ribbon_count > 0);
     ribbon_set_release(&r);
 }
@@ -645,7 +665,7 @@ static void test_out_of_memory(void **state)
         add_line(20 * (float)i, 0, 20 * (float)i + 5, 100, 5, 0);
     }
     ribbon_set good = make(&style);
-    long n = 1;
+    long       n = 1;
     for (; status != LMN_OK && n < 10000; n++) {
         ribbon_set r;
         lmn_error  error = {0};
@@ -669,14 +689,15 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain),     cmocka_unit_test(test_colours_and_fading),
-        cmocka_unit_test(test_dashes),    cmocka_unit_test(test_closed_dashes),
-        cmocka_unit_test(test_hidden_dashes), cmocka_unit_test(test_halos),
-        cmocka_unit_test(test_halos_at_ends), cmocka_unit_test(test_halo_crumbs), cmocka_unit_test(test_crowds_in_turns), cmocka_unit_test(test_halos_in_perspective),
-        cmocka_unit_test(test_crowds),    cmocka_unit_test(test_spring),
-        cmocka_unit_test(test_wobble),    cmocka_unit_test(test_overshoot),
-        cmocka_unit_test(test_widths),    cmocka_unit_test(test_repeats),
-        cmocka_unit_test(test_hostile),   cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_plain),           cmocka_unit_test(test_colours_and_fading),
+        cmocka_unit_test(test_dashes),          cmocka_unit_test(test_closed_dashes),
+        cmocka_unit_test(test_hidden_dashes),   cmocka_unit_test(test_halos),
+        cmocka_unit_test(test_halos_at_ends),   cmocka_unit_test(test_halo_crumbs),
+        cmocka_unit_test(test_crowds_in_turns), cmocka_unit_test(test_halos_in_perspective),
+        cmocka_unit_test(test_crowds),          cmocka_unit_test(test_spring),
+        cmocka_unit_test(test_wobble),          cmocka_unit_test(test_overshoot),
+        cmocka_unit_test(test_widths),          cmocka_unit_test(test_repeats),
+        cmocka_unit_test(test_hostile),         cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests_name("ribbon", tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ static lmn_status add(lmn_scene *s, const char *name, const char *text, const lm
 static void later_files_are_turned_to_the_first(void **state)
 {
     (void)state;
-    lmn_scene *s = NULL;
+    lmn_scene    *s = NULL;
     lmn_part_info info;
     assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
     assert_int_equal(add(s, "a.stl", triangle_stl, NULL), LMN_OK);
@@ -40,7 +40,7 @@ static void later_files_are_turned_to_the_first(void **state)
     /* +Z up becomes +Y up: (0, 2, 3) goes to (0, 3, −2). */
     assert_true(info.bounds_max[1] == 3 && info.bounds_min[2] == -2);
     mat4 *worlds = scene_world_matrices(s);
-    box3 box = part_bounds(s, worlds, 1);
+    box3  box = part_bounds(s, worlds, 1);
     assert_true(box.max.y == 3 && box.min.z == -2);
     mem_free(worlds);
     lmn_scene_destroy(&s);
@@ -64,7 +64,7 @@ static void paths_are_unique(void **state)
 {
     (void)state;
     lmn_scene *s = NULL;
-    char text[2048];
+    char       text[2048];
     snprintf(text, sizeof text, "%s%s%s", triangle_stl, triangle_stl, triangle_stl);
     assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
     assert_int_equal(add(s, "same.stl", text, NULL), LMN_OK);
@@ -93,7 +93,7 @@ static void failures_leave_the_scene_alone(void **state)
 {
     (void)state;
     lmn_scene *s = NULL;
-    int calls = 0;
+    int        calls = 0;
     assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
     assert_int_equal(add(s, "a.stl", triangle_stl, NULL), LMN_OK);
     uint64_t revision = s->revision;
@@ -110,8 +110,8 @@ static void failures_leave_the_scene_alone(void **state)
 static void arguments_are_checked(void **state)
 {
     (void)state;
-    lmn_error error;
-    lmn_scene *s = NULL;
+    lmn_error     error;
+    lmn_scene    *s = NULL;
     lmn_load_desc desc = {0};
     assert_int_equal(lmn_scene_create(NULL, &error), LMN_USAGE);
     assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
@@ -136,14 +136,15 @@ static void arguments_are_checked(void **state)
 static void info_is_json_with_its_keys(void **state)
 {
     (void)state;
-    static const char *const keys[] = {"files", "triangles", "nodes", "meshes", "bounds", "up", "load_ms", "parts", "animations",
-                                       "materials", "textures", "cameras", "lights", "skins", "warnings"};
-    lmn_scene *s = NULL;
+    static const char *const keys[] = {"files",    "triangles", "nodes",  "meshes",     "bounds",
+                                       "up",       "load_ms",   "parts",  "animations", "materials",
+                                       "textures", "cameras",   "lights", "skins",      "warnings"};
+    lmn_scene               *s = NULL;
     assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
     assert_int_equal(add(s, "quote\"d \xFF.stl", triangle_stl, NULL), LMN_OK);
-    char *text = lmn_scene_info_json(s);
+    char        *text = lmn_scene_info_json(s);
     json_error_t problem;
-    json_t *root = json_loads(text, 0, &problem);
+    json_t      *root = json_loads(text, 0, &problem);
     assert_non_null(root);
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         assert_non_null(json_object_get(root, keys[i]));

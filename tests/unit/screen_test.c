@@ -1,4 +1,5 @@
-/* Screens: levels, tones, owners and normals against what can be counted; procedures; kept textures. Rows IM-01 to IM-14, IM-17, IM-18 of the notes on seed 001. */
+/* Screens: levels, tones, owners and normals against what can be counted; procedures; kept textures. Rows IM-01 to
+ * IM-14, IM-17, IM-18 of the notes on seed 001. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -36,14 +37,17 @@ static double mean_ink(const mip_chain *m, int level)
     return sum / 255 / (double)count;
 }
 
-/* Strokes along u at random places; both priorities are even over all of them, the one by a permutation of the other. */
+/* Strokes along u at random places; both priorities are even over all of them, the one by a permutation of the
+ * other. */
 static strokes random_strokes(size_t count, double length, double slope)
 {
     strokes       s = {.width = 1};
     random_source r = random_start(11, 2);
     for (size_t i = 0; i < count; i++) {
-        double long_ = length * (0.5 + random_unit(&r));
-        texture_stroke one = {.u0 = (float)random_unit(&r), .v0 = (float)random_unit(&r), .light = (float)(((double)i + 0.5) / (double)count)};
+        double         long_ = length * (0.5 + random_unit(&r));
+        texture_stroke one = {.u0 = (float)random_unit(&r),
+                              .v0 = (float)random_unit(&r),
+                              .light = (float)(((double)i + 0.5) / (double)count)};
         one.u1 = one.u0 + (float)long_;
         one.v1 = one.v0 + (float)(slope * long_ * random_signed(&r));
         one.perspective = (float)(((double)(i * 7919 % count) + 0.5) / (double)count);
@@ -57,7 +61,7 @@ static screen_options options_of(int side, double width, bool equalised)
     return (screen_options){.side = side, .brush = {.width = width}, .equalised = equalised};
 }
 
-/* --- hatch maps ---------------------------------------------------------------------------------------------------- */
+/* --- hatch maps ----------------------------------------------------------------------------------------- */
 
 static void hatch_lines_lie_on_every_second(void **state)
 {
@@ -89,8 +93,8 @@ static void hatch_lines_lie_on_every_second(void **state)
     assert_int_equal(screen_hatch_map(&m, 64, 0, false, true, &error), LMN_LIMIT);
 }
 
-/* Along a surface that recedes, lines fade while the mean stays (IM-02, IM-03): trilinear, as hardware does it. Those that are more than half there are
- * 8 pixels apart, within half a level. */
+/* Along a surface that recedes, lines fade while the mean stays (IM-02, IM-03): trilinear, as hardware does it.
+ * Those that are more than half there are 8 pixels apart, within half a level. */
 static double hatch_at(const mip_chain *m, double v, double lod)
 {
     int    k = (int)lod;
@@ -131,7 +135,7 @@ static void hatch_keeps_tone_and_spacing_at_any_distance(void **state)
     mip_chain_release(&m);
 }
 
-/* --- strokes -------------------------------------------------------------------------------------------------------- */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
 static double share_below(const mip_chain *m, int level, int value)
 {
@@ -142,15 +146,18 @@ static double share_below(const mip_chain *m, int level, int value)
     return (double)below / (double)count;
 }
 
-/* IM-13, IM-04: what is on a level is the strokes that are kept, each at its place, grey by priority, as wide as on the others. */
+/* IM-13, IM-04: what is on a level is the strokes that are kept, each at its place, grey by priority, as wide as on
+ * the others. */
 static void strokes_stay_at_their_place(void **state)
 {
     (void)state;
     strokes s = {.width = 1};
     for (int i = 0; i < 8; i++) /* apart from each other on all levels down to 64 */
-        assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.0625f + 0.125f * (float)i, 0.8f, 0.0625f + 0.125f * (float)i, 0.3f + 0.1f * (float)(i % 7), (float)i / 8, 0}));
+        assert_true(
+            strokes_add(&s, (texture_stroke){0.2f, 0.0625f + 0.125f * (float)i, 0.8f, 0.0625f + 0.125f * (float)i,
+                                             0.3f + 0.1f * (float)(i % 7), (float)i / 8, 0}));
     screen_options w = options_of(256, 1.5, false);
-    mip_chain     m, ink;
+    mip_chain      m, ink;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_ink_map(&ink, &s, &w, NULL), LMN_OK);
     for (int k = 0; k < 4; k++)
@@ -174,18 +181,20 @@ static void strokes_stay_at_their_place(void **state)
     w.brush.width = 3; /* whole texels in the middle: exactly 1 − priority */
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     for (int i = 0; i < 8; i++)
-        assert_true(fabs(level_of(&m, 0)[(int)(s.items[i].v0 * 256) * 256 + 128] - 255 * (1 - (double)s.items[i].light)) < 0.51);
+        assert_true(fabs(level_of(&m, 0)[(int)(s.items[i].v0 * 256) * 256 + 128] -
+                         255 * (1 - (double)s.items[i].light)) < 0.51);
     mip_chain_release(&m);
     strokes_release(&s);
 }
 
-/* IM-13: a level is the strokes that explicit drawing shows at 1 − 2^−k, but for their ends: on level 0 to the grey. */
+/* IM-13: a level is the strokes that explicit drawing shows at 1 − 2^−k, but for their ends: on level 0 to the
+ * grey. */
 static void levels_are_what_is_drawn_explicitly(void **state)
 {
     (void)state;
     static uint8_t explicit[256 * 256];
     strokes        s = random_strokes(150, 0.3, 0.3);
-    screen_options  w = options_of(256, 1.5, false);
+    screen_options w = options_of(256, 1.5, false);
     mip_chain      m;
     assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
     for (int k = 0; k < 4; k++) {
@@ -206,13 +215,14 @@ static void levels_are_what_is_drawn_explicitly(void **state)
     strokes_release(&s);
 }
 
-/* Ink covers the same share at any distance as long as levels have room, and levels are not means of the finer ones (IM-01, IM-02). */
+/* Ink covers the same share at any distance as long as levels have room, and levels are not means of the finer ones
+ * (IM-01, IM-02). */
 static void density_stays_over_distance(void **state)
 {
     (void)state;
-    strokes       s = random_strokes(1600, 0.1, 0.2);
+    strokes        s = random_strokes(1600, 0.1, 0.2);
     screen_options w = options_of(1024, 1.5, false);
-    mip_chain     m, mean;
+    mip_chain      m, mean;
     assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
     w.detail = DETAIL_AVERAGE;
     assert_int_equal(screen_ink_map(&mean, &s, &w, NULL), LMN_OK);
@@ -233,11 +243,11 @@ static void density_stays_over_distance(void **state)
 static void dots_keep_density_too(void **state)
 {
     (void)state;
-    strokes        s = {0};
+    strokes         s = {0};
     pattern_options p = {.pattern = PATTERN_STIPPLE, .count = 4096, .seed = 1};
     assert_int_equal(strokes_generate(&s, &p, NULL), LMN_OK);
     screen_options w = options_of(512, 2, false);
-    mip_chain     m;
+    mip_chain      m;
     assert_int_equal(screen_ink_map(&m, &s, &w, NULL), LMN_OK);
     for (int k = 0; k <= 4; k++)
         assert_true(fabs(mean_ink(&m, k) / mean_ink(&m, 0) - 1) < 0.15);
@@ -249,9 +259,9 @@ static void dots_keep_density_too(void **state)
 static void minimum_gets_dark(void **state)
 {
     (void)state;
-    strokes       s = random_strokes(400, 0.1, 0.2);
+    strokes        s = random_strokes(400, 0.1, 0.2);
     screen_options w = options_of(512, 1.5, false);
-    mip_chain     m;
+    mip_chain      m;
     w.detail = DETAIL_MINIMUM;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     for (int k = 1; k < m.levels; k++)
@@ -273,9 +283,9 @@ static void minimum_gets_dark(void **state)
 static void equalised_screens_are_linear(void **state)
 {
     (void)state;
-    strokes       s = random_strokes(4000, 0.06, 0.2);
+    strokes        s = random_strokes(4000, 0.06, 0.2);
     screen_options w = options_of(512, 1.5, true);
-    mip_chain     m;
+    mip_chain      m;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     printf("    largest error of tone by level:");
     for (int k = 0; k <= 4; k++) {
@@ -296,9 +306,9 @@ static void equalised_screens_are_linear(void **state)
 static void equalising_keeps_the_order(void **state)
 {
     (void)state;
-    strokes       s = random_strokes(300, 0.2, 0.1);
+    strokes        s = random_strokes(300, 0.2, 0.1);
     screen_options w = options_of(128, 2, false);
-    mip_chain     m, e;
+    mip_chain      m, e;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_of_strokes(&e, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_equalise(&e, NULL), LMN_OK);
@@ -322,7 +332,8 @@ static void equal_texels_take_the_middle(void **state)
     (void)state;
     mip_chain m;
     assert_int_equal(mip_chain_create(&m, 4, 1, 1, 1, MIP_R8, NULL), LMN_OK);
-    const uint8_t before[2][4] = {{7, 7, 255, 255}, {200, 30, 10, 30}}, after[2][4] = {{64, 64, 255, 255}, {224, 128, 32, 128}};
+    const uint8_t before[2][4] = {{7, 7, 255, 255}, {200, 30, 10, 30}},
+                  after[2][4] = {{64, 64, 255, 255}, {224, 128, 32, 128}};
     for (int i = 0; i < 2; i++) {
         memcpy(m.data[0], before[i], 4);
         assert_int_equal(screen_equalise(&m, NULL), LMN_OK);
@@ -334,7 +345,7 @@ static void equal_texels_take_the_middle(void **state)
     mip_chain_release(&m);
 }
 
-/* --- warp maps and normals ------------------------------------------------------------------------------------------ */
+/* --- warp maps and normals ------------------------------------------------------------------------------ */
 
 typedef struct touch {
     int      *owners;
@@ -353,14 +364,14 @@ static void touch_texel(void *user, size_t index, float coverage)
     }
 }
 
-/* IM-18: every texel that a stroke touches refers to the same point as the rest of the stroke, on every level, so that a decision by the light there is one
- * decision; and the rim too. */
+/* IM-18: every texel that a stroke touches refers to the same point as the rest of the stroke, on every level, so
+ * that a decision by the light there is one decision; and the rim too. */
 static void warp_refers_to_one_point_a_stroke(void **state)
 {
     (void)state;
-    strokes       s = random_strokes(40, 0.25, 0.5); /* priorities rise, so the last is on top */
+    strokes        s = random_strokes(40, 0.25, 0.5); /* priorities rise, so the last is on top */
     screen_options w = options_of(128, 2, false);
-    mip_chain     m;
+    mip_chain      m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
     assert_true(m.nearest && m.format == MIP_RG16F);
     static int      owners[128 * 128];
@@ -379,14 +390,15 @@ static void warp_refers_to_one_point_a_stroke(void **state)
             continue;
         }
         const texture_stroke *o = &s.items[owners[i]];
-        double        du = u - 0.5 * (double)(o->u0 + o->u1), dv = v - 0.5 * (double)(o->v0 + o->v1);
+        double                du = u - 0.5 * (double)(o->u0 + o->u1), dv = v - 0.5 * (double)(o->v0 + o->v1);
         assert_true(fabs(du - rint(du)) < 1e-5 && fabs(dv - rint(dv)) < 1e-5);
     }
     mip_chain_release(&m);
     strokes_release(&s);
 }
 
-/* The same in use: under a steep light each stroke is drawn whole or not at all. Two strokes that do not touch, on levels 0 to 2. */
+/* The same in use: under a steep light each stroke is drawn whole or not at all. Two strokes that do not touch, on
+ * levels 0 to 2. */
 static void whole_strokes_under_steep_light(void **state)
 {
     (void)state;
@@ -394,7 +406,7 @@ static void whole_strokes_under_steep_light(void **state)
     assert_true(strokes_add(&s, (texture_stroke){0.1f, 0.3f, 0.7f, 0.3f, 0.5f, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.35f, 0.7f, 0.95f, 0.7f, 0.5f, 1, 0}));
     screen_options w = options_of(128, 3, false);
-    mip_chain     m, warp;
+    mip_chain      m, warp;
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     assert_int_equal(screen_warp(&warp, &s, &w, NULL), LMN_OK);
     for (int k = 0; k < 3; k++) {
@@ -425,7 +437,7 @@ static void of_equal_strokes_the_first_is_on_top(void **state)
     assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.5f, 0.8f, 0.5f, 0.7f, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.6f, 0.3f, 0.6f, 0.8f, 0.7f, 1, 0}));
     screen_options w = options_of(64, 4, false);
-    mip_chain     m;
+    mip_chain      m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
     const float *t = m.data[0];
     int          crossing = 32 * 64 + 38;
@@ -443,7 +455,7 @@ static void curves_have_one_reference(void **state)
     assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.2f, 0.5f, 0.4f, 1, 1, 0}));
     assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.4f, 0.6f, 0.4f, 1, 1, 0}));
     screen_options w = options_of(64, 2, false);
-    mip_chain     m;
+    mip_chain      m;
     assert_int_equal(screen_warp(&m, &s, &w, NULL), LMN_OK);
     const float *t = m.data[0];
     int          owned = 0;
@@ -451,7 +463,8 @@ static void curves_have_one_reference(void **state)
         if (t[2 * i] == 0 && t[2 * i + 1] == 0)
             continue;
         owned++;
-        assert_true(fabs((i % 64 + 0.5) / 64 + (double)t[2 * i] - 0.5) < 1e-5 && fabs((i / 64 + 0.5) / 64 + (double)t[2 * i + 1] - 0.2) < 1e-5);
+        assert_true(fabs((i % 64 + 0.5) / 64 + (double)t[2 * i] - 0.5) < 1e-5 &&
+                    fabs((i / 64 + 0.5) / 64 + (double)t[2 * i + 1] - 0.2) < 1e-5);
     }
     assert_true(owned > 64);
     mip_chain_release(&m);
@@ -464,7 +477,7 @@ static void normals_lean_to_the_axis(void **state)
     strokes s = {.width = 1};
     assert_true(strokes_add(&s, (texture_stroke){0.5f, 0.25f, 0.5f, 0.75f, 1, 1, 0}));
     screen_options w = options_of(64, 8, false);
-    mip_chain     m;
+    mip_chain      m;
     assert_int_equal(screen_normals(&m, &s, &w, 1, NULL), LMN_OK);
     const uint8_t *row = level_of(&m, 0) + 2 * 64 * 32;
     for (int x = 0; x < 64; x++) {
@@ -476,7 +489,7 @@ static void normals_lean_to_the_axis(void **state)
     strokes_release(&s);
 }
 
-/* --- thresholds ----------------------------------------------------------------------------------------------------- */
+/* --- thresholds ----------------------------------------------------------------------------------------- */
 
 /* IM-08 and IM-09 on a screen of uniform tones. */
 static void thresholds_follow_the_light(void **state)
@@ -495,7 +508,8 @@ static void thresholds_follow_the_light(void **state)
             continue;
         /* The thesis' form is 1 / (2 C) too bright, the centred one right. */
         assert_true(light < 0.75 ? fabs(screen_ink(&m, 0, light, 4, false) - (1 - light - 0.125)) < 0.005 : true);
-        assert_true(light > 0.125 && light < 0.875 ? fabs(screen_ink(&m, 0, light, 4, true) - (1 - light)) < 0.01 : true);
+        assert_true(light > 0.125 && light < 0.875 ? fabs(screen_ink(&m, 0, light, 4, true) - (1 - light)) < 0.01
+                                                   : true);
     }
     assert_true(amounts >= 255);
     mip_chain_release(&m);
@@ -513,12 +527,13 @@ static void thresholds_are_their_formulas(void **state)
             double below = 1 - v / 255.0 - c / 255.0;
             assert_true(screen_ink(&m, 0, c / 255.0, 0, false) == (v < 255 && v + c <= 255));
             assert_true(fabs(screen_ink(&m, 0, c / 255.0, 4, false) - fmax(0, fmin(1, 4 * below))) < 1e-6);
-            assert_true(v == 255 || fabs(screen_ink(&m, 0, c / 255.0, 4, true) - fmax(0, fmin(1, 4 * below + 0.5))) < 1e-6);
+            assert_true(v == 255 ||
+                        fabs(screen_ink(&m, 0, c / 255.0, 4, true) - fmax(0, fmin(1, 4 * below + 0.5))) < 1e-6);
         }
     mip_chain_release(&m);
 }
 
-/* --- procedures ----------------------------------------------------------------------------------------------------- */
+/* --- procedures ----------------------------------------------------------------------------------------- */
 
 static void procedures_are_linear_on_every_level(void **state)
 {
@@ -572,7 +587,8 @@ static void engraved_lines_grow_with_darkness(void **state)
     mip_chain_release(&m);
 }
 
-/* Blue noise has little in the coarse: the spread of the means of blocks is far below that of white noise; and all of it wraps. */
+/* Blue noise has little in the coarse: the spread of the means of blocks is far below that of white noise; and all
+ * of it wraps. */
 static void blue_noise_is_blue(void **state)
 {
     (void)state;
@@ -613,7 +629,7 @@ static void dots_lie_on_a_turned_grid(void **state)
     mip_chain_release(&m);
 }
 
-/* --- painted layers -------------------------------------------------------------------------------------------------- */
+/* --- painted layers ------------------------------------------------------------------------------------- */
 
 enum { PAINTED = 64 };
 
@@ -660,7 +676,8 @@ static void light_takes_layers_away_from_the_last(void **state)
     mip_chain_release(&m);
 }
 
-/* Painted marks stay whole or go, on every level; ink stays about what it was. Dashes of 12 x 2 texels, all in the same place of squares of 16. */
+/* Painted marks stay whole or go, on every level; ink stays about what it was. Dashes of 12 x 2 texels, all in the
+ * same place of squares of 16. */
 static void painted_marks_go_as_a_whole(void **state)
 {
     (void)state;
@@ -713,14 +730,14 @@ static void pictures_are_resampled_and_checked(void **state)
     assert_int_equal(screen_of_layers(&m, &one, 1, 0.5, 64, DETAIL_KEPT, &error), LMN_LIMIT);
 }
 
-/* --- limits and memory ------------------------------------------------------------------------------------------------ */
+/* --- limits and memory ---------------------------------------------------------------------------------- */
 
 static void wrong_options_are_refused(void **state)
 {
     (void)state;
-    strokes       s = random_strokes(3, 0.1, 0), none = {.width = 1};
-    lmn_error     error;
-    mip_chain     m;
+    strokes        s = random_strokes(3, 0.1, 0), none = {.width = 1};
+    lmn_error      error;
+    mip_chain      m;
     screen_options w = options_of(100, 1, false);
     assert_int_equal(screen_of_strokes(&m, &s, &w, &error), LMN_LIMIT);
     w = options_of(8192, 1, false);
@@ -742,21 +759,15 @@ static void wrong_options_are_refused(void **state)
 static lmn_status make(int which, mip_chain *m, const strokes *s, lmn_error *error)
 {
     static uint8_t pixels[16 * 16 * 4];
-    screen_options  w = options_of(32, 1, true);
+    screen_options w = options_of(32, 1, true);
     screen_layer   layer = {pixels, 16, 16};
     switch (which) {
-    case 0:
-        return screen_of_strokes(m, s, &w, error);
-    case 1:
-        return screen_warp(m, s, &w, error);
-    case 2:
-        return screen_normals(m, s, &w, 1, error);
-    case 3:
-        return screen_of_layers(m, &layer, 1, 4, 32, DETAIL_KEPT, error);
-    case 4:
-        return screen_hatch_map(m, 32, 4, false, false, error);
-    default:
-        return screen_of_procedure(m, (screen_procedure)(which - 5), 32, 4, error);
+    case 0: return screen_of_strokes(m, s, &w, error);
+    case 1: return screen_warp(m, s, &w, error);
+    case 2: return screen_normals(m, s, &w, 1, error);
+    case 3: return screen_of_layers(m, &layer, 1, 4, 32, DETAIL_KEPT, error);
+    case 4: return screen_hatch_map(m, 32, 4, false, false, error);
+    default: return screen_of_procedure(m, (screen_procedure)(which - 5), 32, 4, error);
     }
 }
 

@@ -1,4 +1,5 @@
-/* Selectors against a small tree: Truck (attribute kind=vehicle) with Body, Wheel Front and Wheel Rear below Truck/Axle. */
+/* Selectors against a small tree: Truck (attribute kind=vehicle) with Body, Wheel Front and Wheel Rear below
+ * Truck/Axle. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -12,22 +13,30 @@
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static attribute vehicle[] = {{"kind", "vehicle"}}, spare[] = {{"kind", "spare part"}, {"stock", ""}};
-static node nodes[] = {
-    {.parent = NONE, .mesh = NONE, .solid = NONE, .attributes = vehicle, .attribute_count = 1},
-    {.parent = 0, .mesh = 0, .solid = NONE},
-    {.parent = 0, .mesh = 1, .solid = NONE},
-    {.parent = 0, .mesh = 1, .solid = 0, .attributes = spare, .attribute_count = 2},
-    {.parent = 1, .mesh = NONE, .solid = NONE, .ghost = true},
+static node      nodes[] = {
+         {.parent = NONE, .mesh = NONE, .solid = NONE, .attributes = vehicle, .attribute_count = 1},
+         {.parent = 0, .mesh = 0, .solid = NONE},
+         {.parent = 0, .mesh = 1, .solid = NONE},
+         {.parent = 0, .mesh = 1, .solid = 0, .attributes = spare, .attribute_count = 2},
+         {.parent = 1, .mesh = NONE, .solid = NONE, .ghost = true},
 };
 static primitive painted = {.material = 0}, rubber = {.material = 1};
 static mesh meshes[] = {{.primitives = &painted, .primitive_count = 1}, {.primitives = &rubber, .primitive_count = 1}};
 static material materials[] = {{.name = "Red Paint"}, {.name = "Rubber"}};
-static part parts[] = {{1, "Body", "Truck/Body"}, {2, "Wheel Front", "Truck/Axle/Wheel Front"}, {3, "Wheel Rear", "Truck/Axle/Wheel Rear"},
-                       {4, "removed", "Truck/Body/removed", .ghost = true}};
+static part     parts[] = {{1, "Body", "Truck/Body"},
+                           {2, "Wheel Front", "Truck/Axle/Wheel Front"},
+                           {3, "Wheel Rear", "Truck/Axle/Wheel Rear"},
+                           {4, "removed", "Truck/Body/removed", .ghost = true}};
 enum { PARTS = COUNT(parts) - 1 }; /* and a ghost */
-static const lmn_scene scene = {.nodes = nodes, .node_count = COUNT(nodes), .meshes = meshes, .mesh_count = COUNT(meshes),
-                                .materials = materials, .material_count = COUNT(materials), .parts = parts,
-                                .part_count = PARTS, .ghost_count = 1};
+static const lmn_scene scene = {.nodes = nodes,
+                                .node_count = COUNT(nodes),
+                                .meshes = meshes,
+                                .mesh_count = COUNT(meshes),
+                                .materials = materials,
+                                .material_count = COUNT(materials),
+                                .parts = parts,
+                                .part_count = PARTS,
+                                .ghost_count = 1};
 
 static void test_matches(void **state)
 {
@@ -35,23 +44,54 @@ static void test_matches(void **state)
     static const struct {
         const char *text, *parts; /* 1 for each part that matches */
     } cases[] = {
-        {"*", "111"},                    {"Body", "100"},                {"body", "000"},
-        {"Wheel*", "011"},               {"\"Wheel Front\"", "010"},     {"'Wheel Rear', Body", "101"},
-        {"Truck/*", "111"},              {"Truck/Axle/*", "011"},        {"*/Body", "100"},
-        {"!Body", "011"},                {"!!Body", "100"},              {"Wheel* !*Rear", "010"},
-        {"[kind]", "111"},               {"[kind=vehicle]", "110"},      {"[kind=\"spare part\"]", "001"},
-        {"[stock]", "001"},              {"[stock=]", "001"},            {"[stock=x]", "000"},
-        {"[material=Rub*]", "011"},      {"[material='Red Paint']", "100"}, {"![material]", "000"},
-        {"[id=2]", "010"},               {"[id=1], [id=3]", "101"},      {"Wheel*[kind=vehicle]", "010"},
-        {"  Body  ", "100"},             {"[missing]", "000"},           {"! [id=1]", "011"},
+        {"*", "111"},
+        {"Body", "100"},
+        {"body", "000"},
+        {"Wheel*", "011"},
+        {"\"Wheel Front\"", "010"},
+        {"'Wheel Rear', Body", "101"},
+        {"Truck/*", "111"},
+        {"Truck/Axle/*", "011"},
+        {"*/Body", "100"},
+        {"!Body", "011"},
+        {"!!Body", "100"},
+        {"Wheel* !*Rear", "010"},
+        {"[kind]", "111"},
+        {"[kind=vehicle]", "110"},
+        {"[kind=\"spare part\"]", "001"},
+        {"[stock]", "001"},
+        {"[stock=]", "001"},
+        {"[stock=x]", "000"},
+        {"[material=Rub*]", "011"},
+        {"[material='Red Paint']", "100"},
+        {"![material]", "000"},
+        {"[id=2]", "010"},
+        {"[id=1], [id=3]", "101"},
+        {"Wheel*[kind=vehicle]", "010"},
+        {"  Body  ", "100"},
+        {"[missing]", "000"},
+        {"! [id=1]", "011"},
         /* The last one is the ghost: only who says @removed gets it. */
-        {"*", "1110"},                   {"removed", "0000"},            {"[id=4]", "0000"},
-        {"!Body", "0110"},               {"Truck/*", "1110"},            {"[kind]", "1110"},
-        {"@removed", "0001"},            {"!@removed", "1110"},          {"!!@removed", "0001"},
-        {"*, @removed", "1111"},         {"Wheel* @removed", "0000"},    {"@removed Truck/Body/*", "0001"},
-        {"@removed !Truck/Body/*", "0000"}, {"@removed[kind=vehicle]", "0001"}, {"Body, @removed removed", "1001"},
-        {"@solid", "0010"},              {"!@solid", "1100"},            {"\"@solid\"", "0000"},
-        {"\"@removed\"", "0000"},        {"@removed !removed, *", "1110"},
+        {"*", "1110"},
+        {"removed", "0000"},
+        {"[id=4]", "0000"},
+        {"!Body", "0110"},
+        {"Truck/*", "1110"},
+        {"[kind]", "1110"},
+        {"@removed", "0001"},
+        {"!@removed", "1110"},
+        {"!!@removed", "0001"},
+        {"*, @removed", "1111"},
+        {"Wheel* @removed", "0000"},
+        {"@removed Truck/Body/*", "0001"},
+        {"@removed !Truck/Body/*", "0000"},
+        {"@removed[kind=vehicle]", "0001"},
+        {"Body, @removed removed", "1001"},
+        {"@solid", "0010"},
+        {"!@solid", "1100"},
+        {"\"@solid\"", "0000"},
+        {"\"@removed\"", "0000"},
+        {"@removed !removed, *", "1110"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         selector *s = NULL;
@@ -73,7 +113,8 @@ static void test_names_removed(void **state)
     static const struct {
         const char *text;
         bool        names;
-    } cases[] = {{"*", false}, {"@removed", true}, {"a, b @removed", true}, {"!@removed", false}, {"'@removed'", false}, {"removed", false}};
+    } cases[] = {{"*", false},         {"@removed", true},    {"a, b @removed", true},
+                 {"!@removed", false}, {"'@removed'", false}, {"removed", false}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         selector *s = NULL;
         assert_int_equal(selector_parse(&s, cases[i].text, NULL), LMN_OK);
@@ -85,7 +126,8 @@ static void test_names_removed(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"", "  ", ",", "a,", ",a", "a,,b", "[", "[a", "[]", "[=x]", "]", "\"a", "!", "a !", "@", "@Removed", "@removed2", "a @x"};
+    static const char *const wrong[] = {"",     "  ", ",",   "a,", ",a",  "a,,b", "[",        "[a",        "[]",
+                                        "[=x]", "]",  "\"a", "!",  "a !", "@",    "@Removed", "@removed2", "a @x"};
     for (size_t i = 0; i < COUNT(wrong); i++) {
         selector *s = NULL;
         lmn_error error = {0};

@@ -1,4 +1,5 @@
-/* limner/sheet.h: arguments that are refused, drawings without a renderer, cancelling, memory that runs out, and that nothing of it depends on chance. */
+/* limner/sheet.h: arguments that are refused, drawings without a renderer, cancelling, memory that runs out, and
+ * that nothing of it depends on chance. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,11 +23,12 @@ typedef struct fixture {
 
 static int set_up(void **state)
 {
-    static fixture  f;
-    lmn_load_desc   load = LMN_LOAD_DESC_INIT;
-    lmn_error       error = {0};
+    static fixture f;
+    lmn_load_desc  load = LMN_LOAD_DESC_INIT;
+    lmn_error      error = {0};
     f = (fixture){NULL, NULL};
-    if (lmn_scene_create(&f.scene, &error) != LMN_OK || lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/box.glb", &load, &error) != LMN_OK ||
+    if (lmn_scene_create(&f.scene, &error) != LMN_OK ||
+        lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/box.glb", &load, &error) != LMN_OK ||
         lmn_look_load(&f.look, "technical", &error) != LMN_OK)
         return -1;
     *state = &f;
@@ -134,14 +136,14 @@ static void test_report(void **state)
 /* At a scale, what is drawn has the size that the model's bounds say, in metres as the format has it. */
 static void test_scale(void **state)
 {
-    const fixture  *f = *state;
-    lmn_scene_info  info = lmn_scene_info_of(f->scene);
-    lmn_sheet_desc  desc = LMN_SHEET_DESC_INIT;
-    char            path[] = "/tmp/limner-sheet-XXXXXX", *at;
-    lmn_error       error = {0};
-    file_data       file;
-    double          low = INFINITY, high = -INFINITY, x = 0;
-    int             descriptor = mkstemp(path);
+    const fixture *f = *state;
+    lmn_scene_info info = lmn_scene_info_of(f->scene);
+    lmn_sheet_desc desc = LMN_SHEET_DESC_INIT;
+    char           path[] = "/tmp/limner-sheet-XXXXXX", *at;
+    lmn_error      error = {0};
+    file_data      file;
+    double         low = INFINITY, high = -INFINITY, x = 0;
+    int            descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     close(descriptor);
     desc.views = "front";
@@ -153,7 +155,8 @@ static void test_scale(void **state)
     assert_int_equal(file_load(&file, path, &error), LMN_OK);
     unlink(path);
     for (at = strstr((const char *)file.data, "ENTITIES"); at; at = strchr(at + 1, '\n'))
-        if ((sscanf(at, "\n10\n%lf", &x) == 1 || sscanf(at, "\n11\n%lf", &x) == 1) && x != 0) { /* a polyline's own place is 0 */
+        if ((sscanf(at, "\n10\n%lf", &x) == 1 || sscanf(at, "\n11\n%lf", &x) == 1) &&
+            x != 0) { /* a polyline's own place is 0 */
             low = fmin(low, x);
             high = fmax(high, x);
         }
@@ -191,7 +194,8 @@ static void test_without_renderer(void **state)
 }
 
 /* What cannot be drawn is refused by name, and by lenient drawings left out with a warning of this code. */
-static void refuse_or_warn(const fixture *f, lmn_draw_desc how, const lmn_sheet_desc *desc, lmn_status wanted, const char *code)
+static void refuse_or_warn(const fixture *f, lmn_draw_desc how, const lmn_sheet_desc *desc, lmn_status wanted,
+                           const char *code)
 {
     lmn_sheet  *s = NULL;
     lmn_error   error = {0};
@@ -234,7 +238,7 @@ static void test_not_drawn(void **state)
     assert_int_equal(lmn_look_load(&f.look, "sketch", &error), LMN_OK);
     assert_int_equal(lmn_look_set(f.look, "perturb.boil", "12", &error), LMN_OK);
     how.lenient = false;
-    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, false, &error), LMN_OK); /* it boils */
+    assert_int_equal(lmn_draw_check(f.scene, f.look, &how, false, &error), LMN_OK);   /* it boils */
     assert_int_equal(lmn_draw_check(f.scene, f.look, &how, true, &error), LMN_USAGE); /* lines of vectors do not */
     lmn_look_destroy(&f.look);
     assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
@@ -250,7 +254,7 @@ static void test_not_drawn(void **state)
     lmn_scene_destroy(&f.scene);
 }
 
-/* --- what stops a drawing ------------------------------------------------------------------------------------------- */
+/* --- what stops a drawing ------------------------------------------------------------------------------- */
 
 typedef struct progress_state {
     int    left;
@@ -271,9 +275,9 @@ static void test_cancelled(void **state)
     lmn_status     status = LMN_CANCELLED;
     int            calls = 0;
     for (; status != LMN_OK && calls < 100000; calls++) {
-        lmn_draw_desc how = LMN_DRAW_DESC_INIT;
-        lmn_sheet    *s = NULL;
-        lmn_error     error = {0};
+        lmn_draw_desc  how = LMN_DRAW_DESC_INIT;
+        lmn_sheet     *s = NULL;
+        lmn_error      error = {0};
         progress_state told = {calls, 0};
         how.progress = stop_at;
         how.progress_user = &told;
@@ -338,19 +342,21 @@ static void test_same_again(void **state)
 static void see_documented(const char *page, const lmn_format_info *f)
 {
     static const char *const cells[] = {"", " yes"};
-    char line[256];
-    snprintf(line, sizeof line, "| `%s` | %s |%s |%s |%s |%s |\n", f->ending, f->doc, cells[f->ground], cells[f->pictures], cells[f->areas], cells[f->title]);
+    char                     line[256];
+    snprintf(line, sizeof line, "| `%s` | %s |%s |%s |%s |%s |\n", f->ending, f->doc, cells[f->ground],
+             cells[f->pictures], cells[f->areas], cells[f->title]);
     if (!strstr(page, line))
         fail_msg("docs/reference/draw.md lacks: %s", line);
 }
 
-/* A sheet can be written in each format of vectors and in no other; the format's own name is not refused with another one's. */
+/* A sheet can be written in each format of vectors and in no other; the format's own name is not refused with
+ * another one's. */
 static void see_written(const lmn_sheet *s, const lmn_format_info *f)
 {
-    char       path[] = "/tmp/limner-sheet-XXXXXX";
-    lmn_error  error = {0};
-    uint64_t   bytes = 0;
-    int        descriptor = mkstemp(path);
+    char      path[] = "/tmp/limner-sheet-XXXXXX";
+    lmn_error error = {0};
+    uint64_t  bytes = 0;
+    int       descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     close(descriptor);
     lmn_status status = lmn_sheet_write(s, path, f->ending, &bytes, &error);
@@ -389,9 +395,11 @@ static void test_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused),   cmocka_unit_test(test_report),        cmocka_unit_test(test_scale),      cmocka_unit_test(test_without_renderer),
-        cmocka_unit_test(test_not_drawn), cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_report),
+        cmocka_unit_test(test_scale),      cmocka_unit_test(test_without_renderer),
+        cmocka_unit_test(test_not_drawn),  cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_cancelled),  cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_same_again),
     };
     return cmocka_run_group_tests_name("sheet_api", tests, set_up, tear_down);
 }

@@ -1,4 +1,5 @@
-/* Sheets: what the builder keeps and what it refuses, the words of descriptions, layouts of views, and plotter orders. */
+/* Sheets: what the builder keeps and what it refuses, the words of descriptions, layouts of views, and plotter
+ * orders. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,13 +32,14 @@ static void test_builder(void **state)
     sheet       s;
     (void)state;
     sheet_begin(&s, 100, 50, 4);
-    uint32_t view = sheet_add_group(&s, -1, "view", "view", 0), part = sheet_add_group(&s, (int32_t)view, "wheel", NULL, 3);
+    uint32_t view = sheet_add_group(&s, -1, "view", "view", 0),
+             part = sheet_add_group(&s, (int32_t)view, "wheel", NULL, 3);
     sheet_add_path(&s, &(sheet_path){.width = 1}, line, 4); /* without an item: nothing */
     assert_int_equal(s.path_count, 0);
     sheet_add_item(&s, SHEET_PATH, part, black, 0xAB);
     sheet_add_path(&s, &(sheet_path){.width = 0.5f, .closed = true}, line, 4);
     sheet_add_path(&s, &(sheet_path){.width = 0.5f}, line, 2);
-    sheet_add_path(&s, &(sheet_path){.width = 0.5f}, line, 1); /* no line */
+    sheet_add_path(&s, &(sheet_path){.width = 0.5f}, line, 1);  /* no line */
     sheet_add_path(&s, &(sheet_path){.filled = true}, line, 2); /* no area */
     sheet_add_text(&s, view, black, "words", 1, 2, 3, 0);
     sheet_add_rectangle(&s, view, black, 10, 20, 30, 40, 1);
@@ -91,7 +93,8 @@ static void build_all(sheet *s)
 /* Every allocation fails once, in the builder and in each writer. */
 static void test_out_of_memory(void **state)
 {
-    static lmn_status (*const writers[])(export_bytes *, const sheet *, lmn_error *) = {export_svg, export_pdf, export_dxf};
+    static lmn_status (*const writers[])(export_bytes *, const sheet *, lmn_error *) = {export_svg, export_pdf,
+                                                                                        export_dxf};
     (void)state;
     for (size_t w = 0; w < 3; w++) {
         lmn_status status = LMN_MEMORY;
@@ -115,17 +118,19 @@ static void test_out_of_memory(void **state)
     }
 }
 
-/* --- words ------------------------------------------------------------------------------------------------------------ */
+/* --- words ---------------------------------------------------------------------------------------------- */
 
 static void test_pages(void **state)
 {
     const struct {
         const char *words;
         double      width, height;
-    } good[] = {{"A4", 210, 297}, {"a4-landscape", 297, 210}, {"A3", 420, 297}, {"A3-portrait", 297, 420}, {"letter", 215.9, 279.4}, {"120x80mm", 120, 80}, {"7.5x8", 7.5, 8}};
-    const char *const bad[] = {"", "A", "A44", "B4", "A4-", "A4-sideways", "120", "120x", "x80", "0x80mm", "-5x80", "nanx80", "5000x80mm", "120x80in", "infx2"};
-    double    size[2];
-    lmn_error error = {0};
+    } good[] = {{"A4", 210, 297},         {"a4-landscape", 297, 210}, {"A3", 420, 297}, {"A3-portrait", 297, 420},
+                {"letter", 215.9, 279.4}, {"120x80mm", 120, 80},      {"7.5x8", 7.5, 8}};
+    const char *const bad[] = {"",    "A",      "A44",   "B4",     "A4-",       "A4-sideways", "120",  "120x",
+                               "x80", "0x80mm", "-5x80", "nanx80", "5000x80mm", "120x80in",    "infx2"};
+    double            size[2];
+    lmn_error         error = {0};
     (void)state;
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         assert_int_equal(vector_parse_page(good[i].words, size, &error), LMN_OK);
@@ -140,10 +145,12 @@ static void test_scales(void **state)
 {
     const char *const bad[] = {"", "1", "1:", ":2", "1:0", "0:1", "-1:2", "1:2x", "nan:1", "1:inf", "a:b"};
     const struct {
-        double scale, usual;
+        double      scale, usual;
         const char *words;
-    } usual[] = {{1, 1, "1:1"}, {0.99, 1 / 1.5, "1:1.5"}, {0.7, 0.5, "1:2"}, {0.5, 0.5, "1:2"}, {0.49, 0.4, "1:2.5"}, {0.19, 1 / 6.0, "1:6"}, {0.14, 0.1, "1:10"}, {0.05, 0.05, "1:20"}, {7, 5, "5:1"},
-                 {9, 8, "8:1"}, {1999, 1500, "1500:1"}, {0.00099, 1 / 1500.0, "1:1500"}};
+    } usual[] = {{1, 1, "1:1"},       {0.99, 1 / 1.5, "1:1.5"}, {0.7, 0.5, "1:2"},
+                 {0.5, 0.5, "1:2"},   {0.49, 0.4, "1:2.5"},     {0.19, 1 / 6.0, "1:6"},
+                 {0.14, 0.1, "1:10"}, {0.05, 0.05, "1:20"},     {7, 5, "5:1"},
+                 {9, 8, "8:1"},       {1999, 1500, "1500:1"},   {0.00099, 1 / 1500.0, "1:1500"}};
     double    scale;
     char      words[32];
     lmn_error error = {0};
@@ -163,7 +170,7 @@ static void test_scales(void **state)
     assert_string_equal(words, "1:3.7");
 }
 
-/* --- views -------------------------------------------------------------------------------------------------------------- */
+/* --- views ---------------------------------------------------------------------------------------------- */
 
 static const vector_view *view_called(const vector_view *views, size_t count, const char *name)
 {
@@ -190,10 +197,10 @@ static void test_layout(void **state)
     assert_int_equal(count, 5);
     const double sizes[5][2] = {{40, 20}, {40, 30}, {30, 20}, {30, 20}, {50, 45}};
     for (int first = 0; first < 2; first++) {
-        vector_layout how = {{10, 10, 277, 190}, 10, first ? LMN_FIRST_ANGLE : LMN_THIRD_ANGLE, 0, false, 1};
-        double        scale = vector_place_views(&how, views, count, sizes);
-        const vector_view *front = view_called(views, count, "front"), *top = view_called(views, count, "top"), *right = view_called(views, count, "right"),
-                          *left = view_called(views, count, "left");
+        vector_layout      how = {{10, 10, 277, 190}, 10, first ? LMN_FIRST_ANGLE : LMN_THIRD_ANGLE, 0, false, 1};
+        double             scale = vector_place_views(&how, views, count, sizes);
+        const vector_view *front = view_called(views, count, "front"), *top = view_called(views, count, "top"),
+                          *right = view_called(views, count, "right"), *left = view_called(views, count, "left");
         assert_near(middle(front, 0), middle(top, 0), 1e-9);
         assert_near(middle(front, 1), middle(right, 1), 1e-9);
         assert_near(middle(front, 1), middle(left, 1), 1e-9);
@@ -206,8 +213,10 @@ static void test_layout(void **state)
                 low[k] = fmin(low[k], views[i].box[k]);
                 high[k] = fmax(high[k], views[i].box[k] + views[i].box[2 + k]);
                 for (size_t n = 0; n < i; n++) /* none over another */
-                    assert_true(views[n].box[0] + views[n].box[2] <= views[i].box[0] + 1e-9 || views[i].box[0] + views[i].box[2] <= views[n].box[0] + 1e-9 ||
-                                views[n].box[1] + views[n].box[3] <= views[i].box[1] + 1e-9 || views[i].box[1] + views[i].box[3] <= views[n].box[1] + 1e-9);
+                    assert_true(views[n].box[0] + views[n].box[2] <= views[i].box[0] + 1e-9 ||
+                                views[i].box[0] + views[i].box[2] <= views[n].box[0] + 1e-9 ||
+                                views[n].box[1] + views[n].box[3] <= views[i].box[1] + 1e-9 ||
+                                views[i].box[1] + views[i].box[3] <= views[n].box[1] + 1e-9);
             }
         assert_true(low[0] >= 10 - 1e-9 && low[1] >= 10 - 1e-9 && high[0] <= 287 + 1e-9 && high[1] <= 200 + 1e-9);
         assert_true(high[0] - low[0] > 276 || high[1] - low[1] > 189); /* as large as fits */
@@ -218,7 +227,7 @@ static void test_layout(void **state)
     assert_int_equal(vector_parse_views("front,tip", views, &count, &error), LMN_USAGE);
 }
 
-/* --- plotters ------------------------------------------------------------------------------------------------------------- */
+/* --- plotters ------------------------------------------------------------------------------------------- */
 
 static double travel(const sheet *s)
 {
@@ -248,11 +257,12 @@ static void test_plotter(void **state)
         float ends[2][2];
         for (int k = 0; k < 4; k++) {
             random = random * 1664525u + 1013904223u;
-            ends[k / 2][k % 2] = k < 2 ? (float)(random >> 8) / 16777216 * 190 : ends[0][k % 2] + (float)(random >> 8) / 16777216 * 10;
+            ends[k / 2][k % 2] =
+                k < 2 ? (float)(random >> 8) / 16777216 * 190 : ends[0][k % 2] + (float)(random >> 8) / 16777216 * 10;
         }
         lengths += hypot((double)(ends[1][0] - ends[0][0]), (double)(ends[1][1] - ends[0][1]));
         sheet_add_item(&s, SHEET_PATH, group, i % 2 ? black : (colour){1, 0, 0, 1}, (uint64_t)i + 1);
-        sheet_add_path(&s, &(sheet_path){.width = 0.3f}, (const float (*)[2])ends, 2);
+        sheet_add_path(&s, &(sheet_path){.width = 0.3f}, (const float(*)[2])ends, 2);
     }
     sheet_add_text(&s, group, black, "stays", 1, 2, 3, 0);
     double before = travel(&s);
@@ -278,8 +288,9 @@ static void test_plotter(void **state)
 /* A box of 10 by 10: lines and areas end at its sides, dots outside go, what has nothing left goes with its item. */
 static void test_clip(void **state)
 {
-    const float zigzag[4][2] = {{-5, 5}, {5, 5}, {15, 5}, {5, 8}}, square[4][2] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, away[2][2] = {{20, 20}, {30, 30}};
-    sheet       s;
+    const float zigzag[4][2] = {{-5, 5}, {5, 5}, {15, 5}, {5, 8}}, square[4][2] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}},
+                away[2][2] = {{20, 20}, {30, 30}};
+    sheet s;
     (void)state;
     sheet_begin(&s, 10, 10, 4);
     uint32_t group = sheet_add_group(&s, -1, "view", NULL, 0);
@@ -301,7 +312,7 @@ static void test_clip(void **state)
     assert_near((double)point_of(&s, 1, 0)[1], 6.5, 1e-5);
     assert_near((double)point_of(&s, 1, 1)[1], 8, 1e-6);
     const sheet_path *area = &s.paths[s.items[1].first];
-    double twice = 0;
+    double            twice = 0;
     for (uint32_t i = 0; i < area->count; i++) {
         const float *a = s.points[area->first + i], *b = s.points[area->first + (i + 1) % area->count];
         twice += (double)a[0] * b[1] - (double)b[0] * a[1];
@@ -314,8 +325,9 @@ static void test_clip(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_builder), cmocka_unit_test(test_not_finite), cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_pages),
-        cmocka_unit_test(test_scales),  cmocka_unit_test(test_layout),     cmocka_unit_test(test_plotter), cmocka_unit_test(test_clip),
+        cmocka_unit_test(test_builder), cmocka_unit_test(test_not_finite), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_pages),   cmocka_unit_test(test_scales),     cmocka_unit_test(test_layout),
+        cmocka_unit_test(test_plotter), cmocka_unit_test(test_clip),
     };
     return cmocka_run_group_tests_name("sheet", tests, NULL, NULL);
 }

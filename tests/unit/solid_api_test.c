@@ -1,4 +1,5 @@
-/* The public functions for solids: every one of them, what they refuse, ids after removal, memory that is gone, reading trees. */
+/* The public functions for solids: every one of them, what they refuse, ids after removal, memory that is gone,
+ * reading trees. */
 #include "import_support.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ static lmn_scene *with_solid(uint32_t *solid, lmn_operation root)
 
 static uint32_t add(lmn_scene *s, uint32_t solid, uint32_t parent, lmn_shape shape)
 {
-    uint32_t id = 0;
+    uint32_t   id = 0;
     lmn_status status = lmn_solid_add_shape(s, solid, parent, &shape, &id, &error);
     if (status != LMN_OK)
         print_error("%s %s\n", error.message, error.hint);
@@ -71,7 +72,7 @@ static void expect_bounds(const lmn_scene *s, uint32_t solid, uint32_t node, con
     }
 }
 
-#define BOUNDS(s, solid, node, x0, y0, z0, x1, y1, z1)                                                                \
+#define BOUNDS(s, solid, node, x0, y0, z0, x1, y1, z1)                                                                 \
     expect_bounds(s, solid, node, (const double[3]){x0, y0, z0}, (const double[3]){x1, y1, z1})
 
 /* What a refused call must not change. */
@@ -111,16 +112,16 @@ static void expect_refusal(const lmn_scene *s, memory before, lmn_status status,
     memset(&error, 0, sizeof error);
 }
 
-#define REFUSED(s, call) expect_refusal(s, remember(s), call, LMN_USAGE, true)
+#define REFUSED(s, call)         expect_refusal(s, remember(s), call, LMN_USAGE, true)
 #define REFUSED_PLAINLY(s, call) expect_refusal(s, remember(s), call, LMN_USAGE, false)
-#define LIMITED(s, call) expect_refusal(s, remember(s), call, LMN_LIMIT, false)
+#define LIMITED(s, call)         expect_refusal(s, remember(s), call, LMN_LIMIT, false)
 
-/* --- building and parts ------------------------------------------------------------------------------------------------- */
+/* --- building and parts --------------------------------------------------------------------------------- */
 
 static void parts_follow_triangles(void **state)
 {
     (void)state;
-    uint32_t a, b;
+    uint32_t   a, b;
     lmn_scene *s = with_solid(&a, LMN_UNION);
     assert_int_equal(lmn_scene_add_solid(s, "other", LMN_DIFFERENCE, &b, &error), LMN_OK);
     lmn_part_info part;
@@ -154,10 +155,10 @@ static void parts_follow_triangles(void **state)
 static void shapes_have_their_sizes(void **state)
 {
     (void)state;
-    uint32_t solid;
+    uint32_t   solid;
     lmn_scene *s = with_solid(&solid, LMN_UNION);
-    lmn_shape shape = lmn_shape_box(1, 2, 3);
-    uint32_t id = add(s, solid, ROOT, shape);
+    lmn_shape  shape = lmn_shape_box(1, 2, 3);
+    uint32_t   id = add(s, solid, ROOT, shape);
     BOUNDS(s, solid, id, 0, 0, 0, 1, 2, 3);
     shape.centred = true;
     id = add(s, solid, ROOT, shape);
@@ -178,7 +179,7 @@ static void shapes_have_their_sizes(void **state)
     shape.centred = true;
     id = add(s, solid, ROOT, shape);
     BOUNDS(s, solid, id, -3, -3, -2, 3, 3, 2);
-    static const double outline[8][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {1, 3}, {3, 3}, {3, 1}};
+    static const double   outline[8][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {1, 3}, {3, 3}, {3, 1}};
     static const uint32_t sizes[2] = {4, 4};
     shape = lmn_shape_extrusion(outline, 8, 5);
     shape.contour_sizes = sizes;
@@ -203,26 +204,31 @@ static void shapes_have_their_sizes(void **state)
     lmn_scene_destroy(&s);
 }
 
-static const double corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-static const uint32_t outward[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, inward[12] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
+static const double   corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+static const uint32_t outward[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3},
+                      inward[12] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
 static const uint32_t threes[4] = {3, 3, 3, 3};
 
 static void polyhedra_run_either_way(void **state)
 {
     (void)state;
-    uint32_t solid;
-    lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t a = add(s, solid, ROOT, lmn_shape_polyhedron(corners, 4, outward, threes, 4));
-    uint32_t b = add(s, solid, ROOT, lmn_shape_polyhedron(corners, 4, inward, threes, 4));
+    uint32_t          solid;
+    lmn_scene        *s = with_solid(&solid, LMN_UNION);
+    uint32_t          a = add(s, solid, ROOT, lmn_shape_polyhedron(corners, 4, outward, threes, 4));
+    uint32_t          b = add(s, solid, ROOT, lmn_shape_polyhedron(corners, 4, inward, threes, 4));
     const solid_node *nodes = s->solids[0].nodes;
     for (uint32_t i = 0; i < 12; i += 3) {
-        const primitive *p = &s->meshes[nodes[a - 1].mesh].primitives[0], *q = &s->meshes[nodes[b - 1].mesh].primitives[0];
+        const primitive *p = &s->meshes[nodes[a - 1].mesh].primitives[0],
+                        *q = &s->meshes[nodes[b - 1].mesh].primitives[0];
         for (int k = 0; k < 2; k++) {
             const primitive *m = k ? q : p;
-            vec3 o = m->positions[m->indices[i]], u = m->positions[m->indices[i + 1]], v = m->positions[m->indices[i + 2]];
+            vec3             o = m->positions[m->indices[i]], u = m->positions[m->indices[i + 1]],
+                 v = m->positions[m->indices[i + 2]];
             double x[3] = {u.x - o.x, u.y - o.y, u.z - o.z}, y[3] = {v.x - o.x, v.y - o.y, v.z - o.z};
             double away[3] = {o.x - 0.2, o.y - 0.2, o.z - 0.2};
-            assert_true(away[0] * (x[1] * y[2] - x[2] * y[1]) + away[1] * (x[2] * y[0] - x[0] * y[2]) + away[2] * (x[0] * y[1] - x[1] * y[0]) > 0);
+            assert_true(away[0] * (x[1] * y[2] - x[2] * y[1]) + away[1] * (x[2] * y[0] - x[0] * y[2]) +
+                            away[2] * (x[0] * y[1] - x[1] * y[0]) >
+                        0);
         }
     }
     lmn_shape open = lmn_shape_polyhedron(corners, 4, outward, threes, 3);
@@ -245,20 +251,21 @@ static void polyhedra_run_either_way(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- refusals ----------------------------------------------------------------------------------------------------------- */
+/* --- refusals ------------------------------------------------------------------------------------------- */
 
 static void wrong_sizes_are_refused(void **state)
 {
     (void)state;
-    uint32_t solid;
-    lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t kept = add(s, solid, ROOT, box(1));
-    static const double square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, line[3][2] = {{0, 0}, {1, 1}, {2, 2}}, wide[3][2] = {{-1, 0}, {1, 0}, {0, 1}};
-    static const double bad_point[3][2] = {{0, 0}, {INFINITY, 0}, {0, 1}};
+    uint32_t            solid;
+    lmn_scene          *s = with_solid(&solid, LMN_UNION);
+    uint32_t            kept = add(s, solid, ROOT, box(1));
+    static const double square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, line[3][2] = {{0, 0}, {1, 1}, {2, 2}},
+                        wide[3][2] = {{-1, 0}, {1, 0}, {0, 1}};
+    static const double   bad_point[3][2] = {{0, 0}, {INFINITY, 0}, {0, 1}};
     static const uint32_t few[2] = {2, 2}, too_few[1] = {3};
-    const double bad[] = {0, -1, NAN, INFINITY, -INFINITY};
-    lmn_shape shapes[64];
-    size_t count = 0;
+    const double          bad[] = {0, -1, NAN, INFINITY, -INFINITY};
+    lmn_shape             shapes[64];
+    size_t                count = 0;
     for (size_t i = 0; i < 5; i++) {
         shapes[count++] = lmn_shape_box(1, bad[i], 1);
         shapes[count++] = lmn_shape_sphere(bad[i]);
@@ -311,9 +318,9 @@ static void wrong_sizes_are_refused(void **state)
 static void wrong_matrices_and_colours_are_refused(void **state)
 {
     (void)state;
-    uint32_t solid;
-    lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t id = add(s, solid, ROOT, box(1));
+    uint32_t     solid;
+    lmn_scene   *s = with_solid(&solid, LMN_UNION);
+    uint32_t     id = add(s, solid, ROOT, box(1));
     const double good[16] = {2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
     assert_int_equal(lmn_solid_set_matrix(s, solid, id, good, &error), LMN_OK);
     BOUNDS(s, solid, id, 5, 3, 7, 7, 6, 8);
@@ -327,8 +334,10 @@ static void wrong_matrices_and_colours_are_refused(void **state)
         REFUSED_PLAINLY(s, lmn_solid_set_matrix(s, solid, id, m, &error));
     }
     const double flat[16] = {1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1}, zero[16] = {[15] = 1};
-    const double row_major[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, far[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2e18, 0, 0, 1};
-    const double huge[16] = {1e200, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1}, tiny[16] = {1e-9, 0, 0, 0, 0, 1e-9, 0, 0, 0, 0, 1e-9, 0, 0, 0, 0, 1};
+    const double row_major[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                 far[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2e18, 0, 0, 1};
+    const double huge[16] = {1e200, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1},
+                 tiny[16] = {1e-9, 0, 0, 0, 0, 1e-9, 0, 0, 0, 0, 1e-9, 0, 0, 0, 0, 1};
     REFUSED(s, lmn_solid_set_matrix(s, solid, id, flat, &error));
     REFUSED(s, lmn_solid_set_matrix(s, solid, id, zero, &error));
     REFUSED(s, lmn_solid_set_matrix(s, solid, id, row_major, &error));
@@ -352,11 +361,11 @@ static void wrong_matrices_and_colours_are_refused(void **state)
 static void wrong_ids_are_refused(void **state)
 {
     (void)state;
-    uint32_t solid;
-    lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t shape = add(s, solid, ROOT, box(1)), inner = operation(s, solid, ROOT, LMN_UNION);
-    const double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    lmn_shape b = box(1);
+    uint32_t       solid;
+    lmn_scene     *s = with_solid(&solid, LMN_UNION);
+    uint32_t       shape = add(s, solid, ROOT, box(1)), inner = operation(s, solid, ROOT, LMN_UNION);
+    const double   m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    lmn_shape      b = box(1);
     const uint32_t solids[] = {0, solid + 1, UINT32_MAX}, nodes[] = {0, inner + 1, UINT32_MAX};
     for (int i = 0; i < 6; i++) {
         uint32_t a = i < 3 ? solids[i] : solid, n = i < 3 ? ROOT : nodes[i - 3];
@@ -400,9 +409,9 @@ static void wrong_ids_are_refused(void **state)
 static void limits_hold(void **state)
 {
     (void)state;
-    uint32_t solid, id = 0;
+    uint32_t   solid, id = 0;
     lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t group = operation(s, solid, ROOT, LMN_UNION);
+    uint32_t   group = operation(s, solid, ROOT, LMN_UNION);
     add(s, solid, group, box(1));
     for (int i = 0; i < 13; i++) { /* 2 to the power of 13 */
         assert_int_equal(lmn_solid_add_copy(s, solid, ROOT, group, &id, &error), LMN_OK);
@@ -430,7 +439,7 @@ static void limits_hold(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- ids, trees, meshes -------------------------------------------------------------------------------------------------- */
+/* --- ids, trees, meshes --------------------------------------------------------------------------------- */
 
 /* "root(a b(c))" by names. */
 static void print_tree(const lmn_scene *s, uint32_t solid, uint32_t node, text *out)
@@ -469,10 +478,11 @@ static uint32_t named(lmn_scene *s, uint32_t solid, uint32_t parent, const char 
 static void trees_are_edited(void **state)
 {
     (void)state;
-    uint32_t solid;
+    uint32_t   solid;
     lmn_scene *s = with_solid(&solid, LMN_DIFFERENCE);
     assert_int_equal(lmn_solid_set_name(s, solid, ROOT, "r", &error), LMN_OK);
-    uint32_t a = named(s, solid, ROOT, "a", true), g = named(s, solid, ROOT, "g", false), b = named(s, solid, g, "b", true);
+    uint32_t a = named(s, solid, ROOT, "a", true), g = named(s, solid, ROOT, "g", false),
+             b = named(s, solid, g, "b", true);
     uint32_t c = named(s, solid, g, "c", true), h = named(s, solid, ROOT, "h", false);
     expect_tree(s, solid, "r(a g(b c) h)");
     assert_int_equal(lmn_solid_move(s, solid, g, h, 0, &error), LMN_OK); /* a parent that was made later */
@@ -491,7 +501,8 @@ static void trees_are_edited(void **state)
     assert_int_equal(lmn_solid_remove(s, solid, g, &error), LMN_OK);
     expect_tree(s, solid, "r(b h a)");
     lmn_solid_info info;
-    assert_false(lmn_solid_info_of(s, solid, g, &info) || lmn_solid_info_of(s, solid, c, &info) || lmn_solid_info_of(s, solid, copy, &info));
+    assert_false(lmn_solid_info_of(s, solid, g, &info) || lmn_solid_info_of(s, solid, c, &info) ||
+                 lmn_solid_info_of(s, solid, copy, &info));
     REFUSED(s, lmn_solid_remove(s, solid, g, &error));
     uint32_t later = named(s, solid, h, "l", true);
     assert_true(later > copy); /* ids are not given again */
@@ -510,7 +521,7 @@ static void trees_are_edited(void **state)
 static void removed_solids_are_gone(void **state)
 {
     (void)state;
-    uint32_t a, b, c;
+    uint32_t   a, b, c;
     lmn_scene *s = with_solid(&a, LMN_UNION);
     assert_int_equal(lmn_scene_add_solid(s, NULL, LMN_UNION, &b, &error), LMN_OK);
     add(s, a, ROOT, box(1));
@@ -538,9 +549,9 @@ static void removed_solids_are_gone(void **state)
 static void meshes_are_shared_and_freed(void **state)
 {
     (void)state;
-    uint32_t solid, copy;
+    uint32_t   solid, copy;
     lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t a = add(s, solid, ROOT, box(1));
+    uint32_t   a = add(s, solid, ROOT, box(1));
     assert_int_equal(lmn_solid_add_copy(s, solid, ROOT, a, &copy, &error), LMN_OK);
     assert_int_equal(lmn_scene_info_of(s).meshes, 1);
     lmn_shape two = box(2);
@@ -564,9 +575,9 @@ static void meshes_are_shared_and_freed(void **state)
 static void bounds_follow_operations(void **state)
 {
     (void)state;
-    uint32_t solid;
+    uint32_t   solid;
     lmn_scene *s = with_solid(&solid, LMN_UNION);
-    uint32_t a = add(s, solid, ROOT, box(2)), b = add(s, solid, ROOT, box(2));
+    uint32_t   a = add(s, solid, ROOT, box(2)), b = add(s, solid, ROOT, box(2));
     move_to(s, solid, b, 1, 0, 0);
     BOUNDS(s, solid, ROOT, 0, 0, 0, 3, 2, 2);
     assert_int_equal(lmn_solid_set_operation(s, solid, ROOT, LMN_INTERSECTION, &error), LMN_OK);
@@ -586,7 +597,7 @@ static void bounds_follow_operations(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- files -------------------------------------------------------------------------------------------------------------- */
+/* --- files ---------------------------------------------------------------------------------------------- */
 
 static const char *cube_file(const char *name, bool whole)
 {
@@ -598,9 +609,10 @@ static const char *cube_file(const char *name, bool whole)
 static void files_become_nodes(void **state)
 {
     (void)state;
-    static const char csg[] = "difference() { cube(size = [4, 4, 4], center = true); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) "
-                              "{ sphere($fn = 12, r = 2); } color([1, 0, 0, 1]) { sphere($fn = 12, r = 2); } }";
-    uint32_t solid, id;
+    static const char csg[] =
+        "difference() { cube(size = [4, 4, 4], center = true); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) "
+        "{ sphere($fn = 12, r = 2); } color([1, 0, 0, 1]) { sphere($fn = 12, r = 2); } }";
+    uint32_t   solid, id;
     lmn_scene *s = with_solid(&solid, LMN_UNION);
     assert_int_equal(lmn_solid_add_file(s, solid, ROOT, cube_file("cube.obj", true), NULL, &id, &error), LMN_OK);
     assert_string_equal(info_of(s, solid, id).name, "cube");
@@ -614,7 +626,8 @@ static void files_become_nodes(void **state)
     assert_int_equal(lmn_solid_add_file(s, solid, ROOT, cube_file("open.obj", false), NULL, &id, &error), LMN_OK);
     assert_int_equal(s->warnings.count, 1);
     assert_int_equal(s->warnings.items[0].code, WARNING_BAD_GEOMETRY);
-    assert_int_equal(lmn_solid_add_file(s, solid, ROOT, temp_file("tree.csg", csg, sizeof csg - 1), NULL, &id, &error), LMN_OK);
+    assert_int_equal(lmn_solid_add_file(s, solid, ROOT, temp_file("tree.csg", csg, sizeof csg - 1), NULL, &id, &error),
+                     LMN_OK);
     BOUNDS(s, solid, id, -2, -2, -2, 2, 2, 2);
     lmn_solid_info top = info_of(s, solid, id), root = info_of(s, solid, top.first_child);
     assert_int_equal(top.operation, LMN_UNION);
@@ -624,7 +637,8 @@ static void files_become_nodes(void **state)
     size_t meshes = lmn_scene_info_of(s).meshes;
     assert_int_equal(lmn_solid_remove(s, solid, id, &error), LMN_OK);
     assert_int_equal(lmn_scene_info_of(s).meshes, meshes - 2); /* both spheres are one */
-    expect_refusal(s, remember(s), lmn_solid_add_file(s, solid, ROOT, "/nowhere/x.stl", NULL, NULL, &error), LMN_READ, false);
+    expect_refusal(s, remember(s), lmn_solid_add_file(s, solid, ROOT, "/nowhere/x.stl", NULL, NULL, &error), LMN_READ,
+                   false);
     REFUSED_PLAINLY(s, lmn_solid_add_file(s, solid, ROOT, "", NULL, NULL, &error));
     lmn_load_desc wrong = LMN_LOAD_DESC_INIT;
     wrong.struct_size = 0;
@@ -636,8 +650,9 @@ static void files_become_nodes(void **state)
 static void solids_of_files_are_edited(void **state)
 {
     (void)state;
-    static const char csg[] = "union() { cube(size = [1, 1, 1], center = false); cube(size = [2, 1, 1], center = false); }";
-    uint32_t solid;
+    static const char csg[] =
+        "union() { cube(size = [1, 1, 1], center = false); cube(size = [2, 1, 1], center = false); }";
+    uint32_t   solid;
     lmn_scene *s = with_solid(&solid, LMN_UNION);
     add(s, solid, ROOT, box(1));
     assert_int_equal(lmn_scene_add_file(s, temp_file("later.csg", csg, sizeof csg - 1), NULL, &error), LMN_OK);
@@ -659,7 +674,7 @@ static void solids_of_files_are_edited(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- memory ------------------------------------------------------------------------------------------------------------- */
+/* --- memory --------------------------------------------------------------------------------------------- */
 
 typedef lmn_status (*edit)(lmn_scene *s, uint32_t solid, const uint32_t *ids);
 
@@ -727,11 +742,12 @@ static lmn_status edit_file(lmn_scene *s, uint32_t solid, const uint32_t *ids)
 static void failing_edits_change_nothing(void **state)
 {
     (void)state;
-    static const edit edits[] = {edit_add, edit_fill, edit_shape, edit_copy, edit_move, edit_remove, edit_remove_all, edit_name, edit_create, edit_file};
+    static const edit edits[] = {edit_add,    edit_fill,       edit_shape, edit_copy,   edit_move,
+                                 edit_remove, edit_remove_all, edit_name,  edit_create, edit_file};
     static const char csg[] = "union() { cube(size = [1, 1, 1], center = false); sphere($fn = 6, r = 2); }";
     temp_file("small.csg", csg, sizeof csg - 1);
     for (size_t e = 0; e < sizeof edits / sizeof *edits; e++) {
-        uint32_t solid, other, ids[3];
+        uint32_t   solid, other, ids[3];
         lmn_scene *s = with_solid(&solid, LMN_UNION);
         assert_int_equal(lmn_scene_add_solid(s, "empty", LMN_UNION, &other, &error), LMN_OK);
         ids[0] = add(s, solid, ROOT, box(1));
@@ -739,7 +755,7 @@ static void failing_edits_change_nothing(void **state)
         add(s, solid, ids[1], box(3));
         ids[2] = operation(s, solid, ROOT, LMN_UNION);
         lmn_status status = LMN_MEMORY;
-        int failures = 0;
+        int        failures = 0;
         for (long n = 1; status != LMN_OK && n < 5000; n += n < 60 ? 1 : 7) {
             memory before = remember(s);
             mem_fail_at(n);
@@ -763,7 +779,7 @@ static void failing_edits_change_nothing(void **state)
 static void ghosts_follow_edits(void **state)
 {
     (void)state;
-    uint32_t solid;
+    uint32_t   solid;
     lmn_scene *s = with_solid(&solid, LMN_DIFFERENCE);
     add(s, solid, ROOT, box(4));
     assert_int_equal(s->ghost_count, 0);

@@ -1,4 +1,5 @@
-/* The normal form of solids: a tree, its simplified form and its partial products say the same of every point and of every choice of operands. Rows K01, C2. */
+/* The normal form of solids: a tree, its simplified form and its partial products say the same of every point and
+ * of every choice of operands. Rows K01, C2. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,12 +16,18 @@ enum { OPERANDS_MAX = 40 };
 /* A scene with one unit box as its mesh. */
 static lmn_scene *scene_with_box(void)
 {
-    static const vec3 corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-    lmn_scene *scene = scene_new();
-    mesh *m = scene_append_mesh(scene);
-    primitive p = {.vertex_count = 8, .index_count = 36, .material = NONE, .positions = mem_copy(corners, sizeof corners),
-                   .indices = mem_copy(indices, sizeof indices), .bounds = {{0, 0, 0}, {1, 1, 1}}};
+    static const vec3     corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                                         1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    lmn_scene            *scene = scene_new();
+    mesh                 *m = scene_append_mesh(scene);
+    primitive             p = {.vertex_count = 8,
+                               .index_count = 36,
+                               .material = NONE,
+                               .positions = mem_copy(corners, sizeof corners),
+                               .indices = mem_copy(indices, sizeof indices),
+                               .bounds = {{0, 0, 0}, {1, 1, 1}}};
     assert_true(mesh_set_primitives(m, &p, 1));
     return scene;
 }
@@ -110,8 +117,8 @@ typedef struct both {
 
 static void open_both(both *b, uint32_t seed, size_t most)
 {
-    uint32_t random = seed;
-    size_t operands = 0;
+    uint32_t  random = seed;
+    size_t    operands = 0;
     lmn_error error;
     b->scene = scene_with_box();
     b->solid = scene_append_solid(b->scene, SOLID_UNION + (solid_kind)(seed % 3));
@@ -119,7 +126,9 @@ static void open_both(both *b, uint32_t seed, size_t most)
     assert_true(solid_measure(b->scene, b->solid));
     for (int pruned = 0; pruned < 2; pruned++) {
         assert_int_equal(solid_form_create(&b->form[pruned], b->solid, pruned, &error), LMN_OK);
-        assert_int_equal(solid_products_create(&b->products[pruned], &b->form[pruned], b->form[pruned].root, pruned, &error), LMN_OK);
+        assert_int_equal(
+            solid_products_create(&b->products[pruned], &b->form[pruned], b->form[pruned].root, pruned, &error),
+            LMN_OK);
     }
 }
 
@@ -163,10 +172,10 @@ static void test_every_cell_of_the_grid(void **state)
         open_both(&b, seed * 131u, 24);
         for (int cell = 0; cell < 14 * 14 * 14; cell++) {
             const double at[3] = {cell % 14 + 0.5, cell / 14 % 14 + 0.5, cell / 196 + 0.5};
-            bool inside[1024] = {false};
+            bool         inside[1024] = {false};
             for (size_t i = 0; i < b.form[0].operand_count; i++) {
                 const double *m = b.form[0].operands[i].matrix.m;
-                bool holds = true;
+                bool          holds = true;
                 for (int k = 0; k < 3; k++)
                     holds = holds && at[k] > m[12 + k] && at[k] < m[12 + k] + m[5 * k];
                 inside[b.form[0].operands[i].node] = holds;
@@ -189,9 +198,9 @@ static void test_every_cell_of_the_grid(void **state)
 static void test_too_many_products(void **state)
 {
     (void)state;
-    lmn_error error;
+    lmn_error  error;
     lmn_scene *scene = scene_with_box();
-    solid *s = scene_append_solid(scene, SOLID_INTERSECTION);
+    solid     *s = scene_append_solid(scene, SOLID_INTERSECTION);
     for (int i = 0; i < 14; i++) {
         int32_t either = solid_append(s, 0, SOLID_UNION);
         for (int k = 0; k < 2; k++) {
@@ -200,7 +209,7 @@ static void test_too_many_products(void **state)
         }
     }
     assert_true(solid_measure(scene, s));
-    solid_form f;
+    solid_form   f;
     product_list l;
     assert_int_equal(solid_form_create(&f, s, true, &error), LMN_OK);
     assert_int_equal(solid_products_create(&l, &f, f.root, true, &error), LMN_OK);
@@ -215,14 +224,14 @@ static void test_memory(void **state)
 {
     (void)state;
     for (long n = 1; n < 400; n += 7) {
-        uint32_t random = 5;
-        size_t operands = 0;
-        lmn_error error;
+        uint32_t   random = 5;
+        size_t     operands = 0;
+        lmn_error  error;
         lmn_scene *scene = scene_with_box();
-        solid *s = scene_append_solid(scene, SOLID_DIFFERENCE);
+        solid     *s = scene_append_solid(scene, SOLID_DIFFERENCE);
         grow(s, 0, &random, 3, &operands, 12);
         assert_true(solid_measure(scene, s));
-        solid_form f;
+        solid_form   f;
         product_list l = {.count = 0};
         mem_fail_at(n);
         lmn_status status = solid_form_create(&f, s, true, &error);

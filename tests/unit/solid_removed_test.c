@@ -3,13 +3,13 @@
 
 #include <jansson.h>
 
-#define CUBE "cube(size = [10, 10, 10], center = true);"
-#define ROD "cylinder($fn = 8, h = 30, r1 = 2, r2 = 2, center = true);"
-#define BALL "sphere($fn = 8, r = 6);"
-#define AT(x, what) "multmatrix([[1, 0, 0, " #x "], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) { " what " }"
-#define TURNED(what) "multmatrix([[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]) { " what " }"
-#define RED(what) "color([1, 0, 0, 1]) { " what " }"
-#define BLUE(what) "color([0, 0, 1, 1]) { " what " }"
+#define CUBE             "cube(size = [10, 10, 10], center = true);"
+#define ROD              "cylinder($fn = 8, h = 30, r1 = 2, r2 = 2, center = true);"
+#define BALL             "sphere($fn = 8, r = 6);"
+#define AT(x, what)      "multmatrix([[1, 0, 0, " #x "], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) { " what " }"
+#define TURNED(what)     "multmatrix([[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]) { " what " }"
+#define RED(what)        "color([1, 0, 0, 1]) { " what " }"
+#define BLUE(what)       "color([0, 0, 1, 1]) { " what " }"
 #define DIFFERENCE(what) "difference() { " what " }"
 
 static const solid *removed_of(const lmn_scene *s)
@@ -28,16 +28,18 @@ static const solid *removed_of(const lmn_scene *s)
     return &s->solids[n->solid];
 }
 
-/* Each operand of the ghost is one of the solid's: the same mesh in the same place and colour. Returns how many it has. */
+/* Each operand of the ghost is one of the solid's: the same mesh in the same place and colour. Returns how many it
+ * has. */
 static size_t check_operands(const lmn_scene *s)
 {
     solid_operand *whole, *gone;
-    size_t whole_count, gone_count;
+    size_t         whole_count, gone_count;
     assert_true(solid_operands(&s->solids[0], &whole, &whole_count));
     assert_true(solid_operands(removed_of(s), &gone, &gone_count));
     size_t at = 0;
     for (size_t i = 0; i < gone_count; i++) {
-        while (at < whole_count && (whole[at].mesh != gone[i].mesh || memcmp(&whole[at].matrix, &gone[i].matrix, sizeof gone[i].matrix) != 0))
+        while (at < whole_count && (whole[at].mesh != gone[i].mesh ||
+                                    memcmp(&whole[at].matrix, &gone[i].matrix, sizeof gone[i].matrix) != 0))
             at++;
         assert_true(at < whole_count);
         assert_int_equal(whole[at].has_colour, gone[i].has_colour);
@@ -54,7 +56,7 @@ static void nothing_removed_has_no_companion(void **state)
     (void)state;
     static const char *const texts[] = {
         CUBE,
-        "union() { " CUBE ROD " }",
+        "union() { " CUBE        ROD " }",
         "intersection() { " CUBE BALL " }",
         DIFFERENCE(CUBE),
         DIFFERENCE(CUBE "group();"),
@@ -99,19 +101,19 @@ static void subtrees_are_whole_and_in_place(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof trees / sizeof *trees; i++) {
         const tree_case *c = &trees[i];
-        lmn_scene *s = load_text(c->text);
-        const solid *gone = removed_of(s);
-        size_t children = 0, operands = check_operands(s);
+        lmn_scene       *s = load_text(c->text);
+        const solid     *gone = removed_of(s);
+        size_t           children = 0, operands = check_operands(s);
         for (int32_t k = gone->nodes[0].first_child; k != NONE; k = gone->nodes[k].next_sibling)
             children++;
-        box3 b = s->parts[1].bounds;
+        box3         b = s->parts[1].bounds;
         const double low[3] = {b.min.x, b.min.y, b.min.z}, high[3] = {b.max.x, b.max.y, b.max.z};
-        bool good = operands == c->operands && children == c->children;
+        bool         good = operands == c->operands && children == c->children;
         for (int k = 0; k < 3; k++)
             good = good && fabs(low[k] - c->low[k]) < 1e-5 && fabs(high[k] - c->high[k]) < 1e-5;
         if (!good)
-            print_error("%s: %zu operands, %zu children, %g %g %g … %g %g %g\n", c->text, operands, children, low[0], low[1], low[2],
-                        high[0], high[1], high[2]);
+            print_error("%s: %zu operands, %zu children, %g %g %g … %g %g %g\n", c->text, operands, children, low[0],
+                        low[1], low[2], high[0], high[1], high[2]);
         assert_true(good);
         for (size_t k = 1; k < gone->node_count; k++)
             assert_true(gone->nodes[k].parent >= 0 && (size_t)gone->nodes[k].parent < k);
@@ -135,9 +137,9 @@ static void colours_are_handed_down(void **state)
         {RED("union() { " DIFFERENCE(CUBE "union() { " BLUE(ROD) BALL " }") " }"), true, 1, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lmn_scene *s = load_text(cases[i].text);
+        lmn_scene     *s = load_text(cases[i].text);
         solid_operand *o;
-        size_t count;
+        size_t         count;
         check_operands(s);
         assert_true(solid_operands(removed_of(s), &o, &count));
         for (size_t k = 0; k < count; k++) {
@@ -168,9 +170,10 @@ static void ghosts_stand_behind_all_parts(void **state)
 {
     (void)state;
     static const char *const texts[] = {DIFFERENCE(CUBE AT(100, ROD)), CUBE, DIFFERENCE(AT(30, CUBE) ROD ROD)};
-    static const char *const paths[] = {"file0/file0", "file1/file1", "file2/file2", "file0/file0/removed", "file2/file2/removed"};
-    static const int32_t owners[] = {-1, -1, -1, 0, 2};
-    lmn_scene *s = NULL;
+    static const char *const paths[] = {"file0/file0", "file1/file1", "file2/file2", "file0/file0/removed",
+                                        "file2/file2/removed"};
+    static const int32_t     owners[] = {-1, -1, -1, 0, 2};
+    lmn_scene               *s = NULL;
     assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
     for (size_t i = 0; i < 3; i++) {
         char name[16];
@@ -198,12 +201,13 @@ static void ghosts_stand_behind_all_parts(void **state)
 static void info_lists_them_apart(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text(DIFFERENCE(CUBE AT(100, ROD)));
+    lmn_scene     *s = load_text(DIFFERENCE(CUBE AT(100, ROD)));
     lmn_scene_info info = lmn_scene_info_of(s);
-    char *text = lmn_scene_info_json(s);
-    json_t *root = json_loads(text, 0, NULL);
+    char          *text = lmn_scene_info_json(s);
+    json_t        *root = json_loads(text, 0, NULL);
     assert_non_null(root);
-    const json_t *parts = json_object_get(root, "parts"), *removed = json_object_get(root, "removed"), *gone = json_array_get(removed, 0);
+    const json_t *parts = json_object_get(root, "parts"), *removed = json_object_get(root, "removed"),
+                 *gone = json_array_get(removed, 0);
     assert_int_equal(json_array_size(parts), 1);
     assert_int_equal(json_array_size(removed), 1);
     assert_int_equal(json_integer_value(json_object_get(root, "triangles")), info.triangles);
@@ -231,7 +235,8 @@ static void info_lists_them_apart(void **state)
 static void cutters_beyond_all_bounds_are_no_error(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text(DIFFERENCE(CUBE "multmatrix([[1e20, 0, 0, 0], [0, 1e20, 0, 0], [0, 0, 1e20, 2e20], [0, 0, 0, 1]]) { " CUBE " }"));
+    lmn_scene *s = load_text(DIFFERENCE(
+        CUBE "multmatrix([[1e20, 0, 0, 0], [0, 1e20, 0, 0], [0, 0, 1e20, 2e20], [0, 0, 0, 1]]) { " CUBE " }"));
     assert_int_equal(s->part_count, 1);
     assert_int_equal(s->ghost_count, 0);
     lmn_scene_destroy(&s);
@@ -241,8 +246,8 @@ static void memory_may_run_out(void **state)
 {
     (void)state;
     static const char text[] = RED(DIFFERENCE(CUBE AT(1, DIFFERENCE(ROD BALL))));
-    const char *path = temp_file("memory.csg", text, sizeof text - 1);
-    lmn_status status = LMN_MEMORY;
+    const char       *path = temp_file("memory.csg", text, sizeof text - 1);
+    lmn_status        status = LMN_MEMORY;
     for (long n = 1; status != LMN_OK; n++) {
         lmn_scene *s = NULL;
         assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);

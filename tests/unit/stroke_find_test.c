@@ -1,4 +1,5 @@
-/* Which lines are found, what hides them, and how they are chained, against bodies whose answers are known and against rays. */
+/* Which lines are found, what hides them, and how they are chained, against bodies whose answers are known and
+ * against rays. */
 #include "stroke_shapes.h"
 
 static const double origin[3] = {0, 0, 0};
@@ -19,7 +20,7 @@ static void cube_has_six_nine_twelve(void **state)
         lmn_scene *s = stroke_scene_begin();
         add_box(s, -1, -1, -1, 1, 1, 1);
         stroke_camera c = look_along(-1, -1.1, -0.9, origin, 20, perspective ? 0.1 : 2, !perspective, 400, 400);
-        stroke_shot shot = shoot(s, c, all_lines());
+        stroke_shot   shot = shoot(s, c, all_lines());
         assert_int_equal(count_strokes(&shot.set, STROKE_CONTOUR, 0, NULL), 1);
         assert_true(shot.set.strokes[0].closed);
         assert_int_equal(shot.set.strokes[0].count, 7);
@@ -32,7 +33,7 @@ static void cube_has_six_nine_twelve(void **state)
     lmn_scene *s = stroke_scene_begin();
     add_box(s, -1, -1, -1, 1, 1, 1);
     stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 2, true, 400, 400), all_lines());
-    double length;
+    double      length;
     count_strokes(&shot.set, STROKE_CONTOUR, 0, &length);
     assert_true(fabs(length - 6 * 2 * sqrt(2.0 / 3) * 100) < 0.1);
     shot_release(&shot);
@@ -47,14 +48,14 @@ static void plates_are_counted(void **state)
     for (int k = 0; k < 5; k++)
         add_plate(s, -5 + k, -3, 5, 3, k);
     stroke_options w = all_lines();
-    stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 40, 10, true, 1000, 1000), w);
+    stroke_shot    shot = shoot(s, look_along(0, 0, -1, origin, 40, 10, true, 1000, 1000), w);
     /* The rod's upper edges lie above its lower ones exactly; they are its outline. 50 px a unit. */
     double wanted[6] = {3 + 3, 1, 1, 1, 1, 6};
     for (int k = 0; k < 6; k++) {
         double length;
-        bool found = false;
+        bool   found = false;
         for (size_t i = 0; i < shot.set.stroke_count; i++) {
-            const stroke *t = &shot.set.strokes[i];
+            const stroke       *t = &shot.set.strokes[i];
             const stroke_point *p = &shot.set.points[t->first], *q = p + t->count - 1;
             if (t->part != 1 || t->hidden_by != (uint32_t)k || fabs((double)p->y - q->y) > 1e-3)
                 continue;
@@ -75,13 +76,14 @@ static void rims_hide_where_they_are(void **state)
     add_plate(s, -1, -1, 1, 1, 0);
     add_box(s, -6, -0.5, -4, 6, 0.5, -3.99);
     stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 8, 0.8, false, 1000, 1000), all_lines());
-    double half = 1.0 / 8 / 0.8 * 500; /* of the plate on the page: 78.125 px */
-    double depth = 8 + 3.99, edge = 0.5 / depth / 0.8 * 500;
-    size_t found = 0;
+    double      half = 1.0 / 8 / 0.8 * 500; /* of the plate on the page: 78.125 px */
+    double      depth = 8 + 3.99, edge = 0.5 / depth / 0.8 * 500;
+    size_t      found = 0;
     for (size_t i = 0; i < shot.set.stroke_count; i++) {
-        const stroke *t = &shot.set.strokes[i];
+        const stroke       *t = &shot.set.strokes[i];
         const stroke_point *p = &shot.set.points[t->first], *q = p + t->count - 1;
-        if (t->part != 2 || t->hidden_by != 1 || fabs(fabs(p->y - 500.0) - edge) > 0.05 || fabs((double)p->y - q->y) > 0.01)
+        if (t->part != 2 || t->hidden_by != 1 || fabs(fabs(p->y - 500.0) - edge) > 0.05 ||
+            fabs((double)p->y - q->y) > 0.01)
             continue;
         double low = fmin(p->x, q->x), high = fmax(p->x, q->x);
         found += fabs(low - (500 - half)) < 0.02 && fabs(high - (500 + half)) < 0.02;
@@ -99,9 +101,9 @@ static void pieces_that_cross_have_a_line(void **state)
     add_ball(s, 0, 0, 0, 1, 96, 64);
     add_box(s, -2, -2, 0.4, 2, 2, 0.5);
     stroke_options w = all_lines();
-    stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 3, true, 900, 900), w);
-    double length;
-    size_t count = count_strokes(&shot.set, STROKE_INTERSECTION, -1, &length);
+    stroke_shot    shot = shoot(s, look_along(0, 0, -1, origin, 20, 3, true, 900, 900), w);
+    double         length;
+    size_t         count = count_strokes(&shot.set, STROKE_INTERSECTION, -1, &length);
     assert_int_equal(count, 2); /* where the ball enters and where it leaves */
     double wanted = 2 * stroke_pi * (sqrt(1 - 0.16) + sqrt(1 - 0.25)) * 150;
     assert_true(fabs(length - wanted) < 0.005 * wanted);
@@ -127,10 +129,11 @@ static void flush_parts_are_calm(void **state)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
             lmn_scene *s = stroke_scene_begin();
             add_box(s, -3, -3, -1, 3, 3, 0.1);
-            add_box(s, -1, -1, 0.1, 1, 1, 0.7); /* stands on the other one */
+            add_box(s, -1, -1, 0.1, 1, 1, 0.7);   /* stands on the other one */
             add_box(s, -1, -1, 0.7, 0.3, 1, 1.3); /* flush with three faces of the one below */
-            stroke_camera c = look_along(views[v][0], views[v][1], views[v][2], origin, 30, orthographic ? 5 : 0.17, orthographic, 700, 500);
-            stroke_shot shot = shoot(s, c, all_lines());
+            stroke_camera c = look_along(views[v][0], views[v][1], views[v][2], origin, 30, orthographic ? 5 : 0.17,
+                                         orthographic, 700, 500);
+            stroke_shot   shot = shoot(s, c, all_lines());
             assert_int_equal(shot.check.wrong, 0);
             assert_int_equal(count_strokes(&shot.set, STROKE_INTERSECTION, -1, NULL), 0);
             assert_in_range(shot.set.stroke_count, 12, 60);
@@ -161,19 +164,24 @@ static void heaps_agree_with_rays(void **state)
     for (uint32_t seed = 0; seed < 12; seed++) {
         lmn_scene *s = stroke_scene_begin();
         for (uint32_t i = 0; i < 60; i++) {
-            vec3 p[3];
+            vec3           p[3];
             const uint32_t corners[3] = {0, 1, 2};
             for (uint32_t k = 0; k < 3; k++) {
                 uint32_t n = ((seed * 60 + i) * 3 + k) * 3;
-                float reach = i % 7 == 0 ? 6 : 2;
-                p[k] = (vec3){(float)(stroke_random(n) - 0.5) * reach, (float)(stroke_random(n + 1) - 0.5) * reach, (float)(stroke_random(n + 2) - 0.5) * reach};
+                float    reach = i % 7 == 0 ? 6 : 2;
+                p[k] = (vec3){(float)(stroke_random(n) - 0.5) * reach, (float)(stroke_random(n + 1) - 0.5) * reach,
+                              (float)(stroke_random(n + 2) - 0.5) * reach};
             }
             add_part(s, p, 3, corners, 3);
         }
-        bool orthographic = seed % 2;
-        stroke_camera c = look_along(stroke_random(seed * 31) - 0.5, stroke_random(seed * 31 + 1) - 0.5, stroke_random(seed * 31 + 2) - 0.5, origin, seed % 3 ? 20 : 1.5,
-                                     orthographic ? 4 : seed % 3 ? 0.2 : 1, orthographic, 640, 480);
-        stroke_shot shot = shoot(s, c, all_lines());
+        bool          orthographic = seed % 2;
+        stroke_camera c = look_along(stroke_random(seed * 31) - 0.5, stroke_random(seed * 31 + 1) - 0.5,
+                                     stroke_random(seed * 31 + 2) - 0.5, origin, seed % 3 ? 20 : 1.5,
+                                     orthographic ? 4
+                                     : seed % 3   ? 0.2
+                                                  : 1,
+                                     orthographic, 640, 480);
+        stroke_shot   shot = shoot(s, c, all_lines());
         samples += shot.check.samples;
         assert_int_equal(shot.check.wrong, 0);
         assert_true(shot.check.miscounted * 50 <= shot.check.samples); /* counts that change from pixel to pixel */
@@ -191,7 +199,7 @@ static void eye_may_be_inside(void **state)
     add_box(s, 2, -1, -2, 3, 1, 0);
     add_box(s, 6, -1, -2, 7, 1, 0); /* outside */
     stroke_camera c = look_along(1, 0.1, -0.1, origin, 1, 0.6, false, 800, 600);
-    stroke_shot shot = shoot(s, c, all_lines());
+    stroke_shot   shot = shoot(s, c, all_lines());
     assert_int_equal(shot.check.wrong, 0);
     for (size_t i = 0; i < shot.set.stroke_count; i++)
         assert_true(shot.set.strokes[i].part != 3 || shot.set.strokes[i].hidden_by > 0);
@@ -215,9 +223,9 @@ static void same_call_same_strokes(void **state)
     lmn_scene *s = stroke_scene_begin();
     add_ball(s, 0, 0, 0, 1, 60, 40);
     add_ball(s, 0.7, 0.2, 0.4, 1, 50, 30);
-    stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
+    stroke_shot    shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
     stroke_options w = all_lines();
-    stroke_set again;
+    stroke_set     again;
     assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
     assert_int_equal(stroke_find(&again, shot.view, &w, NULL, NULL, NULL, NULL), LMN_OK);
     assert_true(sets_are_equal(&shot.set, &again));
@@ -225,7 +233,8 @@ static void same_call_same_strokes(void **state)
     shot_release(&shot);
 }
 
-/* Normals of crossing surfaces look out of what they enclose, whichever way round corners and axes are; an open plate encloses nothing. */
+/* Normals of crossing surfaces look out of what they enclose, whichever way round corners and axes are; an open
+ * plate encloses nothing. */
 static void crossings_look_outwards(void **state)
 {
     (void)state;
@@ -237,19 +246,21 @@ static void crossings_look_outwards(void **state)
     add_plate(s, -2, -2, 2, 2, 0.1);
     stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
     assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
-    const double boxes[3][6] = {{-1, -1, -1, 1, 1, 1}, {0.5, 0.2, -0.6, 2.5, 1.5, 1.4}, {-0.5, -1.4, 0.2, 0.6, -0.6, 2.5}};
+    const double boxes[3][6] = {
+        {-1, -1, -1, 1, 1, 1}, {0.5, 0.2, -0.6, 2.5, 1.5, 1.4}, {-0.5, -1.4, 0.2, 0.6, -0.6, 2.5}};
     size_t on_box[3] = {0}, open = 0;
     for (size_t i = 0; i < stroke_scene_crossing_count(shot.scene); i++) {
         double ends[2][3];
-        vec3 outward[2];
+        vec3   outward[2];
         stroke_scene_crossing(shot.scene, i, ends, outward);
         for (int k = 0; k < 2; k++) {
             const double n[3] = {(double)outward[k].x, (double)outward[k].y, (double)outward[k].z};
-            size_t fitting = 0;
+            size_t       fitting = 0;
             for (int b = 0; b < 3; b++) {
                 bool out = false, in = true;
                 for (int axis = 0; axis < 3; axis++) {
-                    double middle = (ends[0][axis] + ends[1][axis]) / 2, before = middle - 1e-3 * n[axis], beyond = middle + 1e-3 * n[axis];
+                    double middle = (ends[0][axis] + ends[1][axis]) / 2, before = middle - 1e-3 * n[axis],
+                           beyond = middle + 1e-3 * n[axis];
                     in = in && before >= boxes[b][axis] && before <= boxes[b][axis + 3];
                     out = out || beyond < boxes[b][axis] - 1e-4 || beyond > boxes[b][axis + 3] + 1e-4;
                 }
@@ -272,7 +283,7 @@ static void chains_end_at_corners(void **state)
     lmn_scene *s = stroke_scene_begin();
     add_box(s, -1, -1, -1, 1, 1, 1);
     add_ball(s, 5, 0, 0, 1, 48, 32);
-    double at[3] = {2, 0, 0};
+    double      at[3] = {2, 0, 0};
     stroke_shot shot = shoot(s, look_along(-1, -1.2, -0.7, at, 30, 5, true, 1000, 600), all_lines());
     for (size_t i = 0; i < shot.set.stroke_count; i++) {
         const stroke *t = &shot.set.strokes[i];
@@ -305,7 +316,8 @@ static void arcs_run_on(void **state)
         const stroke *next = t + 1;
         if (i + 1 < shot.set.stroke_count && next->chain == t->chain && next->hidden_by != t->hidden_by) {
             const stroke_point *end = &shot.set.points[t->first + t->count - 1], *begin = &shot.set.points[next->first];
-            assert_true(fabs((double)end->arc - begin->arc) < 1e-3 && hypot((double)end->x - begin->x, (double)end->y - begin->y) < 1e-3);
+            assert_true(fabs((double)end->arc - begin->arc) < 1e-3 &&
+                        hypot((double)end->x - begin->x, (double)end->y - begin->y) < 1e-3);
         }
     }
     shot_release(&shot);
@@ -316,14 +328,15 @@ static void phases_follow(void **state)
 {
     (void)state;
     stroke_set before = {0};
-    double worst = 0;
-    size_t known = 0, all = 0;
+    double     worst = 0;
+    size_t     known = 0, all = 0;
     for (int frame = 0; frame < 20; frame++) {
         lmn_scene *s = stroke_scene_begin();
         add_box(s, -1, -1, -1, 1, 1, 1);
         add_ball(s, 2.2, 0, 0, 1, 64, 48);
-        double turn = 0.4 + frame * 0.005;
-        stroke_shot shot = shoot(s, look_along(-cos(turn), -sin(turn), -0.5, origin, 20, 3, true, 800, 800), all_lines());
+        double      turn = 0.4 + frame * 0.005;
+        stroke_shot shot =
+            shoot(s, look_along(-cos(turn), -sin(turn), -0.5, origin, 20, 3, true, 800, 800), all_lines());
         stroke_follow(&shot.set, &before);
         for (size_t i = 0; frame && i < shot.set.mark_count; i++)
             for (size_t k = 0; k < before.mark_count; k++) {
@@ -338,8 +351,11 @@ static void phases_follow(void **state)
                 for (size_t n = 0; n < before.stroke_count; n++)
                     phases[1] = before.strokes[n].chain == before.marks[k].chain ? before.strokes[n].phase : phases[1];
                 double moved = phases[0] + shot.set.marks[i].arc - phases[1] - before.marks[k].arc;
-                worst = fmax(worst, fabs(moved - (length > 0 ? length * round(moved / length) : 0))); /* closed chains come round again */
-                if (getenv("SHOW") && fabs(moved - (length > 0 ? length * round(moved / length) : 0)) > 12) printf("frame %d moved %.1f length %.1f arc %.1f was %.1f phases %.1f %.1f\n", frame, moved, length, shot.set.marks[i].arc, before.marks[k].arc, phases[0], phases[1]);
+                worst = fmax(worst, fabs(moved - (length > 0 ? length * round(moved / length)
+                                                             : 0))); /* closed chains come round again */
+                if (getenv("SHOW") && fabs(moved - (length > 0 ? length * round(moved / length) : 0)) > 12)
+                    printf("frame %d moved %.1f length %.1f arc %.1f was %.1f phases %.1f %.1f\n", frame, moved, length,
+                           shot.set.marks[i].arc, before.marks[k].arc, phases[0], phases[1]);
                 known++;
             }
         all += shot.set.mark_count;
@@ -360,12 +376,12 @@ static void lines_on_lines_are_left_out(void **state)
     for (int crowd = 0; crowd < 2; crowd++) {
         lmn_scene *s = stroke_scene_begin();
         add_plate(s, -2, -2, 2, 2, 0);
-        add_plate(s, -2, -2, 2, 2, -1); /* right below */
+        add_plate(s, -2, -2, 2, 2, -1);    /* right below */
         add_plate(s, -3, -0.5, 3, 0.5, 1); /* across */
         stroke_options w = all_lines();
         w.crowd = crowd ? 0.75f : 0;
         stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
-        double hidden, visible;
+        double      hidden, visible;
         count_strokes(&shot.set, STROKE_BORDER, -2, &hidden);
         count_strokes(&shot.set, STROKE_BORDER, 0, &visible);
         assert_true(fabs(visible - (14 * 100 + (16 - 2) * 100)) < 2);
@@ -377,20 +393,21 @@ static void lines_on_lines_are_left_out(void **state)
 static void bad_meshes_are_drawn(void **state)
 {
     (void)state;
-    lmn_scene *s = stroke_scene_begin();
-    vec3 p[9] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, 1, 1.5f}, {1, 1, -1.5f}, {3, 1, 0.5f}, {1, 1, 0}};
-    const uint32_t corners[] = {0, 1, 2, 0, 2, 3,  /* a square */
-                                0, 1, 2, 2, 1, 0,  /* the same triangle again, and turned round */
+    lmn_scene     *s = stroke_scene_begin();
+    vec3           p[9] = {{0, 0, 0},    {2, 0, 0},     {2, 2, 0},    {0, 2, 0}, {1, 0, 0},
+                           {1, 1, 1.5f}, {1, 1, -1.5f}, {3, 1, 0.5f}, {1, 1, 0}};
+    const uint32_t corners[] = {0, 1, 2, 0, 2, 3,          /* a square */
+                                0, 1, 2, 2, 1, 0,          /* the same triangle again, and turned round */
                                 0, 2, 5, 0, 2, 6, 0, 2, 7, /* five triangles at one edge */
-                                0, 4, 5, 4, 1, 5,  /* T-junction: 4 lies on 0–1 */
-                                8, 8, 1, 0, 4, 1}; /* no area */
+                                0, 4, 5, 4, 1, 5,          /* T-junction: 4 lies on 0–1 */
+                                8, 8, 1, 0, 4, 1};         /* no area */
     add_part(s, p, 9, corners, sizeof corners / sizeof *corners);
     stroke_shot shot = shoot(s, look_along(-1, -0.6, -0.8, origin, 20, 3, true, 500, 500), all_lines());
     assert_int_equal(shot.check.wrong, 0);
     assert_in_range(shot.set.stroke_count, 8, 40);
     shot_release(&shot);
     s = stroke_scene_begin();
-    vec3 speck[3] = {{0, 0, 0}, {1e-6f, 0, 0}, {0, 1e-6f, 0}};
+    vec3           speck[3] = {{0, 0, 0}, {1e-6f, 0, 0}, {0, 1e-6f, 0}};
     const uint32_t one[3] = {0, 1, 2};
     add_part(s, speck, 3, one, 3);
     shot = shoot(s, look_along(-1, -0.6, -0.8, origin, 20, 3, true, 500, 500), all_lines());
@@ -409,13 +426,13 @@ static void memory_may_run_out(void **state)
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
     assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
-    stroke_camera c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
+    stroke_camera  c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_options w = all_lines();
-    bool done = false;
+    bool           done = false;
     for (long n = 1; n < 400 && !done; n++) {
         stroke_scene scene;
         stroke_view *view = NULL;
-        stroke_set set;
+        stroke_set   set;
         mem_fail_at(n);
         lmn_status status = stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error);
         if (status == LMN_OK) {
@@ -452,12 +469,12 @@ static void work_can_be_cancelled(void **state)
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
     assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
-    stroke_camera c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
+    stroke_camera  c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_options w = all_lines();
-    stroke_scene scene;
-    stroke_view *view;
-    stroke_set set;
-    int calls = 1;
+    stroke_scene   scene;
+    stroke_view   *view;
+    stroke_set     set;
+    int            calls = 1;
     assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, stop_at_once, &calls, &error), LMN_CANCELLED);
     assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
     calls = 1;
@@ -476,11 +493,23 @@ static void work_can_be_cancelled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cube_has_six_nine_twelve), cmocka_unit_test(plates_are_counted),      cmocka_unit_test(rims_hide_where_they_are),
-        cmocka_unit_test(pieces_that_cross_have_a_line), cmocka_unit_test(flush_parts_are_calm), cmocka_unit_test(coplanar_plates_do_not_hide),
-        cmocka_unit_test(heaps_agree_with_rays),    cmocka_unit_test(eye_may_be_inside),       cmocka_unit_test(same_call_same_strokes), cmocka_unit_test(crossings_look_outwards),
-        cmocka_unit_test(chains_end_at_corners),    cmocka_unit_test(arcs_run_on),             cmocka_unit_test(phases_follow),
-        cmocka_unit_test(lines_on_lines_are_left_out), cmocka_unit_test(bad_meshes_are_drawn), cmocka_unit_test(memory_may_run_out),      cmocka_unit_test(work_can_be_cancelled),
+        cmocka_unit_test(cube_has_six_nine_twelve),
+        cmocka_unit_test(plates_are_counted),
+        cmocka_unit_test(rims_hide_where_they_are),
+        cmocka_unit_test(pieces_that_cross_have_a_line),
+        cmocka_unit_test(flush_parts_are_calm),
+        cmocka_unit_test(coplanar_plates_do_not_hide),
+        cmocka_unit_test(heaps_agree_with_rays),
+        cmocka_unit_test(eye_may_be_inside),
+        cmocka_unit_test(same_call_same_strokes),
+        cmocka_unit_test(crossings_look_outwards),
+        cmocka_unit_test(chains_end_at_corners),
+        cmocka_unit_test(arcs_run_on),
+        cmocka_unit_test(phases_follow),
+        cmocka_unit_test(lines_on_lines_are_left_out),
+        cmocka_unit_test(bad_meshes_are_drawn),
+        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(work_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,13 +12,15 @@
 #include "scene/scene.h"
 #include "stroke_shapes.h"
 
-static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                                   {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
 /* Each side of the cube as two triangles, anticlockwise from outside. */
-static const uint32_t sides[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+static const uint32_t sides[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                   2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
 
 static void make_edges(edge_mesh *out, uint32_t corners, bool turned)
 {
-    uint32_t indices[36];
+    uint32_t  indices[36];
     lmn_error error = {0};
     memcpy(indices, sides, sizeof indices);
     for (uint32_t i = 0; i < corners && turned; i += 3) {
@@ -26,8 +28,12 @@ static void make_edges(edge_mesh *out, uint32_t corners, bool turned)
         indices[i + 1] = indices[i + 2];
         indices[i + 2] = kept;
     }
-    primitive p = {.vertex_count = 8, .positions = (vec3 *)(uintptr_t)places, .index_count = corners, .indices = indices, .material = NONE};
-    mesh m = {.primitives = &p, .primitive_count = 1};
+    primitive p = {.vertex_count = 8,
+                   .positions = (vec3 *)(uintptr_t)places,
+                   .index_count = corners,
+                   .indices = indices,
+                   .material = NONE};
+    mesh      m = {.primitives = &p, .primitive_count = 1};
     assert_int_equal(edge_mesh_create(out, &m, NULL, 0.5, &error), LMN_OK);
 }
 
@@ -79,14 +85,24 @@ static void test_triangle(void **state)
 static void test_creases_come_first(void **state)
 {
     (void)state;
-    mesh_edge edges[3] = {{{0, 1}, {0, 1}, EDGE_CANDIDATE}, {{1, 2}, {0, 1}, EDGE_CREASE}, {{2, 3}, {0, 1}, EDGE_CANDIDATE}};
-    vec3 normals[2] = {{0, 0, 1}, {0, 1, 0}};
-    uint32_t faces[2][3] = {{0, 1, 2}, {1, 2, 3}}, pieces[2] = {0, 0};
-    bool closed = false;
-    box3 box = {.min = {0, 0, 0}, .max = {1, 1, 1}};
-    edge_mesh m = {.vertex_count = 8, .face_count = 2, .edge_count = 3, .piece_count = 1, .places = (vec3 *)(uintptr_t)places, .faces = faces, .normals = normals,
-                   .edges = edges, .pieces = pieces, .closed = &closed, .boxes = &box};
-    float *records = strokes_edge_records(&m);
+    mesh_edge edges[3] = {
+        {{0, 1}, {0, 1}, EDGE_CANDIDATE}, {{1, 2}, {0, 1}, EDGE_CREASE}, {{2, 3}, {0, 1}, EDGE_CANDIDATE}};
+    vec3      normals[2] = {{0, 0, 1}, {0, 1, 0}};
+    uint32_t  faces[2][3] = {{0, 1, 2}, {1, 2, 3}}, pieces[2] = {0, 0};
+    bool      closed = false;
+    box3      box = {.min = {0, 0, 0}, .max = {1, 1, 1}};
+    edge_mesh m = {.vertex_count = 8,
+                   .face_count = 2,
+                   .edge_count = 3,
+                   .piece_count = 1,
+                   .places = (vec3 *)(uintptr_t)places,
+                   .faces = faces,
+                   .normals = normals,
+                   .edges = edges,
+                   .pieces = pieces,
+                   .closed = &closed,
+                   .boxes = &box};
+    float    *records = strokes_edge_records(&m);
     assert_int_equal((int)records[3], RECORD_CREASE | RECORD_PAIR);
     assert_int_equal((int)records[EDGE_RECORD_FLOATS + 3], RECORD_PAIR);
     assert_int_equal((int)records[2 * EDGE_RECORD_FLOATS + 3], RECORD_PAIR);
@@ -102,7 +118,8 @@ static void test_crossings(void **state)
     add_box(s, 0, 0, 0, 2, 2, 2);
     add_plate(s, -2, -2, 2, 2, 0.5);
     const double from[3] = {0, 0, 0};
-    stroke_shot shot = shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_options){.contours = CONTOURS_EDGES});
+    stroke_shot  shot =
+        shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_options){.contours = CONTOURS_EDGES});
     assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
     size_t all = stroke_scene_crossing_count(shot.scene), found = 0;
     assert_true(all > 10);
@@ -132,15 +149,17 @@ static void test_crossings(void **state)
 static void test_ribbons(void **state)
 {
     (void)state;
-    ribbon_point points[6] = {{10, 20, 0.5f, 7, 1, 1}, {20, 20, 0.6f, 17, 2, 0.5f}, {20, 30, 0.7f, 27, 1, 0}, {5, 6, 0.1f, 0, 3, 1}, {0, 0, 0, 0, 1, 1}, {1, 0, 0, 1, 1, 1}};
-    ribbon ribbons[3] = {{.kind = STROKE_CREASE, .first = 0, .count = 3, .end = RIBBON_BUTT, .brush = BRUSH_PENCIL},
-                         {.kind = STROKE_CONTOUR, .first = 3, .count = 1},
-                         {.kind = STROKE_CONTOUR, .first = 4, .count = 2, .hidden_by = 1}};
+    ribbon_point points[6] = {{10, 20, 0.5f, 7, 1, 1}, {20, 20, 0.6f, 17, 2, 0.5f}, {20, 30, 0.7f, 27, 1, 0},
+                              {5, 6, 0.1f, 0, 3, 1},   {0, 0, 0, 0, 1, 1},          {1, 0, 0, 1, 1, 1}};
+    ribbon     ribbons[3] = {{.kind = STROKE_CREASE, .first = 0, .count = 3, .end = RIBBON_BUTT, .brush = BRUSH_PENCIL},
+                             {.kind = STROKE_CONTOUR, .first = 3, .count = 1},
+                             {.kind = STROKE_CONTOUR, .first = 4, .count = 2, .hidden_by = 1}};
     ribbon_set set = {.ribbons = ribbons, .points = points, .ribbon_count = 3, .point_count = 6};
-    size_t count;
-    float *records = strokes_ribbon_records(&set, 100, &count);
+    size_t     count;
+    float     *records = strokes_ribbon_records(&set, 100, &count);
     assert_int_equal(count, 4);
-    const float first[RIBBON_RECORD_FLOATS - 1] = {10, 80, 0.5f, 1, 20, 80, 0.6f, 2, 1, 0.5f, 1, 1 + 4 * BRUSH_PENCIL, 0, 10, 20};
+    const float first[RIBBON_RECORD_FLOATS - 1] = {10, 80, 0.5f, 1, 20, 80, 0.6f, 2, 1, 0.5f, 1, 1 + 4 * BRUSH_PENCIL,
+                                                   0,  10, 20};
     assert_memory_equal(records, first, sizeof first);
     assert_true(records[RIBBON_RECORD_FLOATS + 11] == 2 + 4 * BRUSH_PENCIL && records[RIBBON_RECORD_FLOATS + 13] == 20);
     const float *dot = records + 2 * RIBBON_RECORD_FLOATS, *hidden = records + 3 * RIBBON_RECORD_FLOATS;
@@ -152,9 +171,9 @@ static void test_ribbons(void **state)
 static void test_without_memory(void **state)
 {
     (void)state;
-    edge_mesh m;
+    edge_mesh  m;
     ribbon_set none = {0};
-    size_t count;
+    size_t     count;
     make_edges(&m, 36, false);
     for (long n = 1; n <= 2; n++) {
         mem_fail_at(n);
@@ -185,11 +204,19 @@ static void test_what_needs_chains(void **state)
 static void test_style(void **state)
 {
     (void)state;
-    strokes_values v = {.common = {.colour = {1, 0, 0, 1}, .inner_colour = {0, 1, 0, 1}, .id_colour = {0, 0, 1, 1}, .width = 3, .dash = 4, .gap = 5, .overshoot = 6, .halo = 7},
+    strokes_values v = {.common = {.colour = {1, 0, 0, 1},
+                                   .inner_colour = {0, 1, 0, 1},
+                                   .id_colour = {0, 0, 1, 1},
+                                   .width = 3,
+                                   .dash = 4,
+                                   .gap = 5,
+                                   .overshoot = 6,
+                                   .halo = 7},
                         .style = {.hidden = HIDDEN_DASHED}};
-    stroke_style s = strokes_style_of(&v);
+    stroke_style   s = strokes_style_of(&v);
     assert_true(s.width == 3 && s.dash == 4 && s.gap == 5 && s.overshoot == 6 && s.halo == 7);
-    assert_true(s.colours[STROKE_CONTOUR].r == 1 && s.colours[STROKE_BORDER].r == 1 && s.colours[STROKE_CREASE].g == 1 && s.colours[STROKE_VALLEY].g == 1 &&
+    assert_true(s.colours[STROKE_CONTOUR].r == 1 && s.colours[STROKE_BORDER].r == 1 &&
+                s.colours[STROKE_CREASE].g == 1 && s.colours[STROKE_VALLEY].g == 1 &&
                 s.colours[STROKE_INTERSECTION].b == 1 && s.colours[STROKE_MATERIAL].b == 1);
     assert_true(strokes_options_of(&v).hidden);
 }
@@ -197,9 +224,14 @@ static void test_style(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube),           cmocka_unit_test(test_triangle), cmocka_unit_test(test_crossings), cmocka_unit_test(test_creases_come_first),
-        cmocka_unit_test(test_ribbons),        cmocka_unit_test(test_without_memory),
-        cmocka_unit_test(test_what_needs_chains), cmocka_unit_test(test_style),
+        cmocka_unit_test(test_cube),
+        cmocka_unit_test(test_triangle),
+        cmocka_unit_test(test_crossings),
+        cmocka_unit_test(test_creases_come_first),
+        cmocka_unit_test(test_ribbons),
+        cmocka_unit_test(test_without_memory),
+        cmocka_unit_test(test_what_needs_chains),
+        cmocka_unit_test(test_style),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

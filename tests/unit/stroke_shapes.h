@@ -19,7 +19,8 @@ static inline double stroke_random(uint32_t n)
 }
 
 /* Adds a part of triangles. */
-static inline void add_part(lmn_scene *s, const vec3 *places, uint32_t place_count, const uint32_t *corners, uint32_t corner_count)
+static inline void add_part(lmn_scene *s, const vec3 *places, uint32_t place_count, const uint32_t *corners,
+                            uint32_t corner_count)
 {
     primitive p = {.vertex_count = place_count, .index_count = corner_count, .material = NONE};
     p.positions = mem_copy(places, place_count * sizeof *places);
@@ -36,14 +37,18 @@ static inline void add_box(lmn_scene *s, double x0, double y0, double z0, double
     vec3 places[8];
     for (int k = 0; k < 8; k++)
         places[k] = (vec3){(float)(k & 1 ? x1 : x0), (float)(k & 2 ? y1 : y0), (float)(k & 4 ? z1 : z0)};
-    const uint32_t corners[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+    const uint32_t corners[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                  2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
     add_part(s, places, 8, corners, 36);
 }
 
 /* An open plate at a height, its face up. */
 static inline void add_plate(lmn_scene *s, double x0, double y0, double x1, double y1, double z)
 {
-    vec3 places[4] = {{(float)x0, (float)y0, (float)z}, {(float)x1, (float)y0, (float)z}, {(float)x1, (float)y1, (float)z}, {(float)x0, (float)y1, (float)z}};
+    vec3           places[4] = {{(float)x0, (float)y0, (float)z},
+                                {(float)x1, (float)y0, (float)z},
+                                {(float)x1, (float)y1, (float)z},
+                                {(float)x0, (float)y1, (float)z}};
     const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
     add_part(s, places, 4, corners, 6);
 }
@@ -51,8 +56,8 @@ static inline void add_plate(lmn_scene *s, double x0, double y0, double x1, doub
 /* A ball of rings and columns; poles are fans. */
 static inline void add_ball(lmn_scene *s, double x, double y, double z, double radius, uint32_t columns, uint32_t rings)
 {
-    uint32_t count = columns * (rings - 1) + 2, k = 0;
-    vec3 *places = mem_alloc(count * sizeof *places);
+    uint32_t  count = columns * (rings - 1) + 2, k = 0;
+    vec3     *places = mem_alloc(count * sizeof *places);
     uint32_t *corners = mem_alloc((size_t)columns * (rings - 1) * 6 * sizeof *corners);
     places[0] = (vec3){(float)x, (float)y, (float)(z - radius)};
     places[count - 1] = (vec3){(float)x, (float)y, (float)(z + radius)};
@@ -60,15 +65,16 @@ static inline void add_ball(lmn_scene *s, double x, double y, double z, double r
         for (uint32_t c = 0; c < columns; c++) {
             double polar = stroke_pi * r / rings - stroke_pi / 2, turn = 2 * stroke_pi * c / columns;
             places[1 + (r - 1) * columns + c] =
-                (vec3){(float)(x + radius * cos(polar) * cos(turn)), (float)(y + radius * cos(polar) * sin(turn)), (float)(z + radius * sin(polar))};
+                (vec3){(float)(x + radius * cos(polar) * cos(turn)), (float)(y + radius * cos(polar) * sin(turn)),
+                       (float)(z + radius * sin(polar))};
         }
     for (uint32_t c = 0; c < columns; c++) {
-        uint32_t d = (c + 1) % columns, top = 1 + (rings - 2) * columns;
+        uint32_t       d = (c + 1) % columns, top = 1 + (rings - 2) * columns;
         const uint32_t ends[6] = {0, 1 + d, 1 + c, count - 1, top + c, top + d};
         memcpy(corners + k, ends, sizeof ends);
         k += 6;
         for (uint32_t r = 0; r + 2 < rings; r++) {
-            uint32_t a = 1 + r * columns;
+            uint32_t       a = 1 + r * columns;
             const uint32_t quad[6] = {a + c, a + d, a + columns + d, a + c, a + columns + d, a + columns + c};
             memcpy(corners + k, quad, sizeof quad);
             k += 6;
@@ -87,18 +93,26 @@ static inline lmn_scene *stroke_scene_begin(void)
     return s;
 }
 
-/* A camera that looks along a direction at a point; half of what it sees upwards in parallel projection, tangent of half the angle otherwise. */
-static inline stroke_camera look_along(double x, double y, double z, const double at[3], double distance, double half, bool orthographic, int width, int height)
+/* A camera that looks along a direction at a point; half of what it sees upwards in parallel projection, tangent of
+ * half the angle otherwise. */
+static inline stroke_camera look_along(double x, double y, double z, const double at[3], double distance, double half,
+                                       bool orthographic, int width, int height)
 {
     double length = sqrt(x * x + y * y + z * z), back[3] = {-x / length, -y / length, -z / length};
     double up[3] = {0, fabs(back[2]) > 0.99 ? 1 : 0, fabs(back[2]) > 0.99 ? 0 : 1};
-    double right[3] = {up[1] * back[2] - up[2] * back[1], up[2] * back[0] - up[0] * back[2], up[0] * back[1] - up[1] * back[0]};
+    double right[3] = {up[1] * back[2] - up[2] * back[1], up[2] * back[0] - up[0] * back[2],
+                       up[0] * back[1] - up[1] * back[0]};
     double r = sqrt(right[0] * right[0] + right[1] * right[1] + right[2] * right[2]);
     for (int k = 0; k < 3; k++)
         right[k] /= r;
-    double over[3] = {back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]};
+    double        over[3] = {back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+                             back[0] * right[1] - back[1] * right[0]};
     const double *rows[3] = {right, over, back};
-    stroke_camera c = {.view = mat4_identity(), .near = distance * 0.01, .orthographic = orthographic, .width = width, .height = height};
+    stroke_camera c = {.view = mat4_identity(),
+                       .near = distance * 0.01,
+                       .orthographic = orthographic,
+                       .width = width,
+                       .height = height};
     for (int i = 0; i < 3; i++) {
         double moved = 0;
         for (int k = 0; k < 3; k++) {
@@ -125,18 +139,18 @@ static inline stroke_camera look_along(double x, double y, double z, const doubl
 
 /* A scene, what a camera sees of it, and its strokes. */
 typedef struct stroke_shot {
-    lmn_scene   *source;
+    lmn_scene    *source;
     stroke_scene *scene;
-    stroke_view *view;
-    stroke_set   set;
-    stroke_check check; /* of the set */
+    stroke_view  *view;
+    stroke_set    set;
+    stroke_check  check; /* of the set */
 } stroke_shot;
 
 /* Finds the strokes of a scene, which is freed with the shot, and holds them against rays. */
 static inline stroke_shot shoot(lmn_scene *s, stroke_camera camera, stroke_options options)
 {
     stroke_shot out = {.source = s};
-    lmn_error error = {0};
+    lmn_error   error = {0};
     if (!s->part_count)
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
@@ -159,7 +173,8 @@ static inline void shot_release(stroke_shot *s)
     scene_free(s->source);
 }
 
-/* Strokes of a class (STROKE_CLASS_COUNT: any) with this many surfaces in front (−1: any number, −2: hidden); their length in pixels. */
+/* Strokes of a class (STROKE_CLASS_COUNT: any) with this many surfaces in front (−1: any number, −2: hidden); their
+ * length in pixels. */
 static inline size_t count_strokes(const stroke_set *set, int kind, int hidden_by, double *length)
 {
     size_t count = 0;

@@ -15,7 +15,7 @@
 static lmn_strokes *create(const lmn_pattern_desc *desc)
 {
     lmn_strokes *s = NULL;
-    lmn_error error = {0};
+    lmn_error    error = {0};
     if (lmn_strokes_create(&s, desc, &error) != LMN_OK)
         fail_msg("%s", error.message);
     return s;
@@ -24,7 +24,7 @@ static lmn_strokes *create(const lmn_pattern_desc *desc)
 static void refuse_desc(lmn_pattern_desc desc, lmn_status status, const char *message)
 {
     lmn_strokes *s = (lmn_strokes *)&desc;
-    lmn_error error = {0};
+    lmn_error    error = {0};
     assert_int_equal(lmn_strokes_create(&s, &desc, &error), status);
     assert_non_null(strstr(error.message, message));
     assert_null(s);
@@ -33,8 +33,8 @@ static void refuse_desc(lmn_pattern_desc desc, lmn_status status, const char *me
 static void test_create(void **state)
 {
     const lmn_pattern_desc good = LMN_PATTERN_DESC_INIT;
-    lmn_pattern_desc desc = good;
-    lmn_error error = {0};
+    lmn_pattern_desc       desc = good;
+    lmn_error              error = {0};
     (void)state;
     desc.pattern = (lmn_stroke_pattern)7;
     refuse_desc(desc, LMN_USAGE, "no pattern 7");
@@ -67,16 +67,17 @@ static void test_create(void **state)
 
 static void test_set(void **state)
 {
-    lmn_error error = {0};
+    lmn_error    error = {0};
     lmn_strokes *s = create(NULL);
-    lmn_stroke stroke = {1.25f, 0.5f, 1.5f, 0.75f, 1.5f, -1, 3}, got;
+    lmn_stroke   stroke = {1.25f, 0.5f, 1.5f, 0.75f, 1.5f, -1, 3}, got;
     (void)state;
     assert_int_equal(lmn_strokes_get(s, 0, &got, &error), LMN_USAGE);
     assert_int_equal(lmn_strokes_set(s, 1, &stroke, &error), LMN_USAGE);
     assert_int_equal(lmn_strokes_set(s, 0, &stroke, &error), LMN_OK);
     assert_int_equal(lmn_strokes_count(s), 1);
     assert_int_equal(lmn_strokes_get(s, 0, &got, &error), LMN_OK);
-    assert_true(got.u0 == 0.25f && got.v0 == 0.5f && got.u1 == 0.5f && got.v1 == 0.75f && got.light == 1.5f && got.perspective == -1 && got.layer == 3);
+    assert_true(got.u0 == 0.25f && got.v0 == 0.5f && got.u1 == 0.5f && got.v1 == 0.75f && got.light == 1.5f &&
+                got.perspective == -1 && got.layer == 3);
     got.u1 = 0.9f;
     assert_int_equal(lmn_strokes_set(s, 0, &got, &error), LMN_OK);
     assert_int_equal(lmn_strokes_count(s), 1);
@@ -100,8 +101,8 @@ static void test_set(void **state)
 static void test_priorities(void **state)
 {
     lmn_pattern_desc desc = LMN_PATTERN_DESC_INIT;
-    lmn_error error = {0};
-    lmn_stroke stroke;
+    lmn_error        error = {0};
+    lmn_stroke       stroke;
     (void)state;
     lmn_strokes *s = create(&desc);
     assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_DRAWN, LMN_SHARE_COUNT, 0, 0, &error), LMN_OK);
@@ -125,9 +126,9 @@ static void test_priorities(void **state)
 
 static void test_files(void **state)
 {
-    char folder[] = "/tmp/strokes-XXXXXX", path[64];
+    char             folder[] = "/tmp/strokes-XXXXXX", path[64];
     lmn_pattern_desc desc = LMN_PATTERN_DESC_INIT;
-    lmn_error error = {0};
+    lmn_error        error = {0};
     (void)state;
     desc.pattern = LMN_PATTERN_BRICK;
     lmn_strokes *s = create(&desc), *back = NULL;
@@ -171,7 +172,7 @@ static void test_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_create), cmocka_unit_test(test_set), cmocka_unit_test(test_priorities),
-                                       cmocka_unit_test(test_files)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_create), cmocka_unit_test(test_set),
+                                       cmocka_unit_test(test_priorities), cmocka_unit_test(test_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

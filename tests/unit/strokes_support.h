@@ -25,8 +25,8 @@ static inline void near_or_fail(double value, double wanted, double tolerance, i
 
 static inline strokes pattern(stroke_pattern p, size_t count, float uneven, uint32_t seed)
 {
-    strokes s;
-    lmn_error error = {0};
+    strokes         s;
+    lmn_error       error = {0};
     pattern_options options = {.pattern = p, .count = count, .uneven = uneven, .seed = seed};
     assert_int_equal(strokes_generate(&s, &options, &error), LMN_OK);
     return s;

@@ -3,7 +3,7 @@
 
 static strokes read_svg(const char *svg)
 {
-    strokes s;
+    strokes   s;
     lmn_error error = {0};
     if (strokes_read_svg(&s, "t.svg", svg, strlen(svg), &error) != LMN_OK)
         fail_msg("%d: %s", error.line, error.message);
@@ -14,7 +14,8 @@ static bool has_stroke(const strokes *s, double u0, double v0, double u1, double
 {
     for (size_t i = 0; i < s->count; i++) {
         const texture_stroke *t = &s->items[i];
-        if (fabs((double)t->u0 - u0) + fabs((double)t->v0 - v0) + fabs((double)t->u1 - u1) + fabs((double)t->v1 - v1) < 1e-5 &&
+        if (fabs((double)t->u0 - u0) + fabs((double)t->v0 - v0) + fabs((double)t->u1 - u1) + fabs((double)t->v1 - v1) <
+                1e-5 &&
             t->layer == layer)
             return true;
     }
@@ -24,13 +25,15 @@ static bool has_stroke(const strokes *s, double u0, double v0, double u1, double
 static void test_svg_shapes(void **state)
 {
     (void)state;
-    strokes s = read_svg("<?xml version='1.0'?><!DOCTYPE svg><svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>"
-                         "<defs><path d='M0 0L9 9'/></defs><rect width='100%' height='100%' fill='white'/>"
-                         "<g id='a'><line x1='10' y1='90' x2='20' y2='90'/><polyline points='10,10 20,10 20 20'/></g>"
-                         "<g id='hidden' style='fill:none; display : none'><line x2='50' y2='50'/></g>"
-                         "<g id='b' transform='translate(50 50) scale(2)'><g transform='rotate(90)'><line x2='10'/></g>"
-                         "<polygon points='0 0 5 0 5 5'/><rect x='-10' y='-10' width='5' height='5'/><circle r='0.5' cx='20' cy='20'/></g>"
-                         "</svg>");
+    strokes s =
+        read_svg("<?xml version='1.0'?><!DOCTYPE svg><svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>"
+                 "<defs><path d='M0 0L9 9'/></defs><rect width='100%' height='100%' fill='white'/>"
+                 "<g id='a'><line x1='10' y1='90' x2='20' y2='90'/><polyline points='10,10 20,10 20 20'/></g>"
+                 "<g id='hidden' style='fill:none; display : none'><line x2='50' y2='50'/></g>"
+                 "<g id='b' transform='translate(50 50) scale(2)'><g transform='rotate(90)'><line x2='10'/></g>"
+                 "<polygon points='0 0 5 0 5 5'/><rect x='-10' y='-10' width='5' height='5'/><circle r='0.5' cx='20' "
+                 "cy='20'/></g>"
+                 "</svg>");
     assert_int_equal(strokes_layer_count(&s), 2);
     assert_int_equal(s.count, 3 + 1 + 3 + 4 + 1);
     assert_true(has_stroke(&s, 0.1, 0.1, 0.2, 0.1, 0));
@@ -46,10 +49,11 @@ static void test_svg_shapes(void **state)
     s = read_svg("<svg width='200mm' height='100mm'><line x2='755.905512' y2='377.952756'/></svg>");
     assert_true(has_stroke(&s, 0, 0.5, 1, 0, 0));
     strokes_release(&s);
-    s = read_svg("<svg viewBox='0 0 10 10'><g><line x2='1'/><g/><g transform='rotate(90,5 5)'><line x1='5' y1='5' x2='7' y2='4'/></g></g></svg>");
+    s = read_svg("<svg viewBox='0 0 10 10'><g><line x2='1'/><g/><g transform='rotate(90,5 5)'><line x1='5' y1='5' "
+                 "x2='7' y2='4'/></g></g></svg>");
     assert_int_equal(s.count, 2);
     assert_true(has_stroke(&s, 0, 0, 0.1, 0, 0) || has_stroke(&s, 0, 1, 0.1, 1, 0)); /* v 1 is v 0 */
-    assert_true(has_stroke(&s, 0.5, 0.5, 0.6, 0.3, 1)); /* in the second group */
+    assert_true(has_stroke(&s, 0.5, 0.5, 0.6, 0.3, 1));                              /* in the second group */
     strokes_release(&s);
     s = read_svg("<svg><g><g><path d='M10 10h20v10z'/></g></g></svg>"); /* bounds are the square */
     assert_int_equal(s.count, 3);
@@ -71,7 +75,8 @@ static void assert_on_circle(const strokes *s, double u, double v, double radius
     for (size_t i = 0; i < s->count; i++) {
         const texture_stroke *t = &s->items[i];
         assert_near(hypot((double)t->u0 - u, (double)t->v0 - v), radius, 1e-3);
-        assert_near(hypot(((double)t->u0 + (double)t->u1) / 2 - u, ((double)t->v0 + (double)t->v1) / 2 - v), radius, 1.5e-3);
+        assert_near(hypot(((double)t->u0 + (double)t->u1) / 2 - u, ((double)t->v0 + (double)t->v1) / 2 - v), radius,
+                    1.5e-3);
     }
 }
 
@@ -81,8 +86,10 @@ static void test_svg_curves(void **state)
         const char *d;
         double      share; /* of the circle around 50,50 with radius 30 */
     } rows[] = {
-        {"M80 50A30 30 0 0 1 50 80", 0.25},         {"M80 50A30 30 0 1 0 50 80", 0.75},
-        {"M80,50a30,30,0,11-30-30", 0.75},          {"m80 50a30 30 45 0 1-30 30 30 30 0 0 1-30-30", 0.5},
+        {"M80 50A30 30 0 0 1 50 80", 0.25},
+        {"M80 50A30 30 0 1 0 50 80", 0.75},
+        {"M80,50a30,30,0,11-30-30", 0.75},
+        {"m80 50a30 30 45 0 1-30 30 30 30 0 0 1-30-30", 0.5},
         {"M20 50A5 5 0 0 1 80 50", 0.5}, /* radii too small grow */
         {"M80 50C80 66.569 66.569 80 50 80S20 66.569 20 50", 0.5},
     };
@@ -100,7 +107,8 @@ static void test_svg_curves(void **state)
     assert_on_circle(&s, 0.5, 0.5, 0.3);
     assert_near(length_of(&s), around, 3e-3);
     strokes_release(&s);
-    s = read_svg("<svg viewBox='0 0 100 100'><ellipse cx='0' cy='0' rx='60' ry='15' transform='translate(50,50)scale(.5,2)'/></svg>");
+    s = read_svg("<svg viewBox='0 0 100 100'><ellipse cx='0' cy='0' rx='60' ry='15' "
+                 "transform='translate(50,50)scale(.5,2)'/></svg>");
     assert_on_circle(&s, 0.5, 0.5, 0.3);
     strokes_release(&s);
     /* Parabolas: the length of y = x² from 0 to 1 is 1.4789; the smooth one goes on with it. */
@@ -146,9 +154,9 @@ static void test_svg_round_trip(void **state)
 {
     (void)state;
     for (int p = 0; p < PATTERN_COUNT; p++) {
-        strokes s = pattern((stroke_pattern)p, 300, 0.5f, 1), back;
+        strokes   s = pattern((stroke_pattern)p, 300, 0.5f, 1), back;
         lmn_error error = {0};
-        text out = {0};
+        text      out = {0};
         sort_layers(&s);
         strokes_write_svg(&out, &s);
         assert_int_equal(strokes_read_svg(&back, "t.svg", out.data, out.size, &error), LMN_OK);
@@ -169,7 +177,7 @@ static void test_svg_round_trip(void **state)
 
 static void assert_svg_refused(const char *svg, size_t size, lmn_status status)
 {
-    strokes s;
+    strokes   s;
     lmn_error error = {0};
     assert_int_equal(strokes_read_svg(&s, "bad.svg", svg, size, &error), status);
     assert_string_equal(error.file, "bad.svg");
@@ -180,20 +188,32 @@ static void assert_svg_refused(const char *svg, size_t size, lmn_status status)
 static void test_svg_refuses(void **state)
 {
     static const char *const rows[] = {
-        "", "hello", "<svg", "<svg><g></svg>", "<html/>", "<svg viewBox='0 0 0 1'/>", "<svg viewBox='a'/>",
-        "<svg viewBox='0 0 1 1'><path d='M0 0L'/></svg>", "<svg viewBox='0 0 1 1'><path d='L0 0'/></svg>",
-        "<svg viewBox='0 0 1 1'><path d='M0 0 X'/></svg>", "<svg viewBox='0 0 1 1'><path d='M0 0 L nan 1'/></svg>",
-        "<svg viewBox='0 0 1 1'><path d='M0 0A1 1 0 2 1 1 1'/></svg>", "<svg viewBox='0 0 1 1'><line x2='1e308'/></svg>",
-        "<svg viewBox='0 0 1 1'><line x2='inf'/></svg>", "<svg viewBox='0 0 1 1'><line x2='1furlong'/></svg>",
-        "<svg viewBox='0 0 1 1'><polyline points='0 0 1'/></svg>", "<svg viewBox='0 0 1 1'><g transform='rotate()'/></svg>",
-        "<svg viewBox='0 0 1 1'><g transform='twist(1)'/></svg>", "<svg viewBox='0 0 1 1'><line x2='100'/></svg>",
+        "",
+        "hello",
+        "<svg",
+        "<svg><g></svg>",
+        "<html/>",
+        "<svg viewBox='0 0 0 1'/>",
+        "<svg viewBox='a'/>",
+        "<svg viewBox='0 0 1 1'><path d='M0 0L'/></svg>",
+        "<svg viewBox='0 0 1 1'><path d='L0 0'/></svg>",
+        "<svg viewBox='0 0 1 1'><path d='M0 0 X'/></svg>",
+        "<svg viewBox='0 0 1 1'><path d='M0 0 L nan 1'/></svg>",
+        "<svg viewBox='0 0 1 1'><path d='M0 0A1 1 0 2 1 1 1'/></svg>",
+        "<svg viewBox='0 0 1 1'><line x2='1e308'/></svg>",
+        "<svg viewBox='0 0 1 1'><line x2='inf'/></svg>",
+        "<svg viewBox='0 0 1 1'><line x2='1furlong'/></svg>",
+        "<svg viewBox='0 0 1 1'><polyline points='0 0 1'/></svg>",
+        "<svg viewBox='0 0 1 1'><g transform='rotate()'/></svg>",
+        "<svg viewBox='0 0 1 1'><g transform='twist(1)'/></svg>",
+        "<svg viewBox='0 0 1 1'><line x2='100'/></svg>",
         "<svg><line x2='1e300'/><line x1='-1e308' x2='1e308'/></svg>",
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         assert_svg_refused(rows[i], strlen(rows[i]), LMN_FORMAT);
-    strokes s;
-    lmn_error error = {0};
+    strokes     s;
+    lmn_error   error = {0};
     const char *line = "<svg viewBox='0 0 1 1'>\n<g>\n<path d='M0 0 L'/></g></svg>";
     assert_int_equal(strokes_read_svg(&s, "l.svg", line, strlen(line), &error), LMN_FORMAT);
     assert_int_equal(error.line, 3);
@@ -201,9 +221,9 @@ static void test_svg_refuses(void **state)
 
 static void test_svg_hostile(void **state)
 {
-    strokes s;
+    strokes   s;
     lmn_error error = {0};
-    text t = {0};
+    text      t = {0};
     (void)state;
     /* Entities that grow: refused or left alone, but soon and in little memory. */
     text_append(&t, "<!DOCTYPE svg [<!ENTITY a0 'M0 0L1 1'>");
@@ -214,7 +234,8 @@ static void test_svg_hostile(void **state)
         strokes_release(&s);
     text_release(&t);
     /* A file of the machine is not read. */
-    const char *outside = "<!DOCTYPE svg [<!ENTITY x SYSTEM 'file:///etc/passwd'>]><svg viewBox='0 0 1 1'><g>&x;</g></svg>";
+    const char *outside =
+        "<!DOCTYPE svg [<!ENTITY x SYSTEM 'file:///etc/passwd'>]><svg viewBox='0 0 1 1'><g>&x;</g></svg>";
     if (strokes_read_svg(&s, "x.svg", outside, strlen(outside), &error) == LMN_OK) {
         assert_int_equal(s.count, 0);
         strokes_release(&s);
@@ -252,11 +273,8 @@ static void test_svg_hostile(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_svg_shapes),
-        cmocka_unit_test(test_svg_curves),
-        cmocka_unit_test(test_svg_round_trip),
-        cmocka_unit_test(test_svg_refuses),
-        cmocka_unit_test(test_svg_hostile),
+        cmocka_unit_test(test_svg_shapes),  cmocka_unit_test(test_svg_curves),  cmocka_unit_test(test_svg_round_trip),
+        cmocka_unit_test(test_svg_refuses), cmocka_unit_test(test_svg_hostile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

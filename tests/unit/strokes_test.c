@@ -7,7 +7,7 @@ enum { SIDE = 128 };
 
 static strokes read_text(const char *stx)
 {
-    strokes s;
+    strokes   s;
     lmn_error error = {0};
     if (strokes_read(&s, "t.stx", stx, strlen(stx), &error) != LMN_OK)
         fail_msg("%d: %s", error.line, error.message);
@@ -21,7 +21,8 @@ static void assert_same_strokes(const strokes *a, const strokes *b)
     assert_int_equal(a->count, b->count);
     for (size_t i = 0; i < a->count; i++) {
         const texture_stroke *x = &a->items[i], *y = &b->items[i];
-        assert_true(same_bits(x->u0, y->u0) && same_bits(x->v0, y->v0) && same_bits(x->u1, y->u1) && same_bits(x->v1, y->v1));
+        assert_true(same_bits(x->u0, y->u0) && same_bits(x->v0, y->v0) && same_bits(x->u1, y->u1) &&
+                    same_bits(x->v1, y->v1));
         assert_true(same_bits(x->light, y->light) && same_bits(x->perspective, y->perspective));
         assert_int_equal(x->layer, y->layer);
     }
@@ -29,8 +30,8 @@ static void assert_same_strokes(const strokes *a, const strokes *b)
 
 static void round_trip(const strokes *s)
 {
-    text written = {0};
-    strokes back;
+    text      written = {0};
+    strokes   back;
     lmn_error error = {0};
     strokes_write(&written, s);
     assert_false(written.failed);
@@ -49,7 +50,7 @@ static void test_stx_round_trip(void **state)
         strokes_release(&s);
     }
     /* Every kind of float: of random bits, denormal, negative zero; priorities outside of 0 … 1. */
-    strokes s = {.width = 1};
+    strokes  s = {.width = 1};
     uint32_t bits = 12345;
     for (int i = 0; i < 20000; i++) {
         float f[6];
@@ -115,7 +116,7 @@ static void test_stx_refuses(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        strokes s;
+        strokes   s;
         lmn_error error = {0};
         assert_int_equal(strokes_read(&s, "bad.stx", rows[i].text, strlen(rows[i].text), &error), LMN_FORMAT);
         assert_non_null(strstr(error.message, rows[i].message));
@@ -124,7 +125,7 @@ static void test_stx_refuses(void **state)
         assert_true(error.hint[0]);
         assert_null(s.items);
     }
-    strokes s;
+    strokes   s;
     lmn_error error = {0};
     assert_int_equal(strokes_read(&s, "zero.stx", "0 0 1 1 \0 1 0", 13, &error), LMN_FORMAT);
     text many = {0};
@@ -187,12 +188,14 @@ static float expected_ink(const texture_stroke *s, int x, int y, double width)
 static void test_draw_exact(void **state)
 {
     static const texture_stroke rows[] = {
-        {0.2f, 0.3f, 0.7f, 0.5f, 1, 1, 0},    {0.9f, 0.9f, 1.2f, 1.1f, 1, 1, 0},   {0.5f, 0.5f, 0.5f, 0.5f, 1, 1, 0},
-        {0, 0, 0, 0, 1, 1, 0},                {0.1f, 0.5f, 1.1f, 0.5f, 1, 1, 0},   {0.3f, 0.2f, 0.3f, -0.9f, 1, 1, 0},
-        {0.1f, 0.1f, 2.4f, 1.3f, 1, 1, 0},    {0.99f, 0.01f, 0.01f, 0.99f, 1, 1, 0}, {0.5f, 0.25f, -1.7f, 0.2f, 1, 1, 0},
+        {0.2f, 0.3f, 0.7f, 0.5f, 1, 1, 0},   {0.9f, 0.9f, 1.2f, 1.1f, 1, 1, 0},
+        {0.5f, 0.5f, 0.5f, 0.5f, 1, 1, 0},   {0, 0, 0, 0, 1, 1, 0},
+        {0.1f, 0.5f, 1.1f, 0.5f, 1, 1, 0},   {0.3f, 0.2f, 0.3f, -0.9f, 1, 1, 0},
+        {0.1f, 0.1f, 2.4f, 1.3f, 1, 1, 0},   {0.99f, 0.01f, 0.01f, 0.99f, 1, 1, 0},
+        {0.5f, 0.25f, -1.7f, 0.2f, 1, 1, 0},
     };
     static const double widths[] = {0.4, 1, 2.5, 9};
-    static canvas c;
+    static canvas       c;
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
@@ -201,8 +204,8 @@ static void test_draw_exact(void **state)
             for (int at = 0; at < SIDE * SIDE; at++) {
                 float wanted = expected_ink(&rows[i], at % SIDE, at / SIDE, widths[k]);
                 if (c.calls[at] > 1 || fabsf(c.ink[at] - wanted) > 1e-4f)
-                    fail_msg("stroke %zu width %g at %d: %g instead of %g, %d calls", i, widths[k], at, (double)c.ink[at],
-                             (double)wanted, c.calls[at]);
+                    fail_msg("stroke %zu width %g at %d: %g instead of %g, %d calls", i, widths[k], at,
+                             (double)c.ink[at], (double)wanted, c.calls[at]);
             }
         }
     stroke_draw(&rows[0], SIDE, &(stroke_brush){.width = 0}, record, &c);
@@ -212,7 +215,7 @@ static void test_draw_exact(void **state)
 static double ink_of(const texture_stroke *s, stroke_brush brush)
 {
     static canvas c;
-    double sum = 0;
+    double        sum = 0;
     memset(&c, 0, sizeof c);
     stroke_draw(s, SIDE, &brush, record, &c);
     for (int i = 0; i < SIDE * SIDE; i++)
@@ -223,14 +226,14 @@ static double ink_of(const texture_stroke *s, stroke_brush brush)
 static void test_draw_taper(void **state)
 {
     texture_stroke whole = {0.1f, 0.5f, 0.9f, 0.53f, 1, 1, 0};
-    double plain = ink_of(&whole, (stroke_brush){.width = 6}), length = stroke_length(&whole) * SIDE;
+    double         plain = ink_of(&whole, (stroke_brush){.width = 6}), length = stroke_length(&whole) * SIDE;
     (void)state;
     assert_near(plain, 6 * length + 3.14159 * 9, 3);
     /* A parabola has two thirds of its box; its ends have no caps. */
     assert_near(ink_of(&whole, (stroke_brush){.width = 6, .taper = 0.5}), 6 * length * 2 / 3, 6);
     /* Two halves that know that they are halves are drawn as the whole. */
-    strokes s = read_text("0.1 0.5 0.5 0.5 1 1 0\n0.5 0.5 0.9 0.5 1 1 0\n");
-    strokes one = read_text("0.1 0.5 0.9 0.5 1 1 0\n");
+    strokes        s = read_text("0.1 0.5 0.5 0.5 1 1 0\n0.5 0.5 0.9 0.5 1 1 0\n");
+    strokes        one = read_text("0.1 0.5 0.9 0.5 1 1 0\n");
     static uint8_t a[SIDE * SIDE], b[SIDE * SIDE];
     strokes_draw(&s, SIDE, &(stroke_brush){.width = 8, .taper = 0.3}, 0, 0, a);
     strokes_draw(&one, SIDE, &(stroke_brush){.width = 8, .taper = 0.3}, 0, 0, b);
@@ -245,7 +248,7 @@ static void test_seamless(void **state)
     static uint8_t a[SIDE * SIDE], b[SIDE * SIDE];
     (void)state;
     for (int p = 0; p < PATTERN_COUNT; p++) {
-        strokes s = pattern((stroke_pattern)p, 0, 0.6f, 9);
+        strokes      s = pattern((stroke_pattern)p, 0, 0.6f, 9);
         stroke_brush brush = {.width = 1.7, .taper = 0.1};
         strokes_draw(&s, SIDE, &brush, 0, 0, a);
         for (size_t i = 0; i < s.count; i++) {
@@ -277,11 +280,12 @@ static void test_pattern_repeats(void **state)
     (void)state;
     strokes s = pattern(PATTERN_CROSS, 400, 0, 1);
     for (int32_t layer = 0; layer < 4; layer++) {
-        float places[401];
+        float  places[401];
         size_t count = 0;
         for (size_t i = 0; i < s.count; i++) {
             const texture_stroke *t = &s.items[i];
-            double across[] = {(double)t->v0, (double)t->u0, (double)t->v0 - (double)t->u0, (double)t->v0 + (double)t->u0};
+            double                across[] = {(double)t->v0, (double)t->u0, (double)t->v0 - (double)t->u0,
+                                              (double)t->v0 + (double)t->u0};
             if (t->layer == layer)
                 places[count++] = (float)(across[layer] - floor(across[layer] + 1e-6));
         }
@@ -298,7 +302,7 @@ static void test_pattern_repeats(void **state)
     }
     strokes_release(&s);
     random_source chance = random_start(1, 2);
-    sway w = sway_of(&chance, 0.1, 4);
+    sway          w = sway_of(&chance, 0.1, 4);
     for (double u = 0; u < 1; u += 0.1) {
         assert_near(sway_at(&w, (place){u, 0.3}), sway_at(&w, (place){u + 1, 0.3}), 1e-9);
         assert_near(sway_at(&w, (place){u, 0.3}), sway_at(&w, (place){u, -1.7}), 1e-9);
@@ -347,7 +351,8 @@ static int compare_light(const void *a, const void *b)
 
 static int compare_perspective(const void *a, const void *b)
 {
-    float x = sorted_strokes->items[*(const size_t *)a].perspective, y = sorted_strokes->items[*(const size_t *)b].perspective;
+    float x = sorted_strokes->items[*(const size_t *)a].perspective,
+          y = sorted_strokes->items[*(const size_t *)b].perspective;
     return x > y ? -1 : x < y;
 }
 
@@ -368,8 +373,8 @@ static double worst_quadrants(const strokes *s, const size_t *order, size_t leas
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < s->count; i++) {
             const texture_stroke *t = &s->items[order[i]];
-            double u = ((double)t->u0 + (double)t->u1) / 2, v = ((double)t->v0 + (double)t->v1) / 2;
-            int quadrant = 2 * (v - floor(v) >= 0.5) + (u - floor(u) >= 0.5);
+            double                u = ((double)t->u0 + (double)t->u1) / 2, v = ((double)t->v0 + (double)t->v1) / 2;
+            int                   quadrant = 2 * (v - floor(v) >= 0.5) + (u - floor(u) >= 0.5);
             (pass ? counts : all)[quadrant]++;
             if (!pass || i + 1 < least)
                 continue;
@@ -389,7 +394,8 @@ static void test_spread(void **state)
     (void)state;
     strokes s = {.width = 1};
     for (int i = 0; i < 400; i++)
-        assert_true(strokes_add(&s, (texture_stroke){(float)(i % 20) / 20, (float)(i / 20) / 20, (float)(i % 20) / 20 + 0.03f, (float)(i / 20) / 20, 0, 0, 0}));
+        assert_true(strokes_add(&s, (texture_stroke){(float)(i % 20) / 20, (float)(i / 20) / 20,
+                                                     (float)(i % 20) / 20 + 0.03f, (float)(i / 20) / 20, 0, 0, 0}));
     set_light(&s, ORDER_DRAWN, SHARE_COUNT, 0, 0);
     size_t *order = sorted(&s, compare_light);
     assert_true(worst_quadrants(&s, order, 8) > 50);
@@ -414,7 +420,7 @@ static void test_share_length(void **state)
 {
     (void)state;
     strokes s = pattern(PATTERN_CROSS, 0, 0.8f, 2);
-    double lengths[4] = {0}, sum = 0, top = 1;
+    double  lengths[4] = {0}, sum = 0, top = 1;
     for (size_t i = 0; i < s.count; i++) {
         lengths[s.items[i].layer] += stroke_length(&s.items[i]);
         sum += stroke_length(&s.items[i]);
@@ -450,7 +456,7 @@ static double bend_of_tone(const strokes *s, double width)
 {
     enum { FINE = 512, STEPS = 40 };
     static uint8_t picture[FINE * FINE];
-    double all = tone(s, -1, width * FINE, picture, FINE), worst = 0;
+    double         all = tone(s, -1, width * FINE, picture, FINE), worst = 0;
     for (int i = 1; i < STEPS; i++) {
         float t = (float)i / STEPS;
         worst = fmax(worst, fabs(tone(s, 1 - t + 1e-7f, width * FINE, picture, FINE) / all - (double)t));
@@ -460,11 +466,12 @@ static double bend_of_tone(const strokes *s, double width)
 
 static void test_share_area(void **state)
 {
-    static const stroke_pattern rows[] = {PATTERN_CROSS, PATTERN_RANDOM, PATTERN_PARALLEL, PATTERN_STIPPLE, PATTERN_BRICK};
+    static const stroke_pattern rows[] = {PATTERN_CROSS, PATTERN_RANDOM, PATTERN_PARALLEL, PATTERN_STIPPLE,
+                                          PATTERN_BRICK};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         strokes s = pattern(rows[i], 0, 0.5f, 4);
-        double width = rows[i] == PATTERN_STIPPLE ? 0.012 : 1.0 / 96;
+        double  width = rows[i] == PATTERN_STIPPLE ? 0.012 : 1.0 / 96;
         set_light(&s, ORDER_EVEN, SHARE_AREA, width, 1);
         double bend = bend_of_tone(&s, width);
         if (bend >= 0.02)
@@ -480,7 +487,7 @@ static void test_share_area(void **state)
 static double rank_correlation(const strokes *s)
 {
     size_t *a = sorted(s, compare_light), *b = sorted(s, compare_perspective), *rank = malloc(s->count * sizeof *rank);
-    double sum = 0, n = (double)s->count;
+    double  sum = 0, n = (double)s->count;
     for (size_t i = 0; i < s->count; i++)
         rank[a[i]] = i;
     for (size_t i = 0; i < s->count; i++)
@@ -542,7 +549,7 @@ static void test_curves(void **state)
 {
     (void)state;
     strokes s = pattern(PATTERN_SCRIBBLE, 0, 0.5f, 6);
-    size_t curves = 1;
+    size_t  curves = 1;
     for (size_t i = 1; i < s.count; i++) {
         bool same = same_bits(s.items[i].light, s.items[i - 1].light);
         assert_int_equal(same, same_bits(s.items[i].perspective, s.items[i - 1].perspective));
@@ -559,11 +566,12 @@ static void test_curves(void **state)
 static void test_priority_corners(void **state)
 {
     lmn_error error = {0};
-    strokes none = {.width = 1};
+    strokes   none = {.width = 1};
     (void)state;
     for (int order = ORDER_DRAWN; order <= ORDER_EVEN; order++)
         for (int share = SHARE_COUNT; share <= SHARE_AREA; share++)
-            assert_int_equal(strokes_set_light(&none, (priority_order)order, (priority_share)share, 0.01, 1, &error), LMN_OK);
+            assert_int_equal(strokes_set_light(&none, (priority_order)order, (priority_share)share, 0.01, 1, &error),
+                             LMN_OK);
     set_perspective(&none, PERSPECTIVE_EVEN, 1);
     strokes dots = read_text("0.5 0.5 0.5 0.5 0 0 0\n0.2 0.2 0.2 0.2 0 0 0\n");
     set_light(&dots, ORDER_DRAWN, SHARE_LENGTH, 0, 0);
@@ -585,14 +593,16 @@ static void test_patterns(void **state)
     (void)state;
     for (int p = 0; p < PATTERN_COUNT; p++)
         for (int u = 0; u <= 2; u++) {
-            strokes a = pattern((stroke_pattern)p, 0, (float)u / 2, 11), b = pattern((stroke_pattern)p, 0, (float)u / 2, 11);
+            strokes a = pattern((stroke_pattern)p, 0, (float)u / 2, 11),
+                    b = pattern((stroke_pattern)p, 0, (float)u / 2, 11);
             strokes c = pattern((stroke_pattern)p, 0, (float)u / 2, 12);
             assert_same_strokes(&a, &b);
             assert_true(a.count >= 100);
             if (u > 0)
                 assert_true(c.count != a.count || memcmp(a.items, c.items, a.count * sizeof *a.items) != 0);
             for (size_t i = 0; i < a.count; i++) {
-                assert_true(isfinite(a.items[i].u1) && isfinite(a.items[i].v1) && fabsf(a.items[i].u1) < 3 && fabsf(a.items[i].v1) < 3);
+                assert_true(isfinite(a.items[i].u1) && isfinite(a.items[i].v1) && fabsf(a.items[i].u1) < 3 &&
+                            fabsf(a.items[i].v1) < 3);
                 assert_true(a.items[i].light > 0 && a.items[i].light <= 1);
                 assert_true(a.items[i].perspective > 0 && a.items[i].perspective < 1);
             }
@@ -614,8 +624,8 @@ static void test_pattern_counts(void **state)
                 assert_true(s.count > 2400 && s.count < 3600);
             strokes_release(&s);
         }
-    strokes s;
-    lmn_error error = {0};
+    strokes         s;
+    lmn_error       error = {0};
     pattern_options many = {.pattern = PATTERN_STIPPLE, .count = (size_t)-1};
     assert_int_equal(strokes_generate(&s, &many, &error), LMN_LIMIT);
     assert_null(s.items);
@@ -633,7 +643,8 @@ static void test_stipple_distance(void **state)
         double nearest = 1;
         for (size_t i = 0; i < count; i++)
             for (size_t k = 0; k < i; k++) {
-                double du = fabs((double)s.items[i].u0 - (double)s.items[k].u0), dv = fabs((double)s.items[i].v0 - (double)s.items[k].v0);
+                double du = fabs((double)s.items[i].u0 - (double)s.items[k].u0),
+                       dv = fabs((double)s.items[i].v0 - (double)s.items[k].v0);
                 nearest = fmin(nearest, hypot(fmin(du, 1 - du), fmin(dv, 1 - dv)));
             }
         /* A hexagonal lattice has 1.07 / sqrt(count). */
@@ -650,13 +661,13 @@ static bool read_while_failing(long n)
 {
     static const char stx[] = "0 0 1 1 1 1 0\n0 0 1 1 1 1 0\n";
     static const char svg[] = "<svg viewBox='0 0 1 1'><path d='M0 0L1 1L0 1z'/></svg>";
-    strokes s;
-    lmn_error error = {0};
+    strokes           s;
+    lmn_error         error = {0};
     mem_fail_at(n);
     lmn_status first = strokes_read(&s, "t", stx, sizeof stx - 1, &error);
     strokes_release(&s);
     lmn_status second = strokes_read_svg(&s, "t", svg, sizeof svg - 1, &error);
-    text out = {0};
+    text       out = {0};
     if (second == LMN_OK) {
         strokes_write_svg(&out, &s);
         strokes_write(&out, &s);
@@ -672,8 +683,8 @@ static bool read_while_failing(long n)
 
 static bool generate_while_failing(stroke_pattern p, long n)
 {
-    strokes s;
-    lmn_error error = {0};
+    strokes         s;
+    lmn_error       error = {0};
     pattern_options options = {.pattern = p, .count = 60, .uneven = 0.5f};
     mem_fail_at(n);
     lmn_status status = strokes_generate(&s, &options, &error);
@@ -702,13 +713,16 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stx_round_trip), cmocka_unit_test(test_stx_reads), cmocka_unit_test(test_stx_refuses),
-        cmocka_unit_test(test_wrap),
-        cmocka_unit_test(test_draw_exact), cmocka_unit_test(test_draw_taper), cmocka_unit_test(test_seamless), cmocka_unit_test(test_pattern_repeats),
-        cmocka_unit_test(test_preview), cmocka_unit_test(test_spread), cmocka_unit_test(test_share_length),
-        cmocka_unit_test(test_share_area), cmocka_unit_test(test_perspective), cmocka_unit_test(test_indication),
-        cmocka_unit_test(test_curves), cmocka_unit_test(test_priority_corners), cmocka_unit_test(test_patterns),
-        cmocka_unit_test(test_pattern_counts), cmocka_unit_test(test_stipple_distance), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_stx_round_trip),   cmocka_unit_test(test_stx_reads),
+        cmocka_unit_test(test_stx_refuses),      cmocka_unit_test(test_wrap),
+        cmocka_unit_test(test_draw_exact),       cmocka_unit_test(test_draw_taper),
+        cmocka_unit_test(test_seamless),         cmocka_unit_test(test_pattern_repeats),
+        cmocka_unit_test(test_preview),          cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_share_length),     cmocka_unit_test(test_share_area),
+        cmocka_unit_test(test_perspective),      cmocka_unit_test(test_indication),
+        cmocka_unit_test(test_curves),           cmocka_unit_test(test_priority_corners),
+        cmocka_unit_test(test_patterns),         cmocka_unit_test(test_pattern_counts),
+        cmocka_unit_test(test_stipple_distance), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* SVG and PDF: well-formed, with unique ids, the same bytes each time; and drawn by other programs (rsvg-convert, pdftoppm) equal to ribbons that are rasterised here, as discs along their
- * points, without knowing how they are written. */
+/* SVG and PDF: well-formed, with unique ids, the same bytes each time; and drawn by other programs (rsvg-convert,
+ * pdftoppm) equal to ribbons that are rasterised here, as discs along their points, without knowing how they are
+ * written. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -33,7 +34,7 @@ static export_bytes bytes_of(const sheet *s, lmn_status (*write)(export_bytes *,
     return bytes;
 }
 
-/* --- the text --------------------------------------------------------------------------------------------------------- */
+/* --- the text ------------------------------------------------------------------------------------------- */
 
 static xmlXPathObjectPtr find(xmlDocPtr document, const char *path)
 {
@@ -47,14 +48,15 @@ static xmlXPathObjectPtr find(xmlDocPtr document, const char *path)
 static int count_of(xmlDocPtr document, const char *path)
 {
     xmlXPathObjectPtr found = find(document, path);
-    int count = found && found->nodesetval ? found->nodesetval->nodeNr : 0;
+    int               count = found && found->nodesetval ? found->nodesetval->nodeNr : 0;
     xmlXPathFreeObject(found);
     return count;
 }
 
 static xmlDocPtr parse(const export_bytes *bytes)
 {
-    xmlDocPtr document = xmlReadMemory((const char *)bytes->data, (int)bytes->size, "sheet.svg", NULL, XML_PARSE_NONET | XML_PARSE_HUGE);
+    xmlDocPtr document =
+        xmlReadMemory((const char *)bytes->data, (int)bytes->size, "sheet.svg", NULL, XML_PARSE_NONET | XML_PARSE_HUGE);
     assert_non_null(document);
     return document;
 }
@@ -64,7 +66,8 @@ static void check_ids(xmlDocPtr document)
     xmlXPathObjectPtr ids = find(document, "//@id");
     for (int i = 0; ids->nodesetval && i < ids->nodesetval->nodeNr; i++)
         for (int k = 0; k < i; k++)
-            assert_string_not_equal((const char *)ids->nodesetval->nodeTab[i]->children->content, (const char *)ids->nodesetval->nodeTab[k]->children->content);
+            assert_string_not_equal((const char *)ids->nodesetval->nodeTab[i]->children->content,
+                                    (const char *)ids->nodesetval->nodeTab[k]->children->content);
     xmlXPathFreeObject(ids);
 }
 
@@ -76,13 +79,16 @@ static void test_structure(void **state)
     sheet_begin(&s, 120, 80.5, 4);
     s.ground = (colour){1, 1, 1, 1};
     sheet_set_title(&s, "A <title> & \"more\"", "what it is");
-    uint32_t view = sheet_add_group(&s, -1, "view-front", "view", 0), wheel = sheet_add_group(&s, (int32_t)view, "Wheel <left>", "part", 3);
-    uint32_t contour = sheet_add_group(&s, (int32_t)wheel, "contour", "visible contour", 0), again = sheet_add_group(&s, (int32_t)view, "Wheel <left>", "part", 3);
+    uint32_t view = sheet_add_group(&s, -1, "view-front", "view", 0),
+             wheel = sheet_add_group(&s, (int32_t)view, "Wheel <left>", "part", 3);
+    uint32_t contour = sheet_add_group(&s, (int32_t)wheel, "contour", "visible contour", 0),
+             again = sheet_add_group(&s, (int32_t)view, "Wheel <left>", "part", 3);
     sheet_clip_group(&s, view, 0, 0, 100, 50);
     sheet_add_item(&s, SHEET_PATH, contour, black, 0x1F);
     sheet_add_path(&s, &(sheet_path){.width = 0.5f}, line, 3);
     sheet_add_item(&s, SHEET_PATH, again, (colour){1, 0, 0, 0.5f}, 0);
-    sheet_add_path(&s, &(sheet_path){.width = 0.25f, .dash = 2, .gap = 1, .phase = 0.5f, .cap = SHEET_CAP_BUTT}, line, 3);
+    sheet_add_path(&s, &(sheet_path){.width = 0.25f, .dash = 2, .gap = 1, .phase = 0.5f, .cap = SHEET_CAP_BUTT}, line,
+                   3);
     sheet_add_item(&s, SHEET_PATH, contour, black, 0); /* back in a group that was closed */
     sheet_add_path(&s, &(sheet_path){.filled = true}, line, 3);
     sheet_add_item(&s, SHEET_DOTS, view, black, 0);
@@ -100,9 +106,14 @@ static void test_structure(void **state)
     assert_int_equal(count_of(document, "/s:svg/s:desc[.='what it is']"), 1);
     assert_int_equal(count_of(document, "/s:svg/s:style"), 1);
     assert_int_equal(count_of(document, "//s:rect[@class='ground']"), 1);
-    assert_int_equal(count_of(document, "//s:g[@id='view-front'][@clip-path]/s:g[@id='view-front-part-3'][@data-part='3'][@data-name='Wheel <left>']/s:g[@class='visible contour']"), 1);
+    assert_int_equal(
+        count_of(document,
+                 "//s:g[@id='view-front'][@clip-path]/s:g[@id='view-front-part-3'][@data-part='3'][@data-name='Wheel "
+                 "<left>']/s:g[@class='visible contour']"),
+        1);
     assert_int_equal(count_of(document, "//s:g[@id='view-front-part-3-2']"), 1);
-    assert_int_equal(count_of(document, "//s:path[@data-line='1f'][@d='M1 2l2.5 2']"), 1); /* what rounds to nothing is left out */
+    assert_int_equal(count_of(document, "//s:path[@data-line='1f'][@d='M1 2l2.5 2']"),
+                     1); /* what rounds to nothing is left out */
     assert_int_equal(count_of(document, "//s:text[.='a < b & c \xEF\xBF\xBD']"), 1);
     assert_non_null(strstr((const char *)bytes.data, "stroke-dasharray:2,1;stroke-dashoffset:.5"));
     assert_non_null(strstr((const char *)bytes.data, "stroke:#ff0000;stroke-width:.25;stroke-opacity:.5"));
@@ -128,7 +139,7 @@ static void test_structure(void **state)
 static void test_hostile(void **state)
 {
     static const char *const names[] = {"a", "a", "a-2", "a", "", "\"'<>&", "?????", NULL, "\xFF\xFE", "1"};
-    sheet s;
+    sheet                    s;
     (void)state;
     sheet_begin(&s, 10, 10, 4);
     for (int round = 0; round < 3; round++) {
@@ -140,7 +151,8 @@ static void test_hostile(void **state)
         mem_free(pdf.data);
         for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
             const float line[2][2] = {{1, (float)i}, {5, (float)i}};
-            sheet_add_item(&s, SHEET_PATH, sheet_add_group(&s, -1, names[i], names[i], round == 2 ? (uint32_t)i : 0), (colour){NAN, 2, -1, NAN}, 0);
+            sheet_add_item(&s, SHEET_PATH, sheet_add_group(&s, -1, names[i], names[i], round == 2 ? (uint32_t)i : 0),
+                           (colour){NAN, 2, -1, NAN}, 0);
             sheet_add_path(&s, &(sheet_path){.width = 1}, line, 2);
         }
     }
@@ -155,7 +167,7 @@ static void test_hostile(void **state)
     sheet_release(&s);
 }
 
-/* --- pictures --------------------------------------------------------------------------------------------------------- */
+/* --- pictures ------------------------------------------------------------------------------------------- */
 
 enum { SIDE = 600, RIBBONS = 60, POINTS = 40 };
 
@@ -178,12 +190,24 @@ static void make_ribbons(ribbon_set *set, ribbon *ribbons, ribbon_point *points)
     *set = (ribbon_set){.ribbons = ribbons, .points = points, .ribbon_count = RIBBONS};
     for (uint32_t i = 0; i < RIBBONS; i++) {
         bool  even = i % 2 == 0, closed = i % 6 == 0, corner = i % 5 == 0;
-        float x = 60 + number(&state, SIDE - 120), y = 60 + number(&state, SIDE - 120), radius = 15 + number(&state, 30), turn = number(&state, 6), half = 0.7f + number(&state, 3);
+        float x = 60 + number(&state, SIDE - 120), y = 60 + number(&state, SIDE - 120),
+              radius = 15 + number(&state, 30), turn = number(&state, 6), half = 0.7f + number(&state, 3);
         uint32_t count = closed ? POINTS : corner ? 3 : POINTS;
-        ribbons[i] = (ribbon){.kind = (stroke_class)(i % 3), .part = i / 7, .hidden_by = i % 4 == 0, .chain = i, .id = i + 1, .ink = {0, 0, 0, 1}, .first = i * POINTS, .count = count,
-                              .closed = closed, .even = even, .end = RIBBON_ROUND};
+        ribbons[i] = (ribbon){.kind = (stroke_class)(i % 3),
+                              .part = i / 7,
+                              .hidden_by = i % 4 == 0,
+                              .chain = i,
+                              .id = i + 1,
+                              .ink = {0, 0, 0, 1},
+                              .first = i * POINTS,
+                              .count = count,
+                              .closed = closed,
+                              .even = even,
+                              .end = RIBBON_ROUND};
         for (uint32_t k = 0; k < count; k++) {
-            float share = (float)k / (float)(count - 1), angle = turn + share * (closed ? 6.2831853f : corner ? 3.5f : 2.5f);
+            float share = (float)k / (float)(count - 1), angle = turn + share * (closed   ? 6.2831853f
+                                                                                 : corner ? 3.5f
+                                                                                          : 2.5f);
             if (closed && k + 1 == count)
                 angle = turn;
             if (corner && !closed) { /* a sharp one */
@@ -191,7 +215,12 @@ static void make_ribbons(ribbon_set *set, ribbon *ribbons, ribbon_point *points)
                 radius = k == 1 ? 0 : 40;
                 half = 4;
             }
-            points[i * POINTS + k] = (ribbon_point){x + radius * cosf(angle), y + radius * sinf(angle), 1, share * radius, even || corner ? half : half * (0.4f + 0.6f * sinf(share * 3.1f)), 1};
+            points[i * POINTS + k] = (ribbon_point){x + radius * cosf(angle),
+                                                    y + radius * sinf(angle),
+                                                    1,
+                                                    share * radius,
+                                                    even || corner ? half : half * (0.4f + 0.6f * sinf(share * 3.1f)),
+                                                    1};
         }
     }
 }
@@ -200,7 +229,8 @@ static void put_disc(raster *r, float x, float y, float radius)
 {
     for (int row = (int)(y - radius) - 1; row <= (int)(y + radius) + 1; row++)
         for (int column = (int)(x - radius) - 1; column <= (int)(x + radius) + 1; column++)
-            if (row >= 0 && column >= 0 && row < SIDE && column < SIDE && hypotf((float)column + 0.5f - x, (float)row + 0.5f - y) <= radius)
+            if (row >= 0 && column >= 0 && row < SIDE && column < SIDE &&
+                hypotf((float)column + 0.5f - x, (float)row + 0.5f - y) <= radius)
                 r->ink[row][column] = 1;
 }
 
@@ -219,12 +249,13 @@ static void rasterise(raster *r, const ribbon_set *set)
 
 static bool read_png(raster *r, const char *path)
 {
-    png_image image = {.version = PNG_IMAGE_VERSION};
+    png_image      image = {.version = PNG_IMAGE_VERSION};
     static uint8_t grey[SIDE * SIDE];
     if (!png_image_begin_read_from_file(&image, path))
         return false;
     image.format = PNG_FORMAT_GRAY;
-    if (image.width != SIDE || image.height != SIDE || !png_image_finish_read(&image, &(png_color){255, 255, 255}, grey, 0, NULL))
+    if (image.width != SIDE || image.height != SIDE ||
+        !png_image_finish_read(&image, &(png_color){255, 255, 255}, grey, 0, NULL))
         return false;
     for (int i = 0; i < SIDE * SIDE; i++)
         r->ink[i / SIDE][i % SIDE] = grey[i] < 128;
@@ -256,7 +287,8 @@ static bool has_program(const char *name)
 }
 
 /* The ribbons as a sheet, written by `write` and drawn by the command, "PROGRAM … FILE … PICTURE.png". */
-static void check_picture(lmn_status (*write)(export_bytes *, const sheet *, lmn_error *), const char *program, const char *format, bool lines_only)
+static void check_picture(lmn_status (*write)(export_bytes *, const sheet *, lmn_error *), const char *program,
+                          const char *format, bool lines_only)
 {
     static ribbon       ribbons[RIBBONS];
     static ribbon_point points[RIBBONS * POINTS];
@@ -281,7 +313,7 @@ static void check_picture(lmn_status (*write)(export_bytes *, const sheet *, lmn
     export_bytes bytes = bytes_of(&s, write);
     assert_int_equal(file_store(path, bytes.data, bytes.size, &error), LMN_OK);
     snprintf(command, sizeof command, format, folder, folder);
-    int status = system(command);
+    int  status = system(command);
     bool read = status == 0 && read_png(&drawn, picture);
     unlink(path);
     unlink(picture);
@@ -304,10 +336,11 @@ static void test_svg_picture(void **state)
 static void test_pdf_picture(void **state)
 {
     (void)state;
-    check_picture(export_pdf, "pdftoppm", "pdftoppm -singlefile -png -scale-to-x 600 -scale-to-y 600 %s/sheet %s/sheet", false);
+    check_picture(export_pdf, "pdftoppm", "pdftoppm -singlefile -png -scale-to-x 600 -scale-to-y 600 %s/sheet %s/sheet",
+                  false);
 }
 
-/* --- areas -------------------------------------------------------------------------------------------------------------- */
+/* --- areas ---------------------------------------------------------------------------------------------- */
 
 static uint32_t owners[SIDE][SIDE]; /* what is nearest, part index + 1 */
 static double   depths[SIDE][SIDE];
@@ -372,7 +405,7 @@ static void check_colours(const char *model, const lmn_scene *scene, const lmn_l
                 border = owners[y + k / 5 - 2][x + k % 5 - 2] != owners[y][x];
             if (border)
                 continue;
-            colour c = vector_fill_colour(&look->rules[0], scene, owners[y][x] - 1);
+            colour      c = vector_fill_colour(&look->rules[0], scene, owners[y][x] - 1);
             const float own[3] = {colour_from_linear(c.r), colour_from_linear(c.g), colour_from_linear(c.b)};
             bool        same = true;
             for (int k = 0; k < 3; k++)
@@ -396,15 +429,16 @@ static void read_colours(const char *path)
 static void check_fill(const char *model, bool coloured)
 {
     static const char lit_text[] = "{\"version\": 1, \"rules\": [{\"select\": \"*\", \"surface\": \"lit\"}]}";
-    static const char black_text[] = "{\"version\": 1, \"rules\": [{\"select\": \"*\", \"surface\": {\"technique\": \"flat\", \"colour\": \"#000000\"}}]}";
-    char           folder[] = "/tmp/limner-svg-XXXXXX", path[128], command[256], picture[64];
-    lmn_scene     *scene = NULL;
-    lmn_look      *look = NULL;
-    lmn_sheet     *sheet = NULL;
-    lmn_load_desc  load = LMN_LOAD_DESC_INIT;
-    lmn_draw_desc  how = LMN_DRAW_DESC_INIT;
-    lmn_sheet_desc desc = LMN_SHEET_DESC_INIT;
-    lmn_error      error = {0};
+    static const char black_text[] = "{\"version\": 1, \"rules\": [{\"select\": \"*\", \"surface\": {\"technique\": "
+                                     "\"flat\", \"colour\": \"#000000\"}}]}";
+    char              folder[] = "/tmp/limner-svg-XXXXXX", path[128], command[256], picture[64];
+    lmn_scene        *scene = NULL;
+    lmn_look         *look = NULL;
+    lmn_sheet        *sheet = NULL;
+    lmn_load_desc     load = LMN_LOAD_DESC_INIT;
+    lmn_draw_desc     how = LMN_DRAW_DESC_INIT;
+    lmn_sheet_desc    desc = LMN_SHEET_DESC_INIT;
+    lmn_error         error = {0};
     how.width = how.height = SIDE;
     desc.fill = true;
     snprintf(path, sizeof path, "%s/examples/%s", LIMNER_SOURCE_DIR, model);
@@ -457,10 +491,10 @@ static void test_fill_picture(void **state)
 /* Letters stand where they should: the words are read back, and are as wide as the font has them. */
 static void test_pdf_words(void **state)
 {
-    char         folder[] = "/tmp/limner-svg-XXXXXX", path[64], command[160], line[256] = "";
-    sheet        s;
-    lmn_error    error = {0};
-    double       box[4] = {0}, low = INFINITY, high = -INFINITY;
+    char      folder[] = "/tmp/limner-svg-XXXXXX", path[64], command[160], line[256] = "";
+    sheet     s;
+    lmn_error error = {0};
+    double    box[4] = {0}, low = INFINITY, high = -INFINITY;
     (void)state;
     if (!has_program("pdftotext")) {
         print_message("pdftotext is not installed: texts are not read back\n");
@@ -476,7 +510,8 @@ static void test_pdf_words(void **state)
     FILE *words = popen(command, "r");
     int   count = 0;
     while (words && fgets(line, sizeof line, words))
-        if (sscanf(line, " <word xMin=\"%lf\" yMin=\"%lf\" xMax=\"%lf\" yMax=\"%lf\">", &box[0], &box[1], &box[2], &box[3]) == 4) {
+        if (sscanf(line, " <word xMin=\"%lf\" yMin=\"%lf\" xMax=\"%lf\" yMax=\"%lf\">", &box[0], &box[1], &box[2],
+                   &box[3]) == 4) {
             assert_non_null(strstr(line, count == 0 ? ">Wide<" : ">mill<"));
             low = fmin(low, box[0]);
             high = fmax(high, box[2]);
@@ -498,7 +533,8 @@ static void test_pdf_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure), cmocka_unit_test(test_hostile), cmocka_unit_test(test_svg_picture), cmocka_unit_test(test_pdf_picture), cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
+        cmocka_unit_test(test_structure),   cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),
+        cmocka_unit_test(test_pdf_picture), cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
     };
     int failed = cmocka_run_group_tests_name("svg", tests, NULL, NULL);
     xmlCleanupParser();

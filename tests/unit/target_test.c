@@ -13,7 +13,8 @@
 
 static bool is_complete(const target_row *row)
 {
-    return row->name && strncmp(row->name, "t_", 2) == 0 && row->name[2] && row->format != TEXEL_NONE && row->format < TEXEL_FORMAT_COUNT;
+    return row->name && strncmp(row->name, "t_", 2) == 0 && row->name[2] && row->format != TEXEL_NONE &&
+           row->format < TEXEL_FORMAT_COUNT;
 }
 
 static void test_rows(void **state)
@@ -78,19 +79,21 @@ static bool writes_before(const technique *t, size_t end, target which)
     return false;
 }
 
-/* What a technique reads of its own one of its earlier passes wrote, since it lasts no longer than they run; and no pass names what there is not. */
+/* What a technique reads of its own one of its earlier passes wrote, since it lasts no longer than they run; and no
+ * pass names what there is not. */
 static void see_own_passes(const kind *k, const technique *t)
 {
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
-        size_t known = TARGET_COUNT + t->target_count;
+        size_t      known = TARGET_COUNT + t->target_count;
         if (p->writes == TARGET_NONE || p->writes >= known)
             fail_msg("%s.%s, pass '%s', writes what there is not", k->name, t->name, p->name);
         for (int n = 0; n < PASS_READS_MAX && p->reads[n]; n++) {
             if (p->reads[n] >= known)
                 fail_msg("%s.%s, pass '%s', reads what there is not", k->name, t->name, p->name);
             if (p->reads[n] >= TARGET_COUNT && !writes_before(t, i, p->reads[n]))
-                fail_msg("%s.%s, pass '%s', reads %s, which no pass before has written", k->name, t->name, p->name, t->targets[p->reads[n] - TARGET_COUNT].name);
+                fail_msg("%s.%s, pass '%s', reads %s, which no pass before has written", k->name, t->name, p->name,
+                         t->targets[p->reads[n] - TARGET_COUNT].name);
         }
     }
 }
@@ -130,7 +133,8 @@ static void test_own_used(void **state)
 /* What frames make without any pass: the geometry pass, mirrors, the shadow map, the edge map of the layer before. */
 static bool frame_makes(target t)
 {
-    return (target_rows[t].owner >= OWNER_LAYER && t != TARGET_PAGE && t != TARGET_LAYERS) || t == TARGET_REFLECTION || t == TARGET_EDGE_BEFORE;
+    return (target_rows[t].owner >= OWNER_LAYER && t != TARGET_PAGE && t != TARGET_LAYERS) || t == TARGET_REFLECTION ||
+           t == TARGET_EDGE_BEFORE;
 }
 
 static bool some_pass(bool (*matches)(const pass *p, target t), target t)
@@ -166,7 +170,8 @@ static void test_made(void **state)
     }
 }
 
-/* A line technique that always reads a channel asks for it: else the picture is not there, and its sampler not declared. */
+/* A line technique that always reads a channel asks for it: else the picture is not there, and its sampler not
+ * declared. */
 static void see_channels(const kind *k, const technique *t)
 {
     static const struct {
@@ -183,7 +188,9 @@ static void see_channels(const kind *k, const technique *t)
 static void see_merging(const kind *k, const technique *t)
 {
     for (size_t i = 0; i < t->pass_count && t->lines && t->lines->detect; i++)
-        for (int n = 0; n < PASS_READS_MAX && t->passes[i].shader && strstr(t->passes[i].shader, t->lines->detect) && t->passes[i].reads[n]; n++)
+        for (int n = 0; n < PASS_READS_MAX && t->passes[i].shader && strstr(t->passes[i].shader, t->lines->detect) &&
+                        t->passes[i].reads[n];
+             n++)
             if (t->passes[i].reads[n] >= TARGET_COUNT)
                 fail_msg("%s.%s detects from a picture of its own, which compositions do not have", k->name, t->name);
 }
@@ -208,8 +215,10 @@ static void test_declared(void **state)
 {
     (void)state;
     declares(&target_rows[TARGET_EDGE], "#ifndef HAS_EDGE\n#define HAS_EDGE\nuniform sampler2D t_edge;\n#endif\n");
-    declares(&target_rows[TARGET_NORMAL_DEPTH], "#ifndef HAS_NORMAL_DEPTH\n#define HAS_NORMAL_DEPTH\nuniform sampler2D t_normal_depth;\n#endif\n");
-    declares(&target_rows[TARGET_OVERSHOOT], "#ifndef HAS_OVERSHOOT\n#define HAS_OVERSHOOT\nuniform usampler2D t_overshoot;\n#endif\n");
+    declares(&target_rows[TARGET_NORMAL_DEPTH],
+             "#ifndef HAS_NORMAL_DEPTH\n#define HAS_NORMAL_DEPTH\nuniform sampler2D t_normal_depth;\n#endif\n");
+    declares(&target_rows[TARGET_OVERSHOOT],
+             "#ifndef HAS_OVERSHOOT\n#define HAS_OVERSHOOT\nuniform usampler2D t_overshoot;\n#endif\n");
 }
 
 static void test_empty(void **state)
@@ -227,8 +236,9 @@ static void test_empty(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows), cmocka_unit_test(test_own_rows), cmocka_unit_test(test_own_passes), cmocka_unit_test(test_own_used),
-        cmocka_unit_test(test_made), cmocka_unit_test(test_reads),    cmocka_unit_test(test_declared),   cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_rows),     cmocka_unit_test(test_own_rows), cmocka_unit_test(test_own_passes),
+        cmocka_unit_test(test_own_used), cmocka_unit_test(test_made),     cmocka_unit_test(test_reads),
+        cmocka_unit_test(test_declared), cmocka_unit_test(test_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Tonal art maps: nested to the pixel, of the tones that were asked for, evenly filled; and textures kept on disk. Rows P17 to P20, P32, P39 of the notes on
- * the pencil city, and Praun's maps in those on seed 003. */
+/* Tonal art maps: nested to the pixel, of the tones that were asked for, evenly filled; and textures kept on disk.
+ * Rows P17 to P20, P32, P39 of the notes on the pencil city, and Praun's maps in those on seed 003. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <math.h>
@@ -33,7 +33,15 @@ static double seconds(void)
 
 static tam_options usual(tam_placement placement)
 {
-    return (tam_options){.side = SIDE, .tones = TONES, .darkest = 0.9, .width = 1.5, .length = 0.4, .opacity = 1, .uneven = 0.5f, .placement = placement, .seed = 1};
+    return (tam_options){.side = SIDE,
+                         .tones = TONES,
+                         .darkest = 0.9,
+                         .width = 1.5,
+                         .length = 0.4,
+                         .opacity = 1,
+                         .uneven = 0.5f,
+                         .placement = placement,
+                         .seed = 1};
 }
 
 static double mean_ink(const mip_chain *m, int level, int tone)
@@ -46,9 +54,10 @@ static double mean_ink(const mip_chain *m, int level, int tone)
     return sum / 255 / (double)count;
 }
 
-/* --- tones ------------------------------------------------------------------------------------------------------------ */
+/* --- tones ---------------------------------------------------------------------------------------------- */
 
-/* A level is as near to its tone as half of the smallest mark allows; `mark` is that mark's ink in texels on a level, at least. */
+/* A level is as near to its tone as half of the smallest mark allows; `mark` is that mark's ink in texels on a
+ * level, at least. */
 static void check_tones(const mip_chain *m, const tam_options *w, double mark, const char *what)
 {
     printf("    %s: largest error of tone by level:", what);
@@ -87,7 +96,8 @@ static void darken(void *user, size_t index, float coverage)
     p->ink[index] += (p->limit - p->ink[index]) * coverage * p->opacity;
 }
 
-/* Each picture is the strokes of its tone and level and no others: so those of a lighter tone and of a coarser level are in it, at the same place, as wide. */
+/* Each picture is the strokes of its tone and level and no others: so those of a lighter tone and of a coarser
+ * level are in it, at the same place, as wide. */
 static void check_strokes(const mip_chain *m, const strokes *kept, const tam_options *w)
 {
     static float ink[SIDE * SIDE];
@@ -146,15 +156,16 @@ static void a_map_is_fast(void **state)
     }
 }
 
-/* --- strokes ---------------------------------------------------------------------------------------------------------- */
+/* --- strokes -------------------------------------------------------------------------------------------- */
 
-/* P19: in the lightest tone strokes lie apart, and across the middle of each there is its width in ink, on all levels. */
+/* P19: in the lightest tone strokes lie apart, and across the middle of each there is its width in ink, on all
+ * levels. */
 static void strokes_are_as_wide_on_all_levels(void **state)
 {
     (void)state;
     tam_options w = usual(TAM_BEST_FIT);
-    mip_chain  m;
-    strokes    kept;
+    mip_chain   m;
+    strokes     kept;
     assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
     printf("    width by level:");
     for (int k = 0; k < 4; k++) {
@@ -163,11 +174,12 @@ static void strokes_are_as_wide_on_all_levels(void **state)
         double         sum = 0;
         for (size_t i = 0; i < kept.count; i++) {
             const texture_stroke *s = &kept.items[i];
-            double        length = stroke_length(s);
+            double                length = stroke_length(s);
             assert_true(length < 0.4001 && length > 0.3 * 0.4 - 1e-4);
             if (s->light < 1 || (double)s->perspective < 1 - exp2(-k))
                 continue;
-            int x = (int)(0.5f * (s->u0 + s->u1) * (float)side) % side, y = (int)floorf(0.5f * (s->v0 + s->v1) * (float)side);
+            int x = (int)(0.5f * (s->u0 + s->u1) * (float)side) % side,
+                y = (int)floorf(0.5f * (s->v0 + s->v1) * (float)side);
             for (int row = y - 2; row <= y + 2; row++)
                 sum += (255 - t[(row + side) % side * side + x]) / 255.0;
             count++;
@@ -180,19 +192,20 @@ static void strokes_are_as_wide_on_all_levels(void **state)
     strokes_release(&kept);
 }
 
-/* P16: ends have their length in texels, whatever the length of the stroke: ink across a stroke at some texels from its end is what it is in all others. */
+/* P16: ends have their length in texels, whatever the length of the stroke: ink across a stroke at some texels from
+ * its end is what it is in all others. */
 static void ends_are_as_long_at_any_length(void **state)
 {
     (void)state;
     enum { PLACES = 24 };
     static float ink[SIDE * SIDE];
-    tam_options   w = usual(TAM_BEST_FIT);
+    tam_options  w = usual(TAM_BEST_FIT);
     w.width = 4;
     stroke_brush brush = tonal_art_map_brush(&w);
     double       first[PLACES];
     for (int length = 100; length <= 240; length += 20) {
-        picture p = {ink, 1, 1};
-        texture_stroke  s = {8.0f / SIDE, 100.5f / SIDE, (float)(8 + length) / SIDE, 100.5f / SIDE, 1, 1, 0};
+        picture        p = {ink, 1, 1};
+        texture_stroke s = {8.0f / SIDE, 100.5f / SIDE, (float)(8 + length) / SIDE, 100.5f / SIDE, 1, 1, 0};
         memset(ink, 0, sizeof ink);
         stroke_draw(&s, SIDE, &brush, darken, &p);
         for (int i = 0; i < PLACES; i++) {
@@ -209,11 +222,13 @@ static void ends_are_as_long_at_any_length(void **state)
     int cap = 0;
     while (cap < PLACES - 1 && first[cap] < 0.97 * w.width)
         cap++;
-    printf("    ends of strokes of %.0f texels' width: %.2f texels wide at first, whole after %d\n", w.width, first[0], cap);
+    printf("    ends of strokes of %.0f texels' width: %.2f texels wide at first, whole after %d\n", w.width, first[0],
+           cap);
     assert_true(first[0] < 0.3 * w.width && cap >= 10 && cap < PLACES - 1);
 }
 
-/* The same in maps: of strokes that lie apart, short and long ones begin alike, on all levels that have room for it. */
+/* The same in maps: of strokes that lie apart, short and long ones begin alike, on all levels that have room for
+ * it. */
 static void ends_in_maps_are_alike(void **state)
 {
     (void)state;
@@ -237,7 +252,12 @@ static void ends_in_maps_are_alike(void **state)
             counts[long_one]++;
             for (int place = 0; place < 3; place++)
                 for (int row = y - 1; row <= y + 1; row++)
-                    sums[long_one][place] += (255 - ((const uint8_t *)mip_layer(&m, k, 0))[(row + side) % side * side + ((int)(s->u0 * (float)side) + 1 + 4 * place) % side]) / 255.0;
+                    sums[long_one][place] +=
+                        (255 -
+                         ((const uint8_t *)mip_layer(
+                             &m, k,
+                             0))[(row + side) % side * side + ((int)(s->u0 * (float)side) + 1 + 4 * place) % side]) /
+                        255.0;
         }
         printf("    level %d: ink across ends", k);
         for (int place = 0; place < 3; place++) {
@@ -258,23 +278,26 @@ static void lengths_are_what_they_may_be(void **state)
     (void)state;
     for (int placement = 0; placement < TAM_PLACEMENT_COUNT; placement++) {
         tam_options w = usual((tam_placement)placement);
-        mip_chain  m;
-        strokes    kept;
-        double     sum = 0, least = 1, most = 0;
-        int        quarters[4] = {0}, fine = 0;
+        mip_chain   m;
+        strokes     kept;
+        double      sum = 0, least = 1, most = 0;
+        int         quarters[4] = {0}, fine = 0;
         assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
         for (size_t i = 0; i < kept.count; i++) {
             double share = stroke_length(&kept.items[i]) / w.length;
             least = fmin(least, share);
             most = fmax(most, share);
             sum += share;
-            if (kept.items[i].perspective < 0.3f) { /* of the finest level alone, where no stroke is too short to be one */
+            if (kept.items[i].perspective <
+                0.3f) { /* of the finest level alone, where no stroke is too short to be one */
                 quarters[(int)fmin((share - 0.3) / 0.7 * 4, 3)]++;
                 fine++;
             }
         }
-        printf("    %s: lengths from %.2f to %.2f, %.2f on the mean; quarters of the range on the finest level: %d %d %d %d\n", tam_placement_names[placement], least, most,
-               sum / (double)kept.count, quarters[0], quarters[1], quarters[2], quarters[3]);
+        printf("    %s: lengths from %.2f to %.2f, %.2f on the mean; quarters of the range on the finest level: %d %d "
+               "%d %d\n",
+               tam_placement_names[placement], least, most, sum / (double)kept.count, quarters[0], quarters[1],
+               quarters[2], quarters[3]);
         assert_true(least > 0.2999 && most < 1.0001 && least < 0.33 && most > 0.97);
         for (int q = 0; q < 4; q++)
             assert_true(quarters[q] > fine / 6);
@@ -283,14 +306,15 @@ static void lengths_are_what_they_may_be(void **state)
     }
 }
 
-/* --- grain ------------------------------------------------------------------------------------------------------------ */
+/* --- grain ---------------------------------------------------------------------------------------------- */
 
-/* P29: ink varies along and across a stroke; maps keep their tones and stay nested; without it nothing is different. */
+/* P29: ink varies along and across a stroke; maps keep their tones and stay nested; without it nothing is
+ * different. */
 static void strokes_have_grain(void **state)
 {
     (void)state;
     static float ink[SIDE * SIDE];
-    tam_options   w = usual(TAM_BEST_FIT);
+    tam_options  w = usual(TAM_BEST_FIT);
     w.width = 4;
     double before = 0;
     for (int i = 0; i <= 4; i++) {
@@ -298,8 +322,8 @@ static void strokes_have_grain(void **state)
         stroke_brush brush = tonal_art_map_brush(&w);
         double       sum = 0, squares = 0, half[2] = {0};
         for (int n = 0; n < 40; n++) {
-            picture p = {ink, 1, 1};
-            texture_stroke  s = {0.1f, (float)(20 + n) / 128, 0.9f, (float)(20 + n) / 128, 1, 1, 0};
+            picture        p = {ink, 1, 1};
+            texture_stroke s = {0.1f, (float)(20 + n) / 128, 0.9f, (float)(20 + n) / 128, 1, 1, 0};
             memset(ink, 0, sizeof ink);
             stroke_draw(&s, SIDE, &brush, darken, &p);
             for (int y = 40 + 2 * n - 1; y < 40 + 2 * n + 1; y++)
@@ -311,7 +335,8 @@ static void strokes_have_grain(void **state)
                 }
         }
         double mean = sum / (40 * 2 * 130), deviation = sqrt(fmax(squares / (40 * 2 * 130) - mean * mean, 0));
-        printf("    grain %.2f: ink inside strokes %.2f, deviation %.3f, second half %.2f of the first\n", w.grain, mean, deviation, half[1] / half[0]);
+        printf("    grain %.2f: ink inside strokes %.2f, deviation %.3f, second half %.2f of the first\n", w.grain,
+               mean, deviation, half[1] / half[0]);
         assert_true(i == 0 ? mean > 0.9999 && deviation < 1e-4 : deviation > before + 0.03 && half[1] < 0.99 * half[0]);
         before = deviation;
     }
@@ -351,8 +376,8 @@ static void strokes_are_evenly_spread(void **state)
     static float ink[SIDE * SIDE];
     for (int placement = 0; placement < TAM_PLACEMENT_COUNT; placement++) {
         tam_options w = usual((tam_placement)placement);
-        mip_chain  m;
-        strokes    kept;
+        mip_chain   m;
+        strokes     kept;
         assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
         random_source r = random_start(5, 5);
         stroke_brush  brush = tonal_art_map_brush(&w);
@@ -366,7 +391,7 @@ static void strokes_are_evenly_spread(void **state)
                 memset(ink, 0, sizeof ink);
                 for (size_t i = 0; i < kept.count; i++) {
                     texture_stroke s = kept.items[i];
-                    float  du = s.u1 - s.u0, dv = s.v1 - s.v0;
+                    float          du = s.u1 - s.u0, dv = s.v1 - s.v0;
                     if (s.light < 1 - ((float)tone + 0.5f) / TONES)
                         continue;
                     s.u0 = (float)random_unit(&r);
@@ -386,7 +411,8 @@ static void strokes_are_evenly_spread(void **state)
     }
 }
 
-/* How far the steps across a border of 2 x 2 copies are off those inside, in deviations of all lines of one copy. `square`: large steps count more. */
+/* How far the steps across a border of 2 x 2 copies are off those inside, in deviations of all lines of one copy.
+ * `square`: large steps count more. */
 static double seam_off(const uint8_t *t, int side, bool across, bool square)
 {
     double sums = 0, squares = 0, seam = 0;
@@ -394,7 +420,8 @@ static double seam_off(const uint8_t *t, int side, bool across, bool square)
         double sum = 0;
         for (int i = 0; i < 2 * side; i++) {
             int here = line % side, next = (line + 1) % side, along = i % side;
-            int step = across ? t[along * side + here] - t[along * side + next] : t[here * side + along] - t[next * side + along];
+            int step = across ? t[along * side + here] - t[along * side + next]
+                              : t[here * side + along] - t[next * side + along];
             sum += square ? step * step : abs(step);
         }
         seam = line == side - 1 ? sum : seam;
@@ -408,7 +435,7 @@ static double seam_off(const uint8_t *t, int side, bool across, bool square)
 static void borders_are_like_the_inside(void **state)
 {
     (void)state;
-    strokes        dots = {0};
+    strokes         dots = {0};
     pattern_options p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
     assert_int_equal(strokes_generate(&dots, &p, NULL), LMN_OK);
     for (int kind = 0; kind < 4; kind++) {
@@ -424,7 +451,12 @@ static void borders_are_like_the_inside(void **state)
             for (int tone = 0; tone < TONES; tone++)
                 for (int i = 0; i < 4; i++)
                     worst = fmax(worst, seam_off(mip_layer(&m, k, tone), SIDE >> k, i & 1, i & 2));
-        printf("    %s: steps across seams are up to %.2f deviations off\n", kind == 0 ? "best fit" : kind == 1 ? "strips" : kind == 2 ? "with grain" : "dots", worst);
+        printf("    %s: steps across seams are up to %.2f deviations off\n",
+               kind == 0   ? "best fit"
+               : kind == 1 ? "strips"
+               : kind == 2 ? "with grain"
+                           : "dots",
+               worst);
         assert_true(worst < 3.5);
         mip_chain_release(&m);
     }
@@ -443,7 +475,7 @@ static void crosses_from_the_middle(void **state)
     double length[2] = {0, 0};
     for (size_t i = 0; i < kept.count; i++) {
         const texture_stroke *s = &kept.items[i];
-        bool          across = fabsf(s->v1 - s->v0) > fabsf(s->u1 - s->u0);
+        bool                  across = fabsf(s->v1 - s->v0) > fabsf(s->u1 - s->u0);
         assert_int_equal(across, s->layer);
         assert_true(!across || s->light <= 0.51f);
         length[across] += stroke_length(s);
@@ -462,8 +494,9 @@ static void overlaps_darken_less_and_less(void **state)
         strokes s = {.width = 1};
         for (int i = 0; i < count; i++)
             assert_true(strokes_add(&s, (texture_stroke){0.2f, 0.5f, 0.8f, 0.5f, 1, 1, 0}));
-        tam_options w = {.side = 32, .tones = 2, .darkest = 0.8, .width = 4, .length = 0.5, .opacity = 0.3, .drawn = &s};
-        mip_chain  m;
+        tam_options w = {
+            .side = 32, .tones = 2, .darkest = 0.8, .width = 4, .length = 0.5, .opacity = 0.3, .drawn = &s};
+        mip_chain m;
         assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
         double ink = 1 - ((const uint8_t *)mip_layer(&m, 0, 1))[16 * 32 + 16] / 255.0;
         assert_true(ink - last < step && ink > last && ink <= 0.9);
@@ -479,7 +512,7 @@ static void overlaps_darken_less_and_less(void **state)
 static void drawn_shapes_are_placed(void **state)
 {
     (void)state;
-    strokes        dots = {0};
+    strokes         dots = {0};
     pattern_options p = {.pattern = PATTERN_STIPPLE, .count = 6000, .seed = 2};
     assert_int_equal(strokes_generate(&dots, &p, NULL), LMN_OK);
     tam_options w = usual(TAM_BEST_FIT);
@@ -497,8 +530,9 @@ static void drawn_shapes_are_placed(void **state)
     strokes_release(&dots);
 
     strokes house = {.width = 1};
-    assert_true(strokes_add(&house, (texture_stroke){0, 0.1f, 0.99f, 0.1f, 1, 1, 0}));         /* the eaves, seen from afar */
-    assert_true(strokes_add(&house, (texture_stroke){0.3f, 0.5f, 0.7f, 0.5f, 0.9f, 0.2f, 1})); /* a window, only from near */
+    assert_true(strokes_add(&house, (texture_stroke){0, 0.1f, 0.99f, 0.1f, 1, 1, 0})); /* the eaves, seen from afar */
+    assert_true(
+        strokes_add(&house, (texture_stroke){0.3f, 0.5f, 0.7f, 0.5f, 0.9f, 0.2f, 1})); /* a window, only from near */
     w.drawn = &house;
     assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
     for (int k = 0; k < 4; k++) {
@@ -511,7 +545,7 @@ static void drawn_shapes_are_placed(void **state)
     strokes_release(&house);
 }
 
-/* --- options ----------------------------------------------------------------------------------------------------------- */
+/* --- options -------------------------------------------------------------------------------------------- */
 
 static void the_same_options_give_the_same_map(void **state)
 {
@@ -561,10 +595,18 @@ static void extremes_end(void **state)
 {
     (void)state;
     for (int i = 0; i < 64; i++) {
-        tam_options w = {.side = i & 1 ? 128 : 16, .tones = i & 2 ? 16 : 2, .darkest = i & 4 ? 0.98 : 0.05, .width = i & 8 ? 4 : 0.5, .length = i & 16 ? 1 : 0.05,
-                        .opacity = i & 32 ? 0.1 : 1, .uneven = 1, .cross = i % 3 == 0, .placement = i % 5 == 0 ? TAM_STRIPS : TAM_BEST_FIT, .seed = (uint32_t)i};
-        mip_chain  m;
-        double     start = seconds();
+        tam_options w = {.side = i & 1 ? 128 : 16,
+                         .tones = i & 2 ? 16 : 2,
+                         .darkest = i & 4 ? 0.98 : 0.05,
+                         .width = i & 8 ? 4 : 0.5,
+                         .length = i & 16 ? 1 : 0.05,
+                         .opacity = i & 32 ? 0.1 : 1,
+                         .uneven = 1,
+                         .cross = i % 3 == 0,
+                         .placement = i % 5 == 0 ? TAM_STRIPS : TAM_BEST_FIT,
+                         .seed = (uint32_t)i};
+        mip_chain   m;
+        double      start = seconds();
         assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
         double off = mean_ink(&m, 0, w.tones - 1) - w.darkest;
         if (seconds() - start > 1)
@@ -607,7 +649,7 @@ static void failing_memory_is_reported(void **state)
     strokes_release(&drawn);
 }
 
-/* --- kept on disk ------------------------------------------------------------------------------------------------------ */
+/* --- kept on disk --------------------------------------------------------------------------------------- */
 
 static char folder[256];
 
@@ -665,8 +707,8 @@ static mip_chain sample(mip_format format, int side, int layers, int levels)
 
 static bool is_same(const mip_chain *a, const mip_chain *b)
 {
-    bool same = a->width == b->width && a->height == b->height && a->layers == b->layers && a->levels == b->levels && a->format == b->format &&
-                a->clamped == b->clamped && a->nearest == b->nearest;
+    bool same = a->width == b->width && a->height == b->height && a->layers == b->layers && a->levels == b->levels &&
+                a->format == b->format && a->clamped == b->clamped && a->nearest == b->nearest;
     for (int k = 0; same && k < a->levels; k++)
         same = memcmp(a->data[k], b->data[k], mip_level_bytes(a, k)) == 0;
     return same;
@@ -858,19 +900,22 @@ static void writers_do_not_disturb_each_other(void **state)
 static void the_oldest_go_first(void **state)
 {
     (void)state;
-    const char *names[] = {"0000000000000001.texture", "0000000000000002.texture", "0000000000000003.texture.AbCdEf", "notes.texture", "0000000000000004.txt"};
+    const char *names[] = {"0000000000000001.texture", "0000000000000002.texture", "0000000000000003.texture.AbCdEf",
+                           "notes.texture", "0000000000000004.txt"};
     char        paths[5][600];
     for (int i = 0; i < 5; i++) {
         snprintf(paths[i], sizeof paths[i], "%s/%s", folder, names[i]);
         write_file(paths[i], (const unsigned char *)"", 0);
         assert_int_equal(truncate(paths[i], 100 << 20), 0);
-        struct timespec when[2] = {{1000 + 10 * (i ^ 1), 0}, {1000 + 10 * (i ^ 1), 0}}; /* the second is older than the first */
+        struct timespec when[2] = {{1000 + 10 * (i ^ 1), 0},
+                                   {1000 + 10 * (i ^ 1), 0}}; /* the second is older than the first */
         assert_int_equal(utimensat(AT_FDCWD, paths[i], when, 0), 0);
     }
     mip_chain m = sample(MIP_R8, 8, 1, 0), found;
     store_keep(&m, "x");
     assert_true(access(paths[1], F_OK) != 0);
-    assert_true(access(paths[0], F_OK) == 0 && access(paths[2], F_OK) == 0 && access(paths[3], F_OK) == 0 && access(paths[4], F_OK) == 0);
+    assert_true(access(paths[0], F_OK) == 0 && access(paths[2], F_OK) == 0 && access(paths[3], F_OK) == 0 &&
+                access(paths[4], F_OK) == 0);
     assert_true(store_find(&found, "x"));
     mip_chain_release(&found);
     mip_chain_release(&m);

@@ -1,4 +1,5 @@
-/* Dots and strokes of surfaces on sheets: which are there against rays cast at all triangles, what lies behind a body, their groups, files, plotters, and what stops a drawing. */
+/* Dots and strokes of surfaces on sheets: which are there against rays cast at all triangles, what lies behind a
+ * body, their groups, files, plotters, and what stops a drawing. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,8 +21,10 @@
 enum { ROWS = 24, COLUMNS = 36, SIDE = 400 };
 static const double RADIUS = 1, WALL = 2.5, WALL_Z = -1.5;
 
-static const char stipple[] = "{\"version\":1,\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"stipple\",\"count\":6000,\"shadow\":0.2,\"light\":0.9}}]}";
-static const char quill[] = "{\"version\":1,\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"strokes\",\"count\":600}}]}";
+static const char stipple[] = "{\"version\":1,\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"stipple\","
+                              "\"count\":6000,\"shadow\":0.2,\"light\":0.9}}]}";
+static const char quill[] =
+    "{\"version\":1,\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"strokes\",\"count\":600}}]}";
 
 typedef struct fixture {
     lmn_scene *scene; /* a ball before a wall */
@@ -34,7 +37,8 @@ static void print_ball(FILE *f)
     for (int r = 0; r <= ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
             double up = 3.14159265358979 * r / ROWS, around = 2 * 3.14159265358979 * c / COLUMNS;
-            fprintf(f, "v %.9g %.9g %.9g\n", RADIUS * sin(up) * sin(around), RADIUS * cos(up), RADIUS * sin(up) * cos(around));
+            fprintf(f, "v %.9g %.9g %.9g\n", RADIUS * sin(up) * sin(around), RADIUS * cos(up),
+                    RADIUS * sin(up) * cos(around));
         }
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {
@@ -50,8 +54,8 @@ static lmn_look *look_of(const char *words)
 {
     lmn_look *look = NULL;
     lmn_error error = {0};
-    char path[] = "/tmp/limner-marks-XXXXXX.json";
-    int descriptor = mkstemps(path, 5);
+    char      path[] = "/tmp/limner-marks-XXXXXX.json";
+    int       descriptor = mkstemps(path, 5);
     assert_true(descriptor >= 0 && write(descriptor, words, strlen(words)) == (ssize_t)strlen(words));
     close(descriptor);
     if (lmn_look_load(&look, path, &error) != LMN_OK)
@@ -63,16 +67,17 @@ static lmn_look *look_of(const char *words)
 static int set_up(void **state)
 {
     static fixture f;
-    lmn_load_desc load = LMN_LOAD_DESC_INIT;
-    lmn_error     error = {0};
-    char          path[] = "/tmp/limner-marks-XXXXXX.obj";
-    int           descriptor = mkstemps(path, 4);
-    FILE         *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
+    lmn_load_desc  load = LMN_LOAD_DESC_INIT;
+    lmn_error      error = {0};
+    char           path[] = "/tmp/limner-marks-XXXXXX.obj";
+    int            descriptor = mkstemps(path, 4);
+    FILE          *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
     if (!file)
         return -1;
     setenv("LIMNER_CACHE", "", 1);
     print_ball(file);
-    fprintf(file, "o wall\nv %g %g %g\nv %g %g %g\nv %g %g %g\nv %g %g %g\nf -4 -3 -2 -1\n", -WALL, -WALL, WALL_Z, WALL, -WALL, WALL_Z, WALL, WALL, WALL_Z, -WALL, WALL, WALL_Z);
+    fprintf(file, "o wall\nv %g %g %g\nv %g %g %g\nv %g %g %g\nv %g %g %g\nf -4 -3 -2 -1\n", -WALL, -WALL, WALL_Z, WALL,
+            -WALL, WALL_Z, WALL, WALL, WALL_Z, -WALL, WALL, WALL_Z);
     fclose(file);
     f = (fixture){.stipple = look_of(stipple), .quill = look_of(quill)};
     lmn_status status = lmn_scene_create(&f.scene, &error);
@@ -112,9 +117,9 @@ static lmn_sheet *draw(const fixture *f, const lmn_look *look, const lmn_draw_de
 
 static double report_number(const lmn_sheet *s, const char *key)
 {
-    char *text = lmn_sheet_report_json(s);
+    char   *text = lmn_sheet_report_json(s);
     json_t *root = json_loads(text, 0, NULL);
-    double value = json_number_value(json_object_get(json_object_get(root, "strokes"), key));
+    double  value = json_number_value(json_object_get(json_object_get(root, "strokes"), key));
     json_decref(root);
     lmn_text_free(text);
     return value;
@@ -125,21 +130,22 @@ typedef void (*visit_fn)(void *user, uint32_t part, double x, double y, double d
 static size_t visit_dots(const lmn_sheet *s, visit_fn visit, void *user)
 {
     const sheet *page = &s->page;
-    size_t count = 0;
+    size_t       count = 0;
     for (size_t i = 0; i < page->item_count; i++)
         for (uint32_t k = 0; page->items[i].kind == SHEET_DOTS && k < page->items[i].count; k++) {
             const sheet_path *path = &page->paths[page->items[i].first + k];
             for (uint32_t n = 0; n < path->count; n++, count++) {
                 const float *p = page->points[path->first + n];
-                double scale = page->pixels_per_mm;
+                double       scale = page->pixels_per_mm;
                 if (visit)
-                    visit(user, page->groups[page->items[i].group].part, ((double)p[0] - s->views[0].box[0]) * scale, ((double)p[1] - s->views[0].box[1]) * scale, (double)path->width * scale);
+                    visit(user, page->groups[page->items[i].group].part, ((double)p[0] - s->views[0].box[0]) * scale,
+                          ((double)p[1] - s->views[0].box[1]) * scale, (double)path->width * scale);
             }
         }
     return count;
 }
 
-/* --- which dots there are -------------------------------------------------------------------------------------------- */
+/* --- which dots there are ------------------------------------------------------------------------------- */
 
 typedef struct rays {
     const mark_ground *ground;
@@ -167,8 +173,9 @@ static bool is_hit(const rays *r, const double from[3], const double way[3], uin
 {
     double c[3][3], e1[3], e2[3], p[3], to[3], q[3];
     for (uint32_t i = 0; i < 3; i++) {
-        const vec3 *v = &r->ground->places[r->ground->indices[3 * (size_t)triangle + i]];
-        const double place[3] = {(double)v->x + r->ground->origin[0], (double)v->y + r->ground->origin[1], (double)v->z + r->ground->origin[2]};
+        const vec3  *v = &r->ground->places[r->ground->indices[3 * (size_t)triangle + i]];
+        const double place[3] = {(double)v->x + r->ground->origin[0], (double)v->y + r->ground->origin[1],
+                                 (double)v->z + r->ground->origin[2]};
         memcpy(c[i], place, sizeof place);
     }
     subtract(e1, c[1], c[0]);
@@ -210,7 +217,8 @@ static void find_dot(void *user, uint32_t part, double x, double y, double diame
     search *s = user;
     for (size_t i = 0; i < s->page->dot_count; i++) {
         const marks_page_point *d = &s->page->dots[i];
-        if (!s->found[i] && d->part == part && fabs((double)d->x - x) + fabs((double)d->y - y) < 2e-3 && fabs((double)d->width - diameter) <= 0.0251) {
+        if (!s->found[i] && d->part == part && fabs((double)d->x - x) + fabs((double)d->y - y) < 2e-3 &&
+            fabs((double)d->width - diameter) <= 0.0251) {
             s->found[i] = true;
             return;
         }
@@ -220,17 +228,25 @@ static void find_dot(void *user, uint32_t part, double x, double y, double diame
 
 static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
 {
-    lmn_sheet  *s = draw(f, f->stipple, how, NULL);
-    pose        at_rest;
-    mark_ground ground;
-    marks_page  page = {.dots = NULL};
-    lmn_error   error = {0};
+    lmn_sheet   *s = draw(f, f->stipple, how, NULL);
+    pose         at_rest;
+    mark_ground  ground;
+    marks_page   page = {.dots = NULL};
+    lmn_error    error = {0};
     const double crease = 30 * 3.14159265358979 / 180;
     assert_int_equal(pose_create(&at_rest, f->scene, &error), LMN_OK);
     assert_int_equal(mark_ground_create(&ground, &at_rest, NULL, f->scene->part_count, crease, &error), LMN_OK);
-    rays r = {&ground, &s->views[0].camera};
-    mark_page_options options = {.pose = &at_rest, .look = f->stipple, .part_count = f->scene->part_count, .crease_angle = crease,
-                               .surface = f->stipple->rules[0].uses[KIND_SURFACE], .camera = r.camera, .width = SIDE, .height = SIDE, .hidden = cast, .user = &r};
+    rays              r = {&ground, &s->views[0].camera};
+    mark_page_options options = {.pose = &at_rest,
+                                 .look = f->stipple,
+                                 .part_count = f->scene->part_count,
+                                 .crease_angle = crease,
+                                 .surface = f->stipple->rules[0].uses[KIND_SURFACE],
+                                 .camera = r.camera,
+                                 .width = SIDE,
+                                 .height = SIDE,
+                                 .hidden = cast,
+                                 .user = &r};
     assert_int_equal(marks_on_page(&page, &options, &error), LMN_OK);
     search look_for = {&page, calloc(page.dot_count, 1), 0};
     size_t drawn = visit_dots(s, find_dot, &look_for), outside = 0, missing = 0;
@@ -239,7 +255,8 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
         outside += out;
         missing += !out && !look_for.found[i];
     }
-    print_message("%zu dots drawn, %zu by rays, %zu missing, %zu too many\n", drawn, page.dot_count - outside, missing, look_for.unknown);
+    print_message("%zu dots drawn, %zu by rays, %zu missing, %zu too many\n", drawn, page.dot_count - outside, missing,
+                  look_for.unknown);
     assert_true(drawn > 1000);
     assert_int_equal(missing, 0);
     assert_int_equal(look_for.unknown, 0);
@@ -260,7 +277,7 @@ static void test_same_dots(void **state)
     assert_same_dots(*state, &how);
 }
 
-/* --- what lies behind ---------------------------------------------------------------------------------------------------- */
+/* --- what lies behind ----------------------------------------------------------------------------------- */
 
 typedef struct sides {
     double pixels; /* to a unit */
@@ -303,13 +320,14 @@ static void test_behind(void **state)
     size_t paths = 0;
     for (size_t i = 0; i < s->page.item_count; i++) {
         const sheet_item *item = &s->page.items[i];
-        uint32_t part = s->page.groups[item->group].part;
+        uint32_t          part = s->page.groups[item->group].part;
         paths += part ? item->count : 0;
         for (uint32_t k = 0; part && k < item->count; k++)
             for (uint32_t n = 0; n < s->page.paths[item->first + k].count; n++) {
                 const float *p = s->page.points[s->page.paths[item->first + k].first + n];
-                double away = hypot((double)p[0] * s->page.pixels_per_mm - SIDE / 2.0, (double)p[1] * s->page.pixels_per_mm - SIDE / 2.0);
-                double rim = RADIUS * SIDE / (2 * s->views[0].camera.half_height);
+                double       away = hypot((double)p[0] * s->page.pixels_per_mm - SIDE / 2.0,
+                                          (double)p[1] * s->page.pixels_per_mm - SIDE / 2.0);
+                double       rim = RADIUS * SIDE / (2 * s->views[0].camera.half_height);
                 assert_true(part == 1 ? away < rim + 2 : away > rim * cos(3.14159265358979 / ROWS) - 2);
             }
     }
@@ -318,7 +336,7 @@ static void test_behind(void **state)
     lmn_sheet_destroy(&s);
 }
 
-/* --- files ------------------------------------------------------------------------------------------------------------------- */
+/* --- files ---------------------------------------------------------------------------------------------- */
 
 static file_data written(const lmn_sheet *s, const char *format)
 {
@@ -347,8 +365,9 @@ static void test_files(void **state)
     const fixture *f = *state;
     lmn_draw_desc  how = front();
     for (int i = 0; i < 2; i++) {
-        lmn_sheet *s = draw(f, i ? f->quill : f->stipple, &how, NULL), *again = draw(f, i ? f->quill : f->stipple, &how, NULL);
-        file_data  svg = written(s, "svg"), same = written(again, "svg"), dxf = written(s, "dxf");
+        lmn_sheet *s = draw(f, i ? f->quill : f->stipple, &how, NULL),
+                  *again = draw(f, i ? f->quill : f->stipple, &how, NULL);
+        file_data svg = written(s, "svg"), same = written(again, "svg"), dxf = written(s, "dxf");
         assert_int_equal(svg.size, same.size);
         assert_memory_equal(svg.data, same.data, svg.size);
         assert_int_equal(count_words(&svg, i ? "class=\"marks\"" : "class=\"dots\""), 2); /* parts */
@@ -389,11 +408,12 @@ static void test_plotter(void **state)
     s = draw(f, f->quill, &how, &desc);
     assert_true(s->page.path_count > 100);
     for (size_t i = 0; i < s->page.path_count; i++)
-        assert_true(!s->page.paths[i].filled && fabs((double)s->page.paths[i].width * s->page.pixels_per_mm - 1.3) < 1e-3);
+        assert_true(!s->page.paths[i].filled &&
+                    fabs((double)s->page.paths[i].width * s->page.pixels_per_mm - 1.3) < 1e-3);
     lmn_sheet_destroy(&s);
 }
 
-/* --- paper ------------------------------------------------------------------------------------------------------------------- */
+/* --- paper ---------------------------------------------------------------------------------------------- */
 
 static void test_paper(void **state)
 {
@@ -401,8 +421,10 @@ static void test_paper(void **state)
     static const struct {
         const char *key, *value;
         bool        pixels;
-    } rows[] = {{"surface.paper_tint", "0.5", true}, {"surface.paper_tint", "0", false}, {"surface.paper", "#ffeecc", true}, {"finish.ground", "#ffeecc", false}, {"surface.paper", "auto", false},
-                {"surface.paper", "none", false}, {"surface.technique", "toon", true}};
+    } rows[] = {{"surface.paper_tint", "0.5", true}, {"surface.paper_tint", "0", false},
+                {"surface.paper", "#ffeecc", true},  {"finish.ground", "#ffeecc", false},
+                {"surface.paper", "auto", false},    {"surface.paper", "none", false},
+                {"surface.technique", "toon", true}};
     lmn_look *look = look_of(stipple);
     lmn_error error = {0};
     assert_false(lmn_look_needs_pixels(look));
@@ -463,7 +485,7 @@ static void test_rims(void **state)
     lmn_scene_destroy(&f.scene);
 }
 
-/* --- what stops a drawing ------------------------------------------------------------------------------------------------------ */
+/* --- what stops a drawing ------------------------------------------------------------------------------- */
 
 static bool stop_at(double fraction, const char *stage, void *user)
 {
@@ -517,8 +539,9 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_dots), cmocka_unit_test(test_behind), cmocka_unit_test(test_files),     cmocka_unit_test(test_plotter),
-        cmocka_unit_test(test_paper),     cmocka_unit_test(test_none),   cmocka_unit_test(test_rims), cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_same_dots), cmocka_unit_test(test_behind),    cmocka_unit_test(test_files),
+        cmocka_unit_test(test_plotter),   cmocka_unit_test(test_paper),     cmocka_unit_test(test_none),
+        cmocka_unit_test(test_rims),      cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests_name("vector_marks", tests, set_up, tear_down);
 }

@@ -49,8 +49,8 @@ static void nothing_stops_without_work(void **state)
 static void cancelled_work_gets_no_memory(void **state)
 {
     (void)state;
-    work w;
-    listener l = {.no_from = 2};
+    work      w;
+    listener  l = {.no_from = 2};
     lmn_error error = {0};
     work_begin(&w, listen, &l);
     void *before = mem_alloc(64);
@@ -73,7 +73,7 @@ static void cancelled_work_gets_no_memory(void **state)
 static void silent_work_is_asked_too(void **state)
 {
     (void)state;
-    work w;
+    work     w;
     listener l = {.no_from = 3};
     work_begin(&w, listen, &l);
     double start = clock_ms();
@@ -87,8 +87,8 @@ static void silent_work_is_asked_too(void **state)
 static void time_runs_out(void **state)
 {
     (void)state;
-    work task, w;
-    lmn_error error = {0};
+    work          task, w;
+    lmn_error     error = {0};
     lmn_task_desc desc = {.struct_size = sizeof desc, .limits = lmn_limits_standard()};
     desc.limits.time_s = 0.05;
     work_begin_task(&task, &desc);
@@ -109,8 +109,8 @@ static void time_runs_out(void **state)
 static void memory_runs_out(void **state)
 {
     (void)state;
-    work task, w;
-    lmn_error error = {0};
+    work          task, w;
+    lmn_error     error = {0};
     lmn_task_desc desc = {.struct_size = sizeof desc, .limits = lmn_limits_standard()};
     desc.limits.memory = 1 << 20;
     work_begin_task(&task, &desc);
@@ -138,9 +138,10 @@ static void memory_runs_out(void **state)
 static void an_outer_task_stops_the_inner_call(void **state)
 {
     (void)state;
-    work task, w;
-    listener l = {.no_from = 2};
-    lmn_task_desc desc = {.struct_size = sizeof desc, .limits = lmn_limits_standard(), .progress = listen, .progress_user = &l};
+    work          task, w;
+    listener      l = {.no_from = 2};
+    lmn_task_desc desc = {
+        .struct_size = sizeof desc, .limits = lmn_limits_standard(), .progress = listen, .progress_user = &l};
     work_begin_task(&task, &desc);
     work_begin(&w, NULL, NULL);
     double start = clock_ms();
@@ -167,7 +168,7 @@ static void wait_for_stop(size_t begin, size_t end, void *user)
 static void threads_stop_with_their_work(void **state)
 {
     (void)state;
-    work w;
+    work     w;
     listener l = {.no_from = 3};
     work_begin(&w, listen, &l);
     double start = clock_ms();
@@ -187,7 +188,7 @@ static void idle_first(size_t begin, size_t end, void *user)
 static void the_caller_listens_while_others_work(void **state)
 {
     (void)state;
-    work w;
+    work     w;
     listener l = {.no_from = 3};
     work_begin(&w, listen, &l);
     double start = clock_ms();
@@ -199,13 +200,16 @@ static void the_caller_listens_while_others_work(void **state)
 static void limits_are_text(void **state)
 {
     (void)state;
-    lmn_error error;
+    lmn_error  error;
     lmn_limits l = lmn_limits_standard(), before;
-    assert_int_equal(lmn_limits_set(&l, "time=1.5min,memory=2G,triangles=5M,pixels=100k,textures=none", &error), LMN_OK);
+    assert_int_equal(lmn_limits_set(&l, "time=1.5min,memory=2G,triangles=5M,pixels=100k,textures=none", &error),
+                     LMN_OK);
     assert_true(l.time_s == 90);
     assert_true(l.memory == (uint64_t)2 << 30 && l.triangles == 5000000 && l.pixels == 100000 && l.textures == 0);
     before = l;
-    static const char *const wrong[] = {"", "time", "time=", "time=0", "time=-1", "time=1x", "speed=3", "memory=2G,", "memory=1e30", "time=3s,pixels=x", "memory=0.1", "time=nan"};
+    static const char *const wrong[] = {"",           "time",    "time=",      "time=0",      "time=-1",
+                                        "time=1x",    "speed=3", "memory=2G,", "memory=1e30", "time=3s,pixels=x",
+                                        "memory=0.1", "time=nan"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(lmn_limits_set(&l, wrong[i], &error), LMN_USAGE);
         assert_memory_equal(&l, &before, sizeof l);
@@ -213,7 +217,7 @@ static void limits_are_text(void **state)
     }
     /* Printed values are read back. */
     lmn_limit_info info;
-    lmn_limits again = lmn_limits_standard(), safe = lmn_limits_safe();
+    lmn_limits     again = lmn_limits_standard(), safe = lmn_limits_safe();
     for (size_t i = 0; lmn_limit_at(i, &info); i++) {
         char text[64];
         snprintf(text, sizeof text, "%s=%s", info.name, info.safe);
@@ -228,14 +232,14 @@ static void a_call_without_room_does_not_end_the_task(void **state)
 {
     (void)state;
     enum { BLOCKS = 4000 };
-    static void *blocks[BLOCKS];
-    lmn_task *task;
+    static void  *blocks[BLOCKS];
+    lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.limits.memory = 1 << 20;
     assert_int_equal(lmn_task_begin(&task, &desc, NULL), LMN_OK);
-    void *held = mem_alloc(500000);
+    void  *held = mem_alloc(500000);
     size_t count = 0;
-    work w;
+    work   w;
     work_begin(&w, NULL, NULL);
     while (count < BLOCKS && (blocks[count] = mem_alloc(1000)))
         count++;
@@ -257,9 +261,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_call_without_room_does_not_end_the_task),
-        cmocka_unit_test(nothing_stops_without_work), cmocka_unit_test(cancelled_work_gets_no_memory), cmocka_unit_test(silent_work_is_asked_too),
-        cmocka_unit_test(time_runs_out), cmocka_unit_test(memory_runs_out), cmocka_unit_test(an_outer_task_stops_the_inner_call),
-        cmocka_unit_test(threads_stop_with_their_work), cmocka_unit_test(the_caller_listens_while_others_work), cmocka_unit_test(limits_are_text),
+        cmocka_unit_test(nothing_stops_without_work),
+        cmocka_unit_test(cancelled_work_gets_no_memory),
+        cmocka_unit_test(silent_work_is_asked_too),
+        cmocka_unit_test(time_runs_out),
+        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(an_outer_task_stops_the_inner_call),
+        cmocka_unit_test(threads_stop_with_their_work),
+        cmocka_unit_test(the_caller_listens_while_others_work),
+        cmocka_unit_test(limits_are_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

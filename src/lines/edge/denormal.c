@@ -1,4 +1,5 @@
-/* denormal: the mean of differing unit normals is shorter than one. Freudenberg 2003, section 8.4; rows OI-06, OI-07, OI-08. */
+/* denormal: the mean of differing unit normals is shorter than one. Freudenberg 2003, section 8.4; rows OI-06,
+ * OI-07, OI-08. */
 #include "lines/lines.h"
 
 typedef struct denormal {
@@ -16,12 +17,24 @@ static const param params[] = {
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "filterable", .shader = "lines/edge/filterable.frag", .reads = {TARGET_NORMAL_DEPTH}, .writes = LINES_FILTERED},
+    {.name = "filterable",
+     .shader = "lines/edge/filterable.frag",
+     .reads = {TARGET_NORMAL_DEPTH},
+     .writes = LINES_FILTERED},
     {.name = "edges", .shader = "lines/edge/denormal.frag", .reads = {LINES_FILTERED}, .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
 const technique lines_denormal = {
-    .name = "denormal", .doc = "One filtered sample of the normals: where it is short, normals differ.", .example = "{\"lines\": {\"operator\": \"denormal\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(denormal), .channels = CHANNEL_NORMAL_DEPTH, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "denormal",
+    .doc = "One filtered sample of the normals: where it is short, normals differ.",
+    .example = "{\"lines\": {\"operator\": \"denormal\"}, \"surface\": \"flat\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(denormal),
+    .channels = CHANNEL_NORMAL_DEPTH,
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
+    LINES_TARGETS,
     .lines = &(const lines_row){.detect = NULL},
 };

@@ -1,7 +1,8 @@
-/* discontinuity: lines where visibility, orientation or part changes, whatever the slant of the surfaces. Goes past the
- * operators of Nienhaus 2005 (4.3) and Müller (2.2), whose depth differences also answer to a plane seen at a grazing angle:
- * here a depth step counts only as far as the slopes on both of its sides do not explain it. Window depth is affine in
- * screen space on any plane, so a plane gives exactly nothing. Rows E19, E22, and the edge-set test. */
+/* discontinuity: lines where visibility, orientation or part changes, whatever the slant of the surfaces. Goes past
+ * the operators of Nienhaus 2005 (4.3) and Müller (2.2), whose depth differences also answer to a plane seen at a
+ * grazing angle: here a depth step counts only as far as the slopes on both of its sides do not explain it. Window
+ * depth is affine in screen space on any plane, so a plane gives exactly nothing. Rows E19, E22, and the edge-set
+ * test. */
 #include "lines/lines.h"
 
 typedef struct discontinuity {
@@ -15,26 +16,42 @@ static const param params[] = {
                     .unit = UNIT_SHARE, .logarithmic = true,
                     .doc = "Smallest depth step that is a profile line, as a share of the figure's depth range."),
     PARAM_FLOAT_ROW(discontinuity, slope, .def = 1.05, .min = 0, .max = 10, .soft_max = 3,
-                    .doc = "How much more than the steeper slope beside it a depth step must be, as a multiple of that slope; less finds "
+                    .doc = "How much more than the steeper slope beside it a depth step must be, as a multiple of that "
+                           "slope; less finds "
                            "more lines in rough terrain, more keeps it quiet."),
-    PARAM_FLOAT_ROW(discontinuity, crease, .def = 44, .min = 0, .max = 180, .soft_min = 10, .soft_max = 90, .unit = UNIT_DEGREES,
-                    .as_cosine = true, .doc = "Angle between neighbouring normals from which on an inner line is fully drawn."),
-    PARAM_FLOAT_ROW(discontinuity, faint, .def = 38, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90, .unit = UNIT_DEGREES,
-                    .as_cosine = true, .doc = "Angle below which there is no inner line; between this and crease it fades in."),
-    PARAM_FLOAT_ROW(discontinuity, meet, .def = 10, .min = 0, .max = 180, .soft_min = 3, .soft_max = 60, .unit = UNIT_DEGREES,
-                    .as_cosine = true, .doc = "The same as crease where two operands of a solid meet: an angle between surfaces that "
-                                              "are two by construction is no accident of facets."),
+    PARAM_FLOAT_ROW(discontinuity, crease, .def = 44, .min = 0, .max = 180, .soft_min = 10, .soft_max = 90,
+                    .unit = UNIT_DEGREES, .as_cosine = true,
+                    .doc = "Angle between neighbouring normals from which on an inner line is fully drawn."),
+    PARAM_FLOAT_ROW(discontinuity, faint, .def = 38, .min = 0, .max = 180, .soft_min = 5, .soft_max = 90,
+                    .unit = UNIT_DEGREES, .as_cosine = true,
+                    .doc = "Angle below which there is no inner line; between this and crease it fades in."),
+    PARAM_FLOAT_ROW(discontinuity, meet, .def = 10, .min = 0, .max = 180, .soft_min = 3, .soft_max = 60,
+                    .unit = UNIT_DEGREES, .as_cosine = true,
+                    .doc = "The same as crease where two operands of a solid meet: an angle between surfaces that "
+                           "are two by construction is no accident of facets."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
-    {.name = "edges", .shader = "lines/edge/discontinuity.glsl+lines/edge/detect.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
+    {.name = "edges",
+     .shader = "lines/edge/discontinuity.glsl+lines/edge/detect.frag",
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
 const technique lines_discontinuity = {
-    .name = "discontinuity", .doc = "Steps of depth that no slope explains, creases by angle, and part borders.", .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(discontinuity), .channels = CHANNEL_NORMAL_DEPTH, .part_channels = CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "discontinuity",
+    .doc = "Steps of depth that no slope explains, creases by angle, and part borders.",
+    .example = "{\"lines\": {\"operator\": \"discontinuity\"}, \"surface\": \"flat\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(discontinuity),
+    .channels = CHANNEL_NORMAL_DEPTH,
+    .part_channels = CHANNEL_ID,
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
+    LINES_TARGETS,
     .lines = &(const lines_row){.detect = "lines/edge/discontinuity.glsl"},
 };

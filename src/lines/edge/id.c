@@ -1,4 +1,5 @@
-/* id: lines between parts, from unfiltered ids. Nienhaus 2005, sections 4.7 and 4.8; Müller, section 2.2; rows E22, E23, P12. */
+/* id: lines between parts, from unfiltered ids. Nienhaus 2005, sections 4.7 and 4.8; Müller, section 2.2; rows E22,
+ * E23, P12. */
 #include "lines/lines.h"
 
 typedef struct id_edges {
@@ -14,11 +15,23 @@ static const param params[] = {
 };
 
 static const pass passes[] = {
-    {.name = "edges", .shader = "lines/edge/id.glsl+lines/edge/detect.frag", .reads = {TARGET_ID}, .writes = TARGET_EDGE},
+    {.name = "edges",
+     .shader = "lines/edge/id.glsl+lines/edge/detect.frag",
+     .reads = {TARGET_ID},
+     .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 
 const technique lines_id = {
-    .name = "id", .doc = "Lines wherever the part changes, whatever its depth.", .example = "{\"lines\": {\"operator\": \"id\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(id_edges), .channels = CHANNEL_ID, .passes = passes, .pass_count = PARAM_COUNT(passes), LINES_TARGETS,
+    .name = "id",
+    .doc = "Lines wherever the part changes, whatever its depth.",
+    .example = "{\"lines\": {\"operator\": \"id\"}, \"surface\": \"flat\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(id_edges),
+    .channels = CHANNEL_ID,
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
+    LINES_TARGETS,
     .lines = &(const lines_row){.detect = "lines/edge/id.glsl"},
 };

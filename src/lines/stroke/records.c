@@ -4,12 +4,13 @@
 #include "base/memory.h"
 #include "lines/stroke/strokes.h"
 
-/* Six times the volume of each piece, which says which way round it is: measured from a corner of its own box, where numbers are small. */
+/* Six times the volume of each piece, which says which way round it is: measured from a corner of its own box,
+ * where numbers are small. */
 static double *find_volumes(const edge_mesh *m)
 {
     double *volumes = mem_calloc((size_t)m->piece_count + 1, sizeof *volumes);
     for (uint32_t f = 0; f < m->face_count && volumes; f++) {
-        vec3 from = m->boxes[m->pieces[f]].min;
+        vec3   from = m->boxes[m->pieces[f]].min;
         double p[3][3];
         for (int k = 0; k < 3; k++) {
             vec3 at = m->places[m->faces[f][k]];
@@ -17,7 +18,8 @@ static double *find_volumes(const edge_mesh *m)
             p[k][1] = (double)at.y - from.y;
             p[k][2] = (double)at.z - from.z;
         }
-        volumes[m->pieces[f]] += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) + p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
+        volumes[m->pieces[f]] += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
+                                 p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
                                  p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
     }
     return volumes;
@@ -34,8 +36,9 @@ static void put_vector(float *out, vec3 v, float fourth, float sign)
 static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e, double volume)
 {
     bool pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
-    int bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
-               (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) | (closed ? RECORD_CLOSED : 0);
+    int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
+               (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
+               (closed ? RECORD_CLOSED : 0);
     /* Of faces that pass the edge in the same direction one is inside out. */
     float outward = volume < 0 ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
     put_vector(out, m->places[e->vertex[0]], (float)bits, 1);
@@ -51,10 +54,11 @@ static bool is_always_line(const mesh_edge *e)
 
 float *strokes_edge_records(const edge_mesh *m)
 {
-    float *records = mem_calloc((size_t)m->edge_count + 1, EDGE_RECORD_FLOATS * sizeof *records);
+    float  *records = mem_calloc((size_t)m->edge_count + 1, EDGE_RECORD_FLOATS * sizeof *records);
     double *volumes = find_volumes(m);
-    float *at = records;
-    for (int pass = 0; pass < 2; pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
+    float  *at = records;
+    for (int pass = 0; pass < 2;
+         pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
         for (uint32_t i = 0; i < m->edge_count && records && volumes; i++)
             if (is_always_line(&m->edges[i]) == (pass == 0)) {
                 put_edge(at, m, &m->edges[i], volumes[m->pieces[m->edges[i].face[0]]]);
@@ -92,7 +96,7 @@ float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *co
     return records;
 }
 
-/* --- ribbons ------------------------------------------------------------------------------------------------------- */
+/* --- ribbons -------------------------------------------------------------------------------------------- */
 
 int strokes_channel(stroke_class c)
 {
@@ -105,14 +109,26 @@ enum { BUTT_BEGIN = 1, BUTT_END = 2, BRUSH_SHIFT = 2 };
 static void put_piece(float *out, const ribbon *r, const ribbon_point *points, uint32_t i, int height)
 {
     const ribbon_point *p = &points[i], *q = &points[i + 1];
-    bool butt = r->end == RIBBON_BUTT && !r->closed;
+    bool                butt = r->end == RIBBON_BUTT && !r->closed;
     int bits = (butt && i == 0 ? BUTT_BEGIN : 0) | (butt && i + 2 == r->count ? BUTT_END : 0) | r->brush << BRUSH_SHIFT;
     int channel = r->hidden_by ? CHANNEL_HIDDEN : strokes_channel(r->kind);
     const float record[RIBBON_RECORD_FLOATS] = {
-        p->x, (float)height - p->y, p->depth, p->half,
-        q->x, (float)height - q->y, q->depth, q->half,
-        p->alpha, q->alpha, (float)channel, (float)bits,
-        p->arc - points[0].arc, q->arc - points[0].arc, points[r->count - 1].arc - points[0].arc, (float)((r->id ^ r->id >> 23) % 65521),
+        p->x,
+        (float)height - p->y,
+        p->depth,
+        p->half,
+        q->x,
+        (float)height - q->y,
+        q->depth,
+        q->half,
+        p->alpha,
+        q->alpha,
+        (float)channel,
+        (float)bits,
+        p->arc - points[0].arc,
+        q->arc - points[0].arc,
+        points[r->count - 1].arc - points[0].arc,
+        (float)((r->id ^ r->id >> 23) % 65521),
     };
     memcpy(out, record, sizeof record);
 }
@@ -130,10 +146,10 @@ float *strokes_ribbon_records(const ribbon_set *set, int height, size_t *count)
         *count += pieces_of(&set->ribbons[i]);
     float *records = mem_alloc((*count + 1) * RIBBON_RECORD_FLOATS * sizeof *records), *at = records;
     for (size_t i = 0; i < set->ribbon_count && records; i++) {
-        const ribbon *r = &set->ribbons[i];
-        ribbon_point twice[2];
+        const ribbon       *r = &set->ribbons[i];
+        ribbon_point        twice[2];
         const ribbon_point *points = &set->points[r->first];
-        ribbon dot = *r;
+        ribbon              dot = *r;
         if (r->count == 1) {
             twice[0] = twice[1] = points[0];
             points = twice;

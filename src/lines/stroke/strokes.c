@@ -1,4 +1,5 @@
-/* strokes: lines with geometry, from the edges of meshes instead of from pictures. Freudenberg 2003, chapters 5 and 7; rows OE-05 to OE-08, EX-12 to EX-14. */
+/* strokes: lines with geometry, from the edges of meshes instead of from pictures. Freudenberg 2003, chapters 5 and
+ * 7; rows OE-05 to OE-08, EX-12 to EX-14. */
 #include "lines/stroke/strokes.h"
 
 #include <math.h>
@@ -9,33 +10,39 @@ static const char *const hidden_names[] = {"none", "solid", "dashed", NULL};
 static const char *const visibility_names[] = {"auto", "exact", "sampled", NULL};
 
 /* A row of a member of a member. */
-#define ROW(KEY, FIELD, TYPE, CTYPE, ...) \
-    {.key = KEY, .type = TYPE, .offset = PARAM_OFFSET(strokes_values, FIELD, CTYPE), .cpu_only = true, __VA_ARGS__}
+#define ROW(KEY, FIELD, TYPE, CTYPE, ...)                                                                              \
+    {                                                                                                                  \
+        .key = KEY, .type = TYPE, .offset = PARAM_OFFSET(strokes_values, FIELD, CTYPE), .cpu_only = true, __VA_ARGS__  \
+    }
 #define FLAG(KEY, FIELD, ...)   ROW(KEY, FIELD, PARAM_BOOL, bool, __VA_ARGS__)
 #define NUMBER(KEY, FIELD, ...) ROW(KEY, FIELD, PARAM_FLOAT, float, __VA_ARGS__)
 #define CHOICE(KEY, FIELD, ...) ROW(KEY, FIELD, PARAM_ENUM, int32_t, __VA_ARGS__)
 
 static const param params[] = {
     CHOICE("contours", options.contours, .names = contour_names, .def = CONTOURS_EDGES,
-           .doc = "Outlines: none; along edges of the mesh, exactly around what is there; or smooth, where the surface that is meant turns away."),
+           .doc = "Outlines: none; along edges of the mesh, exactly around what is there; or smooth, where the surface "
+                  "that is meant turns away."),
     FLAG("creases", options.creases, .def = 1, .doc = "Lines where faces meet at more than scene.crease_angle."),
     FLAG("borders", options.borders, .def = 1, .doc = "Lines where a surface ends."),
     FLAG("materials", options.materials, .def = 1, .doc = "Lines where a part's material changes."),
-    FLAG("intersections", options.intersections, .def = 1,
-         .doc = "Lines where surfaces run through each other."),
+    FLAG("intersections", options.intersections, .def = 1, .doc = "Lines where surfaces run through each other."),
     NUMBER("suggestive", options.suggestive, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-           .doc = "Suggestive contours: lines where an outline would appear if the eye moved a little; 1 draws the strongest, less draws more, 0 none."),
+           .doc = "Suggestive contours: lines where an outline would appear if the eye moved a little; 1 draws the "
+                  "strongest, less draws more, 0 none."),
     NUMBER("ridges", options.ridges, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Lines along rounded ridges; 1 draws the sharpest, less draws more, 0 none."),
     NUMBER("valleys", options.valleys, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
            .doc = "Lines along rounded valleys; 1 draws the sharpest, less draws more, 0 none."),
     NUMBER("apparent", options.apparent, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-           .doc = "Apparent ridges: lines where what is seen bends most; 1 draws the strongest, less draws more, 0 none."),
+           .doc =
+               "Apparent ridges: lines where what is seen bends most; 1 draws the strongest, less draws more, 0 none."),
     ROW("refine", options.refine, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 3, .soft_max = 2, .unit = UNIT_COUNT,
-        .doc = "Times surfaces are refined before their lines are found: coarse ones become round, edges sharper than scene.crease_angle stay sharp. Each time makes four "
+        .doc = "Times surfaces are refined before their lines are found: coarse ones become round, edges sharper than "
+               "scene.crease_angle stay sharp. Each time makes four "
                "triangles of one. What fills the picture keeps the surface that it has."),
     ROW("curve", options.curve, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 4, .soft_max = 3, .unit = UNIT_COUNT,
-        .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as straight as they are."),
+        .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as "
+               "straight as they are."),
     NUMBER("shortest", options.shortest, .def = 1, .min = 0, .max = 200, .soft_max = 20, .unit = UNIT_PX, .along = true,
            .doc = "Lines shorter than this are left out."),
     NUMBER("crowd", options.crowd, .def = 0.75, .min = 0, .max = 16, .soft_max = 4, .unit = UNIT_PX,
@@ -47,33 +54,45 @@ static const param params[] = {
     CHOICE("brush", style.brush, .names = brush_names, .doc = "What the lines are drawn with."),
     NUMBER("taper", style.taper, .def = 0, .min = 0, .max = 200, .soft_max = 60, .unit = UNIT_PX, .along = true,
            .doc = "Length over which lines thin out towards their ends; 0 leaves them as wide as they are."),
-    NUMBER("pressure", style.pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .doc = "How much the width varies along a line."),
+    NUMBER("pressure", style.pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+           .doc = "How much the width varies along a line."),
     NUMBER("wobble", style.wobble, .def = 0, .min = 0, .max = 32, .soft_max = 6, .unit = UNIT_PX,
            .doc = "How far lines stray, as if drawn by hand."),
-    NUMBER("wobble_length", style.wobble_length, .def = 40, .min = 2, .max = 400, .soft_max = 160, .unit = UNIT_PX, .along = true,
-           .only_if = "wobble", .doc = "How far apart the waves of straying lines are."),
-    ROW("repeats", style.repeats, PARAM_INT, int32_t, .def = 1, .min = 1, .max = 8, .soft_min = 1, .soft_max = 4, .unit = UNIT_COUNT,
-        .doc = "Times each line is drawn."),
-    NUMBER("repeat_apart", style.repeat_apart, .def = 2, .min = 0, .max = 32, .soft_max = 8, .unit = UNIT_PX, .only_if = "repeats>1",
-           .doc = "How far repeated lines differ."),
-    {.key = "hidden", .type = PARAM_ENUM, .offset = PARAM_OFFSET(strokes_values, style.hidden, int32_t), .names = hidden_names, .variant = true,
+    NUMBER("wobble_length", style.wobble_length, .def = 40, .min = 2, .max = 400, .soft_max = 160, .unit = UNIT_PX,
+           .along = true, .only_if = "wobble", .doc = "How far apart the waves of straying lines are."),
+    ROW("repeats", style.repeats, PARAM_INT, int32_t, .def = 1, .min = 1, .max = 8, .soft_min = 1, .soft_max = 4,
+        .unit = UNIT_COUNT, .doc = "Times each line is drawn."),
+    NUMBER("repeat_apart", style.repeat_apart, .def = 2, .min = 0, .max = 32, .soft_max = 8, .unit = UNIT_PX,
+           .only_if = "repeats>1", .doc = "How far repeated lines differ."),
+    {.key = "hidden",
+     .type = PARAM_ENUM,
+     .offset = PARAM_OFFSET(strokes_values, style.hidden, int32_t),
+     .names = hidden_names,
+     .variant = true,
      .doc = "Lines behind surfaces: none, solid or dashed."},
-    {.key = "hidden_colour", .type = PARAM_COLOUR, .offset = PARAM_OFFSET(strokes_values, style.hidden_colour, colour),
-     .def_colour = {0.42f, 0.46f, 0.52f, 1}, .only_if = "hidden", .doc = "Colour of hidden lines."},
-    NUMBER("hidden_width", style.hidden_width, .def = 1.2, .min = 0.5, .max = 32, .soft_max = 4, .unit = UNIT_PX, .only_if = "hidden",
-           .doc = "Width of hidden lines."),
-    NUMBER("hidden_dash", style.hidden_dash, .def = 6, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .only_if = "hidden=dashed",
-           .doc = "Length of the dashes of hidden lines."),
-    NUMBER("hidden_gap", style.hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true, .only_if = "hidden=dashed",
-           .doc = "Length of the gaps between the dashes of hidden lines."),
+    {.key = "hidden_colour",
+     .type = PARAM_COLOUR,
+     .offset = PARAM_OFFSET(strokes_values, style.hidden_colour, colour),
+     .def_colour = {0.42f, 0.46f, 0.52f, 1},
+     .only_if = "hidden",
+     .doc = "Colour of hidden lines."},
+    NUMBER("hidden_width", style.hidden_width, .def = 1.2, .min = 0.5, .max = 32, .soft_max = 4, .unit = UNIT_PX,
+           .only_if = "hidden", .doc = "Width of hidden lines."),
+    NUMBER("hidden_dash", style.hidden_dash, .def = 6, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX,
+           .along = true, .only_if = "hidden=dashed", .doc = "Length of the dashes of hidden lines."),
+    NUMBER("hidden_gap", style.hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX,
+           .along = true, .only_if = "hidden=dashed", .doc = "Length of the gaps between the dashes of hidden lines."),
     NUMBER("hidden_fade", style.hidden_fade, .def = 0.8, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "hidden",
            .doc = "Opacity of hidden lines is multiplied by it with each body more in front of them."),
-    ROW("hidden_depth", style.hidden_depth, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 64, .soft_max = 8, .unit = UNIT_COUNT, .only_if = "hidden",
+    ROW("hidden_depth", style.hidden_depth, PARAM_INT, int32_t, .def = 0, .min = 0, .max = 64, .soft_max = 8,
+        .unit = UNIT_COUNT, .only_if = "hidden",
         .doc = "Surfaces that may lie in front of hidden lines; 0 is any number."),
-    NUMBER("hidden_crowd", style.hidden_crowd, .def = 0, .min = 0, .max = 64, .soft_max = 12, .unit = UNIT_PX, .along = true, .only_if = "hidden",
+    NUMBER("hidden_crowd", style.hidden_crowd, .def = 0, .min = 0, .max = 64, .soft_max = 12, .unit = UNIT_PX,
+           .along = true, .only_if = "hidden",
            .doc = "Hidden lines keep this far apart, the more important ones staying; 0 draws all."),
     CHOICE("visibility", visibility, .names = visibility_names,
-           .doc = "How lines know where they are hidden: exact, by geometry, with chains of lines that styles run along; sampled, edge by edge from the depth of "
+           .doc = "How lines know where they are hidden: exact, by geometry, with chains of lines that styles run "
+                  "along; sampled, edge by edge from the depth of "
                   "the picture, which is faster; auto takes the faster one where contours and style allow it."),
 };
 
@@ -89,14 +108,21 @@ static void own_strokes(stroke_options *options, stroke_style *style, const void
 }
 
 const technique lines_strokes = {
-    .name = "strokes", .doc = "Lines with geometry: outlines, creases and borders of the mesh itself, drawn as strokes.", .example = "{\"lines\": {\"operator\": \"strokes\", \"visibility\": \"exact\"}, \"surface\": \"flat\"}", .params = params, .param_count = PARAM_COUNT(params), .params_size = sizeof(strokes_values), .passes = passes, .pass_count = PARAM_COUNT(passes),
+    .name = "strokes",
+    .doc = "Lines with geometry: outlines, creases and borders of the mesh itself, drawn as strokes.",
+    .example = "{\"lines\": {\"operator\": \"strokes\", \"visibility\": \"exact\"}, \"surface\": \"flat\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(strokes_values),
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
     .lines = &(const lines_row){.own_ink = true, .as_strokes = own_strokes},
 };
 
 stroke_style strokes_style_of(const strokes_values *v)
 {
     const lines_common *c = &v->common;
-    stroke_style s = v->style;
+    stroke_style        s = v->style;
     for (int i = 0; i < STROKE_CLASS_COUNT; i++) {
         int channel = strokes_channel((stroke_class)i);
         s.colours[i] = channel == 0 ? c->colour : channel == 1 ? c->inner_colour : c->id_colour;
@@ -118,9 +144,10 @@ stroke_options strokes_options_of(const strokes_values *v)
 
 bool strokes_need_chains(const strokes_values *v)
 {
-    const stroke_style *s = &v->style;
+    const stroke_style   *s = &v->style;
     const stroke_options *w = &v->options;
-    bool kinds = stroke_options_bend(w) || w->curve > 0;
-    bool style = s->brush != BRUSH_PEN || s->taper > 0 || s->pressure > 0 || s->wobble > 0 || s->repeats > 1 || s->hidden != HIDDEN_NONE;
+    bool                  kinds = stroke_options_bend(w) || w->curve > 0;
+    bool style = s->brush != BRUSH_PEN || s->taper > 0 || s->pressure > 0 || s->wobble > 0 || s->repeats > 1 ||
+                 s->hidden != HIDDEN_NONE;
     return kinds || style || v->common.overshoot > 0 || v->common.dash > 0 || v->common.halo > 0;
 }
