@@ -253,7 +253,9 @@ static void check_lines(source *s)
     }
     int most = strcmp(s->area, "tests") == 0 ? TEST_LINES_MAX : FILE_LINES_MAX;
     if (line - 2 > most)
-        complain(s, most, "the file is longer than a file may be", "");
+        complain(s, most,
+                 most == TEST_LINES_MAX ? "the test is longer than 1200 lines" : "the file is longer than 1000 lines",
+                 "");
 }
 
 static void check_file(checker *c, const char *root, const char *path)

@@ -45,6 +45,8 @@ expect "promise" src/look/a.c '/* TO''DO: later */\n'
 expect "" src/look/a.c '/* TO''DO (#12): later */\n'
 expect "longer than 1000" src/look/a.c "$(printf 'int;\\n%.0s' $(seq 1001))"
 expect "" src/look/a.c "$(printf 'int;\\n%.0s' $(seq 1000))"
+expect "longer than 1200" tests/unit/a.c "$(printf 'int;\\n%.0s' $(seq 1201))"
+expect "" tests/unit/a.c "$(printf 'int;\\n%.0s' $(seq 1200))"
 expect "longer than 80" src/look/a.c "int f(void)\n{\n$(printf ';\\n%.0s' $(seq 81))}\n"
 expect "" src/look/a.c "int f(void)\n{\n$(printf ';\\n%.0s' $(seq 80))}\n"
 exit $failed
