@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base fence scene sheet technique light gpu construct csg pose halftone stroke import export layer lines surface perturb compose finish look plan stage solids frame vector draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg pose cut field stroke_texture light halftone marks stroke import export layer lines surface perturb compose finish look plan stage solids frame vector draw api)
 
 set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 
@@ -15,7 +15,7 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     target_link_libraries(limner_${folder} PRIVATE PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG
                                                    PkgConfig::WEBP PkgConfig::ZLIB PkgConfig::DEFLATE PkgConfig::ASSIMP PkgConfig::GLU)
     # Only what reads drawings sees the XML library.
-    if(folder STREQUAL halftone)
+    if(folder STREQUAL stroke_texture)
       target_link_libraries(limner_${folder} PRIVATE PkgConfig::XML)
     endif()
     if(folder STREQUAL fence AND SECCOMP_FOUND)

@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "export/export.h"
-#include "halftone/strokes.h"
+#include "stroke_texture/strokes.h"
 
 enum { SIDE_MOST = 8192, WIDTH_MOST = 256 };
 

@@ -4,8 +4,8 @@
 
 #include "base/colour.h"
 #include "base/memory.h"
-#include "halftone/random.h"
-#include "halftone/strokes.h"
+#include "base/random.h"
+#include "stroke_texture/strokes.h"
 
 enum { OCTAVES = 4, CELLS = 8, STREAKS = 5200 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "halftone/random.h"
+#include "base/random.h"
 
 const char *const paper_names[PAPER_COUNT + 1] = {"none", "smooth", "drawing", "rough", "laid", "canvas", NULL};
 

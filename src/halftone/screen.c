@@ -1,6 +1,6 @@
 /* Screens, warp maps, normals and ink maps, all from one rasterised level: who owns a texel, and how strongly. */
 #include "halftone/screen_private.h"
-#include "halftone/strokes_private.h"
+#include "stroke_texture/strokes_private.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #define LIMNER_HALFTONE_SCREEN_H
 
 #include "base/mip_chain.h"
-#include "halftone/strokes.h"
+#include "stroke_texture/strokes.h"
 
 /* Which way strokes get mip levels. */
 typedef enum screen_detail {

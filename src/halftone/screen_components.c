@@ -1,7 +1,7 @@
 /* The marks of a painted screen: texels of ink that hang together. Levels of detail leave out whole marks, as those
  * of strokes do. */
 #include "halftone/screen_private.h"
-#include "halftone/strokes_private.h"
+#include "stroke_texture/strokes_private.h"
 
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "halftone/strokes_private.h"
+#include "stroke_texture/strokes_private.h"
 
 const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1] = {"best-fit", "strips", NULL};
 

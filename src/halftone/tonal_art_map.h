@@ -5,7 +5,7 @@
 #define LIMNER_HALFTONE_TONAL_ART_MAP_H
 
 #include "base/mip_chain.h"
-#include "halftone/strokes.h"
+#include "stroke_texture/strokes.h"
 
 typedef enum tam_placement { TAM_BEST_FIT, TAM_STRIPS, TAM_PLACEMENT_COUNT } tam_placement;
 extern const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1];

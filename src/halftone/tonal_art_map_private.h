@@ -2,7 +2,7 @@
 #ifndef LIMNER_HALFTONE_TONAL_ART_MAP_PRIVATE_H
 #define LIMNER_HALFTONE_TONAL_ART_MAP_PRIVATE_H
 
-#include "halftone/random.h"
+#include "base/random.h"
 #include "halftone/tonal_art_map.h"
 
 enum { TAM_ALONG, TAM_ACROSS, TAM_DIRECTIONS };

@@ -11,7 +11,7 @@ out vec3 v_field_diagonal; /* eye space */
 out vec3 v_field_sides;
 #endif
 #ifdef HAS_PATCHES
-layout(location = 8) in vec4 a_patch; /* src/scene/lapped.h */
+layout(location = 8) in vec4 a_patch; /* src/field/lapped.h */
 out vec4 v_patch;
 #endif
 

@@ -8,7 +8,7 @@ struct surface_point {
 };
 
 #ifdef HAS_FIELD
-in vec3 v_field_diagonal; /* src/scene/direction_field.h, eye space */
+in vec3 v_field_diagonal; /* src/field/direction_field.h, eye space */
 in vec3 v_field_sides;
 #endif
 #ifdef HAS_PATCHES

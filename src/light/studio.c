@@ -1,7 +1,7 @@
 /* studio: a key light that goes with the viewer and a weaker fill light from the other side, or the file's own
  * lights. */
 #include "light/light.h"
-#include "scene/cut.h"
+#include "cut/cut.h"
 
 static const char *const source_names[] = {"studio", "file", NULL};
 

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "halftone/graphite.h"
-#include "halftone/random.h"
+#include "base/random.h"
 #include "perturb/perturb.h"
 
 enum { COPIES_MAX = 16 };

@@ -4,7 +4,7 @@
 
 #include "look/look.h"
 #include "pose/pose.h"
-#include "scene/cut.h"
+#include "cut/cut.h"
 
 /* What is cut away, and which parts stay whole all the same. */
 typedef struct section {

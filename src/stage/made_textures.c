@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "stage/uniforms.h"
-#include "halftone/store.h"
+#include "base/store.h"
 
 enum { DRAWINGS_KEPT = 8, NAME_SIZE = 48 };
 

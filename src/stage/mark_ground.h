@@ -4,7 +4,7 @@
 #define LIMNER_STAGE_MARK_GROUND_H
 
 #include "plan/camera.h"
-#include "halftone/marks.h"
+#include "marks/marks.h"
 #include "look/look.h"
 #include "pose/pose.h"
 #include "technique/technique.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "halftone/store.h"
+#include "base/store.h"
 #include "stage/mark_ground.h"
 #include "surface/marks.h"
 

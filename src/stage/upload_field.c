@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/lapped.h"
+#include "field/lapped.h"
 
 enum { PATCH_SEED = 1 };
 

@@ -4,8 +4,8 @@
  * on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53. z grows
  * with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines and
  * planes of the scene lines and planes of the window. */
-#ifndef LIMNER_STROKE_PRIVATE_H
-#define LIMNER_STROKE_PRIVATE_H
+#ifndef LIMNER_STROKE_STROKE_PRIVATE_H
+#define LIMNER_STROKE_STROKE_PRIVATE_H
 
 #include "stroke/stroke.h"
 

@@ -1,4 +1,4 @@
-/* What decides on the GPU which marks are drawn: halftone/marks_law.c and halftone/marks_page.c in the vertex stage. Every vertex of a mark comes to the same decision, since all of them have the
+/* What decides on the GPU which marks are drawn: marks/marks_law.c and marks/marks_page.c in the vertex stage. Every vertex of a mark comes to the same decision, since all of them have the
  * same numbers. Freudenberg 2003, sections 5.1 and 5.4, with what is printed wrong there mended; rows EX-01 to EX-08. */
 #include "surface/halftone/tone.glsl"
 

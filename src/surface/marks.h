@@ -3,7 +3,7 @@
 #ifndef LIMNER_SURFACE_MARKS_H
 #define LIMNER_SURFACE_MARKS_H
 
-#include "halftone/marks.h"
+#include "marks/marks.h"
 #include "technique/technique.h"
 
 typedef struct mark_values {

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "halftone/strokes.h"
+#include "stroke_texture/strokes.h"
 #include "surface/marks.h"
 #include "surface/surface.h"
 

@@ -31,7 +31,7 @@ bool clip_near(inout vec3 a, inout vec3 b, inout vec2 arcs)
     return true;
 }
 
-/* Share of the strokes that shall be there for where they are: halftone/marks_law.c. */
+/* Share of the strokes that shall be there for where they are: marks/marks_law.c. */
 float share_there(mark_place m, vec3 way, float d)
 {
 #if LAW == 0

@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "fence/image_read.h"
-#include "halftone/store.h"
+#include "base/store.h"
 
 enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8, INDICATION_SIDE_MOST = 2048 };
 

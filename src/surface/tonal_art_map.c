@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "halftone/store.h"
+#include "base/store.h"
 #include "surface/halftone/halftone.h"
 #include "surface/surface.h"
 

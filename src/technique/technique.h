@@ -92,7 +92,7 @@ typedef struct texture_source {
     bool kept; /* takes long: it is kept on disk */
 } texture_source;
 
-/* Marks that lie on a figure's surfaces and are drawn over it once it is shaded: src/halftone/marks.h. */
+/* Marks that lie on a figure's surfaces and are drawn over it once it is shaded: src/marks/marks.h. */
 struct marks;
 struct mark_surface;
 typedef struct mark_source {

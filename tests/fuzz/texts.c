@@ -5,7 +5,7 @@
 #include "vector/vector_private.h"
 #include "fuzz.h"
 #include "look/look.h"
-#include "scene/cut.h"
+#include "cut/cut.h"
 
 /* A look that was accepted prints as one that is accepted. */
 static void use_look(lmn_look **look)

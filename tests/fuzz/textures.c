@@ -1,6 +1,6 @@
 /* Fuzzers of stroke textures. */
 #include "fuzz.h"
-#include "halftone/strokes.h"
+#include "stroke_texture/strokes.h"
 
 /* What a reader of strokes gives is written and read again: the text of a file that was accepted must be accepted. */
 static void use_strokes(strokes *s, lmn_status status)

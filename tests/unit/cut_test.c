@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "base/text.h"
-#include "scene/cut.h"
+#include "cut/cut.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -2,7 +2,7 @@
  * the notes on pencils. */
 #include "field_shapes.h"
 
-#include "scene/direction_field.h"
+#include "field/direction_field.h"
 
 static direction_field make_field(const primitive *p)
 {

@@ -2,7 +2,7 @@
  * is left to chance. */
 #include "field_shapes.h"
 
-#include "scene/lapped.h"
+#include "field/lapped.h"
 
 /* Per triangle of the primitive the triangles of the lapped mesh that are it: list[starts[t]] … */
 typedef struct origins {

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "halftone/marks.h"
-#include "halftone/random.h"
+#include "marks/marks.h"
+#include "base/random.h"
 
 static void assert_near(double value, double wanted, double off)
 {

@@ -13,9 +13,9 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
-#include "halftone/marks.h"
-#include "halftone/random.h"
-#include "halftone/strokes.h"
+#include "marks/marks.h"
+#include "base/random.h"
+#include "stroke_texture/strokes.h"
 
 static void assert_near(double value, double wanted, double off)
 {

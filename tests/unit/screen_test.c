@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "halftone/random.h"
+#include "base/random.h"
 #include "halftone/screen.h"
 
 static double seconds(void)

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "halftone/strokes.h"
+#include "stroke_texture/strokes.h"
 
 static inline void near_or_fail(double value, double wanted, double tolerance, int line)
 {

@@ -1,7 +1,7 @@
 /* Stroke textures: files, drawing, priorities, patterns. Rows EX-18 to EX-24 of the seed's table. */
 #include "strokes_support.h"
 
-#include "halftone/generate.h"
+#include "stroke_texture/generate.h"
 
 enum { SIDE = 128 };
 

@@ -18,8 +18,8 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "halftone/random.h"
-#include "halftone/store.h"
+#include "base/random.h"
+#include "base/store.h"
 #include "halftone/tonal_art_map.h"
 
 enum { SIDE = 256, TONES = 6 };
