@@ -201,19 +201,8 @@ static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
 
 static bool has_strokes(const rule *r)
 {
-    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
-        const technique *t = r->uses[KIND_LINES][i].technique;
-        for (size_t k = 0; k < t->pass_count; k++)
-            if (t->passes[k].strokes)
-                return true;
-    }
-    return false;
-}
-
-static bool has_solids(const plan *p, const figure *fig)
-{
-    for (size_t k = 0; k < p->scene->part_count; k++)
-        if (fig->designated[k] && p->scene->nodes[p->scene->parts[k].node].solid != NONE)
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
+        if (technique_draws_strokes(r->uses[KIND_LINES][i].technique))
             return true;
     return false;
 }
@@ -225,7 +214,7 @@ static lmn_status refuse_strokes(const refusal *r, const session *s, const uploa
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         bool          strokes = has_strokes(fig->rule);
-        solids = solids || (strokes && has_solids(&s->plan, fig));
+        solids = solids || (strokes && figure_has_solids(&s->plan, fig));
         cut = cut || (strokes && up->section.cut.cell_count > 0);
     }
     const char *instead = "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)";
@@ -245,7 +234,7 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure        *fig = &s->plan.figures[i];
         const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
-        if (!surface || !surface->technique->surface->marks || fig->unmarked || !has_solids(&s->plan, fig))
+        if (!surface || !surface->technique->surface->marks || fig->unmarked || !figure_has_solids(&s->plan, fig))
             continue;
         lmn_status status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED,
                                    "'dots' and 'hatch' are worked out on any surface (--set surface.technique=hatch)",

@@ -124,7 +124,7 @@ typedef struct trace_options {
     float  uneven; /* how much lengths and ways differ, 0 … 1 */
     int    series; /* 1 … 4: sets of strokes that cross; later ones for darker places */
     float  turn;   /* angle between one set and the next, radians */
-    bool   bends;  /* strokes run along the way the surface bends: scene/direction_field.h. Else in planes through the
+    bool   bends;  /* strokes run along the way the surface bends: field/direction_field.h. Else in planes through the
                       model */
     uint32_t seed;
 } trace_options;

@@ -16,6 +16,14 @@ const technique_use *rule_use(const rule *r, kind_id id)
     return r->use_counts[id] ? &r->uses[id][0] : NULL;
 }
 
+bool technique_draws_strokes(const technique *t)
+{
+    for (size_t i = 0; i < t->pass_count; i++)
+        if (t->passes[i].strokes)
+            return true;
+    return false;
+}
+
 const technique_use *rule_shades_again(const rule *r)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
@@ -123,7 +131,7 @@ static unsigned channels_of(const rule *r, bool several_parts)
 }
 
 /* Operands of a solid have borders as parts have. */
-static bool has_solid(const plan *p, const figure *f)
+bool figure_has_solids(const plan *p, const figure *f)
 {
     for (size_t i = 0; i < p->part_count; i++)
         if (f->designated[i] && p->scene->nodes[p->scene->parts[i].node].solid != NONE)
@@ -178,7 +186,8 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
     const rule *r = f->rule;
     f->ghostly = has_ghosts_alone(p, f);
     f->layer_count = f->layering.count ? f->layering.count : LAYERS_MAX;
-    f->channels = channels_of(r, f->part_count > 1 || p->has_cut || has_solid(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
+    f->channels =
+        channels_of(r, f->part_count > 1 || p->has_cut || figure_has_solids(p, f)) | (p->has_cut ? CHANNEL_ID : 0);
     if (as_sprites || lines_read_shade(r))
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
@@ -213,7 +222,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     f->reflects = surface && surface->technique->surface->reflects;
     bool plain_surface = !surface || (surface->technique->surface->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
-    f->channels = channels_of(r, f->complement || f->part_count > 1 || p->has_cut || has_solid(p, f)) | CHANNEL_SHADE;
+    f->channels =
+        channels_of(r, f->complement || f->part_count > 1 || p->has_cut || figure_has_solids(p, f)) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
     if (f->deferred)
@@ -316,17 +326,20 @@ static void share_parts(plan *p)
     }
 }
 
-static void note_idle_rules(const plan *p, warnings *notes)
+/* Rules for what solids take away have no parts where that is left to others. */
+static void note_idle_rules(const plan *p, bool without_removed, warnings *notes)
 {
     const lmn_look *look = p->look;
     for (size_t r = 0; r < look->rule_count; r++) {
-        bool idle = look->rules[r].select && strcmp(look->rules[r].select, "*") != 0 &&
-                    strcmp(look->rules[r].select, "@solid") != 0;
+        const rule *own = &look->rules[r];
+        bool        idle = own->select && strcmp(own->select, "*") != 0 && strcmp(own->select, "@solid") != 0;
+        if (without_removed && own->selector && selector_names_removed(own->selector))
+            idle = false;
         for (size_t i = 0; idle && i < p->part_count; i++)
             idle = p->rule_of[i] != (int32_t)r;
         if (idle)
             warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name,
-                         look->rules[r].select);
+                         own->select);
     }
 }
 
@@ -592,7 +605,7 @@ lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const 
     if (status != LMN_OK)
         return status;
     share_parts(out);
-    note_idle_rules(out, notes);
+    note_idle_rules(out, options->parts_only && pose->ghost_count > 0, notes);
     return options->parts_only ? LMN_OK : plan_figures(out, options, notes, error);
 }
 

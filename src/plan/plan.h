@@ -51,8 +51,9 @@ typedef struct plan {
     colour  ground; /* of the page */
     rule   *rules; /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t  rule_count;
-    figure *figures; /* direct ones first, then in the order of the rules; rules without parts have none */
-    size_t  figure_count;
+    figure *figures; /* drawn in this order: direct ones, others, mirrors, what is seen through; among these
+                        as their rules. Rules without parts have none */
+    size_t figure_count;
 } plan;
 
 /* How a drawing wants its plan. */
@@ -82,6 +83,10 @@ bool shades_with_geometry(const technique_use *surface);
 
 /* The use of a kind that holds one technique; NULL when the rule has none. */
 const technique_use *rule_use(const rule *r, kind_id id);
+/* Are the technique's lines strokes, which the CPU or the GPU finds on meshes? */
+bool technique_draws_strokes(const technique *t);
+/* Solids are drawn pixel by pixel: they have neither strokes nor marks. */
+bool figure_has_solids(const plan *p, const figure *f);
 /* The composition of a rule when it shades the geometry again, so that nothing is drawn over surfaces; NULL: it
  * does not. */
 const technique_use *rule_shades_again(const rule *r);

@@ -1,5 +1,5 @@
-/* Where everything in a scene is at a time, in the world: what drawings read instead of the scene's own nodes, so
- * that nothing but this room knows about time. */
+/* Where everything in a scene is at a time, in the world: what drawings read instead of the scene's own nodes, so that
+ * nothing but this room knows what moves things. */
 #ifndef LIMNER_POSE_POSE_H
 #define LIMNER_POSE_POSE_H
 

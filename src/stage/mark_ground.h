@@ -1,5 +1,5 @@
-/* Marks of figures: dots and strokes on the surfaces of their parts, made once a scene and look, drawn each frame.
- * Needs no GPU but for marks_draw. */
+/* What marks lie on: the triangles of parts as one surface, and the marks that a technique puts there; what of them a
+ * view shows, for files of vectors (mark_page.c). On the CPU; mark_sets.h has them on the GPU. */
 #ifndef LIMNER_STAGE_MARK_GROUND_H
 #define LIMNER_STAGE_MARK_GROUND_H
 

@@ -77,7 +77,6 @@ typedef struct upload {
     mesh_needs    needs;              /* of all techniques */
     section       section;
     size_t        open_parts;  /* some of whose sections are not closed */
-    bool          has_cut;     /* there are cut faces */
     double        extent;      /* of the scene as it is posed */
     const pose   *pose;        /* that it was made of; lent */
     size_t        part_count;  /* with the ghosts when the look asks for them */

@@ -193,7 +193,6 @@ static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap
     if (status == LMN_OK)
         status = upload_add_piece(u, g, &item.mesh, &data, error);
     u->triangles += cap->count / 3;
-    u->has_cut = true;
     if (status == LMN_OK && !upload_add_item(u, &item))
         status = error_memory(error);
     mem_free(normals);

@@ -1,4 +1,4 @@
-/* What the files that put a scene on the GPU share: upload.c, upload_cut.c, upload_mesh.c and upload_solid.c. */
+/* What the files that put a scene on the GPU share: upload*.c. */
 #ifndef LIMNER_STAGE_UPLOAD_PRIVATE_H
 #define LIMNER_STAGE_UPLOAD_PRIVATE_H
 

@@ -97,7 +97,6 @@ lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, cons
         status = take_cell(form, c, &c->cells[i], world, &inverse, half_space_mesh, error);
         for (size_t k = first; k < form->operand_count; k++)
             (*bits)[k] = cut_face_bits(c, c->cells[i].faces[k - first].plane, 0, c->cells[i].faces[k - first].positive);
-        u->has_cut = true;
     }
     if (status == LMN_OK)
         solid_form_prune(form);

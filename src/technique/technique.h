@@ -61,8 +61,6 @@ typedef struct mesh_needs {
     float patch; /* radius of patches that cover them, share of a mesh's diagonal; 0: none */
 } mesh_needs;
 
-struct pass;
-
 struct stroke_style;
 
 /* What a technique that moves lookups must tell. */

@@ -54,19 +54,11 @@ static void take_hand(stroke_style *style, const rule *r)
         hand->technique->perturbs->as_hand(style, hand->values);
 }
 
-static bool draws_strokes(const technique *t)
-{
-    for (size_t i = 0; i < t->pass_count; i++)
-        if (t->passes[i].strokes)
-            return true;
-    return false;
-}
-
 /* The lines that vectors draw: those that are strokes anyway, else the first; NULL: the rule has none. */
 static const technique_use *lines_of(const rule *r)
 {
     for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
-        if (draws_strokes(r->uses[KIND_LINES][i].technique))
+        if (technique_draws_strokes(r->uses[KIND_LINES][i].technique))
             return &r->uses[KIND_LINES][i];
     return rule_use(r, KIND_LINES);
 }
@@ -87,7 +79,7 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
         return false;
     (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(options, style,
                                                                                                    lines->values);
-    if (draws_strokes(lines->technique)) {
+    if (technique_draws_strokes(lines->technique)) {
         if (!(style->wobble > 0))
             take_hand(style, r);
         return true;

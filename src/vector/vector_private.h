@@ -6,7 +6,7 @@
 #include "plan/plan.h"
 #include "vector/vector.h"
 
-/* --- vector_page.c: what descriptions say in words ------------------------------------------------------ */
+/* --- page.c: what descriptions say in words ------------------------------------------------------ */
 
 #define VECTOR_PIXELS_PER_MM (96 / 25.4)
 enum { PAGE_SIDE_MOST = 4000 }; /* mm */
@@ -27,7 +27,7 @@ double vector_usual_scale(double scale);
 /* "1:20", "2:1", "1:3.7". */
 void vector_print_scale(char out[32], double scale);
 
-/* --- vector_layout.c: where views lie ------------------------------------------------------------------- */
+/* --- layout.c: where views lie ------------------------------------------------------------------- */
 
 /* What is asked of the layout. Lengths in mm, of the paper or of the model. */
 typedef struct vector_layout {
@@ -43,7 +43,7 @@ typedef struct vector_layout {
  * half a gap around the model, and returns the scale. */
 double vector_place_views(const vector_layout *how, vector_view *views, size_t count, const double (*sizes)[2]);
 
-/* --- vector_style.c: looks as strokes ------------------------------------------------------------------- */
+/* --- style.c: looks as strokes ------------------------------------------------------------------- */
 
 /* How the lines of a rule are drawn as strokes; false: it has none. */
 bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style);
@@ -51,7 +51,7 @@ bool vector_rule_needs_pixels(const rule *r, colour ground);
 /* The colour that fills a part's area: the surface's own, the material's else. Linear. */
 colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index);
 
-/* --- vector_ink.c: ribbons on the sheet ----------------------------------------------------------------- */
+/* --- ink.c: ribbons on the sheet ----------------------------------------------------------------- */
 
 /* Puts ribbons into groups for what is hidden and what is visible, in these for each part and class. `sets` are
  * those of all rules of the view. */
@@ -75,7 +75,7 @@ typedef struct vector_pen {
 void vector_pen_even(vector_pen *w, const ribbon_point *points, size_t count, const sheet_path *style);
 void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, ribbon_end end);
 
-/* --- vector_marks.c: dots and strokes that lie on surfaces ---------------------------------------------- */
+/* --- marks.c: dots and strokes that lie on surfaces ---------------------------------------------- */
 
 /* The surface of a rule whose marks are drawn; NULL: it has none. */
 const technique_use *vector_rule_marks(const rule *r);
@@ -91,19 +91,19 @@ typedef struct vector_marks {
 } vector_marks;
 lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error);
 
-/* --- vector_order.c: for plotters ----------------------------------------------------------------------- */
+/* --- order.c: for plotters ----------------------------------------------------------------------- */
 
 /* Orders all lines of the sheet by pen, and those of a pen so that the way between them is short. Errors:
  * LMN_MEMORY. */
 lmn_status vector_order_for_plotter(sheet *page, lmn_error *error);
 
-/* --- vector_frame.c ------------------------------------------------------------------------------------- */
+/* --- page_frame.c ------------------------------------------------------------------------------------- */
 
 /* Leaves room for frame and title: what is left of the page. */
 void vector_inside_frame(const lmn_sheet_desc *wanted, double width, double height, double out[4]);
 void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink);
 
-/* --- vector_fill.c -------------------------------------------------------------------------------------- */
+/* --- fill.c -------------------------------------------------------------------------------------- */
 
 /* What is seen of each part, as areas. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status vector_put_fills(sheet *s, const vector_ink *ink, const vector_view *view, const stroke_scene *strokes,

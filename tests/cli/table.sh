@@ -635,6 +635,10 @@ group_vectors() {
     row 1 '^hint: draw a picture \(.png\); --lenient' '' draw "$gear" "${sheet[@]}" -o x.svg --set scene.cut=x
     row 2 'solids of set operations' '' draw "$widget" --look toon -o x.svg
     row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x --lenient
+    row 0 'warning: 1 solids' 'x.svg' draw "$widget" --look ghost -o x.svg --lenient
+    grep -q 'selects no part' .stderr && complain "what solids take away is there, below the lines"
+    printf '{"version":1,"name":"idle","rules":[{"select":"*","lines":"strokes"},{"select":"nosuch","lines":"strokes"}]}' > in-idle.json
+    row 0 "warning: rule 1 of look 'idle' selects no part: 'nosuch'" 'x.svg' draw "$gear" --look ./in-idle.json -o x.svg
     row 0 'warning: 1 solids of set operations have no lines in vector drawings and are left out' 'x.svg' draw "$gear" "$widget" "${sheet[@]}" -o x.svg --lenient
     # Wrong arguments, before any work.
     row 1 '--views goes with vector drawings' '' draw nosuch.stl --views front -o x.png
