@@ -39,7 +39,7 @@ static void add_item(plane_sum *sum, const frame *f, const draw_item *item)
     const primitive *p = &scene->meshes[n->mesh].primitives[item->surface_id - 1];
     const part_pose *pose = &f->up->pose->parts[item->part_index];
     mat4             eye = mat4_multiply(&f->camera.view, &item->world);
-    if (!pose->joints && !(pose->weights && p->morph_count)) {
+    if (!pose_deforms(pose, p)) {
         add_triangles(sum, p, p->positions, &eye);
         return;
     }

@@ -75,6 +75,11 @@ void pose_release(pose *p)
     memset(p, 0, sizeof *p);
 }
 
+bool pose_deforms(const part_pose *pose, const primitive *p)
+{
+    return pose->joints || (pose->weights && p->morph_count);
+}
+
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance)
 {
     const node *n = &p->scene->nodes[p->scene->parts[part_index].node];

@@ -30,6 +30,9 @@ typedef struct pose {
 lmn_status pose_create(pose *out, const lmn_scene *scene, lmn_error *error);
 void       pose_release(pose *p);
 
+/* Does the pose move the vertices of this primitive within its mesh? */
+bool pose_deforms(const part_pose *pose, const primitive *p);
+
 /* Where an instance of a part is: takes its deformed mesh to the world. `instance` is below node_draw_count. */
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance);
 

@@ -39,7 +39,7 @@ static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_
                             .normals = (const float *)normals,
                             .positions = (const float *)p->positions,
                             .colours = (const float *)p->colours};
-    if (pose->joints || (pose->weights && p->morph_count)) {
+    if (pose_deforms(pose, p)) {
         out->positions = mem_alloc(sizeof(vec3) * (size_t)count);
         out->normals = mem_alloc(sizeof(vec3) * (size_t)count);
         done = out->positions && out->normals;

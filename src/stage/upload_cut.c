@@ -31,7 +31,7 @@ static lmn_status open_input(upload_part_job *job, size_t i, lmn_error *error)
     const primitive *p = &job->mesh->primitives[i];
     const part_pose *pose = job->pose;
     const vec3      *positions = p->positions;
-    if (pose->joints || (pose->weights && p->morph_count)) {
+    if (pose_deforms(pose, p)) {
         vec3 *moved = job->input_positions[i] = mem_alloc(p->vertex_count * sizeof *moved);
         if (!moved)
             return error_memory(error);

@@ -35,10 +35,10 @@ static vec3 *pose_positions(const mesh *m, const part_pose *pose)
 
 static bool is_deformed(const mesh *m, const part_pose *pose)
 {
-    bool morphs = false;
+    bool deformed = false;
     for (size_t i = 0; i < m->primitive_count; i++)
-        morphs = morphs || m->primitives[i].morph_count > 0;
-    return pose->joints || (pose->weights && morphs);
+        deformed = deformed || pose_deforms(pose, &m->primitives[i]);
+    return deformed;
 }
 
 /* The number of the part's edge mesh, made when it is not there yet. */
