@@ -165,15 +165,15 @@ static bool point_seen(const shot *s, const body *b, const turn *t, int x, int y
         return false;
     dvec origin, direction;
     shot_ray(s, x + 0.5, y + 0.5, &origin, &direction);
-    double start = -shot_to_eye(s, origin, 1).z, rate = -shot_to_eye(s, direction, 0).z, way = (depth - start) / rate;
+    double start = -shot_to_eye(s, origin, 1).z, rate = -shot_to_eye(s, direction, 0).z, along = (depth - start) / rate;
     for (int i = 0; i < 12; i++) {
-        dvec   p = turned_back(t, dvec_add(origin, dvec_scale(direction, way)));
+        dvec   p = turned_back(t, dvec_add(origin, dvec_scale(direction, along)));
         double slope = dvec_dot(gradient(b, p), turned_back(t, direction));
         if (fabs(slope) < 1e-9)
             return false;
-        way -= b->level(p) / slope;
+        along -= b->level(p) / slope;
     }
-    *out = turned_back(t, dvec_add(origin, dvec_scale(direction, way)));
+    *out = turned_back(t, dvec_add(origin, dvec_scale(direction, along)));
     return true;
 }
 
