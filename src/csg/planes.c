@@ -144,9 +144,9 @@ typedef struct neighbours {
 /* Boxes that lie apart by less than what counts as coincident touch. */
 static bool boxes_meet(const finder *f, box3 a, box3 b)
 {
-    float room = (float)(2 * COINCIDENT * f->extent);
-    return a.min.x <= b.max.x + room && b.min.x <= a.max.x + room && a.min.y <= b.max.y + room &&
-           b.min.y <= a.max.y + room && a.min.z <= b.max.z + room && b.min.z <= a.max.z + room;
+    float margin = (float)(2 * COINCIDENT * f->extent);
+    return a.min.x <= b.max.x + margin && b.min.x <= a.max.x + margin && a.min.y <= b.max.y + margin &&
+           b.min.y <= a.max.y + margin && a.min.z <= b.max.z + margin && b.min.z <= a.max.z + margin;
 }
 
 static bool find_neighbours(const finder *f, neighbours *n)

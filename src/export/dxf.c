@@ -50,9 +50,9 @@ static int palette_index(colour ink)
 
 static void put(dxf_writer *w, int code, const char *value)
 {
-    char room[16];
-    int  size = snprintf(room, sizeof room, "%d\n", code);
-    text_append_bytes(&w->out, room, (size_t)size);
+    char digits[16];
+    int  size = snprintf(digits, sizeof digits, "%d\n", code);
+    text_append_bytes(&w->out, digits, (size_t)size);
     text_append_bytes(&w->out, value, strlen(value));
     text_append_bytes(&w->out, "\n", 1);
 }
@@ -65,12 +65,12 @@ static void put_whole(dxf_writer *w, int code, int value)
 /* Four decimals: a tenth of a thousandth of a millimetre. */
 static void put_number(dxf_writer *w, int code, double value)
 {
-    char               room[48];
+    char               digits[48];
     long long          scaled = isfinite(value) ? llround(value * 10000) : 0;
     unsigned long long left = scaled < 0 ? (unsigned long long)-scaled : (unsigned long long)scaled;
     int                size =
-        snprintf(room, sizeof room, "%d\n%s%llu.%04llu\n", code, scaled < 0 ? "-" : "", left / 10000, left % 10000);
-    text_append_bytes(&w->out, room, (size_t)size);
+        snprintf(digits, sizeof digits, "%d\n%s%llu.%04llu\n", code, scaled < 0 ? "-" : "", left / 10000, left % 10000);
+    text_append_bytes(&w->out, digits, (size_t)size);
 }
 
 static void put_place(dxf_writer *w, int code, double x, double y)

@@ -73,8 +73,8 @@ static long long thousandths(double value)
 
 static void put_number(svg_writer *w, double value)
 {
-    char room[32];
-    text_append_bytes(&w->out, room, print_thousandths(room, thousandths(value)));
+    char digits[32];
+    text_append_bytes(&w->out, digits, print_thousandths(digits, thousandths(value)));
 }
 
 /* The length of a UTF-8 sequence that XML allows, 0 when there is none here. */
@@ -428,7 +428,7 @@ static size_t print_pair(char *to, char letter, long long x, long long y)
 
 static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
 {
-    char      room[64];
+    char      digits[64];
     long long before[2] = {0, 0};
     bool      lined = false;
     for (uint32_t i = 0; i < path->count; i++) {
@@ -436,17 +436,17 @@ static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
         long long    x = thousandths((double)p[0]), y = thousandths((double)p[1]);
         size_t       size;
         if (dots || i == 0)
-            size = print_pair(room, 'M', x, y);
+            size = print_pair(digits, 'M', x, y);
         else if (x == before[0] && y == before[1] && !(i == 1 && path->count == 2))
             continue; /* nothing at this many decimals; a line of no length is a dot all the same */
         else
-            size = print_pair(room, lined ? '\0' : 'l', x - before[0], y - before[1]);
+            size = print_pair(digits, lined ? '\0' : 'l', x - before[0], y - before[1]);
         lined = i > 0;
         if (dots) {
-            memcpy(room + size, "h0", 2);
+            memcpy(digits + size, "h0", 2);
             size += 2;
         }
-        text_append_bytes(&w->out, room, size);
+        text_append_bytes(&w->out, digits, size);
         before[0] = x;
         before[1] = y;
     }

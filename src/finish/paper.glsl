@@ -46,8 +46,8 @@ vec4 on_paper(vec4 page, vec2 pixel)
     vec2 here = paper_here(pixel);
     page.rgb = clamp(page.rgb, 0.0, page.a);
     vec4 more = page - u_sheet;
-    vec4 room = mix(u_room_above, u_room_below, vec4(lessThan(more, vec4(0.0))));
-    vec4 shares = abs(more) / max(room, 1e-4);
+    vec4 range = mix(u_room_above, u_room_below, vec4(lessThan(more, vec4(0.0))));
+    vec4 shares = abs(more) / max(range, 1e-4);
     float ink = clamp(max(max(shares.r, shares.g), max(shares.b, shares.a)), 1e-4, 1.0);
     float n = u_paper_facts.w * min(1.0 / (ink * u_pressure) - 1.0, FAINTEST);
     page += more * min(u_grain * ((n + 1.0) * pow(here.x, n) - 1.0), 1.0 / ink - 1.0);

@@ -102,10 +102,10 @@ static bool has_room(gpu *g, const plan *p, const room_options *w, lmn_error *er
 {
     room_pass passes[PASSES];
     list_passes(passes, p, w);
-    bool room = is_possible(g, p, w);
-    for (int i = 0; i < PASSES && room; i++)
-        room = passes[i].count == 0 || has_pass(g, &passes[i], error);
-    return room;
+    bool fits = is_possible(g, p, w);
+    for (int i = 0; i < PASSES && fits; i++)
+        fits = passes[i].count == 0 || has_pass(g, &passes[i], error);
+    return fits;
 }
 
 static room_options smaller(const room_options *w, double share)
@@ -135,9 +135,9 @@ static double find_share(gpu *g, const plan *p, const room_options *options)
     double share = 0.5;
     for (int i = 0; i < HALVES; i++, share /= 2) {
         room_options less = smaller(options, share);
-        bool         room = has_room(g, p, &less, NULL);
+        bool         fits = has_room(g, p, &less, NULL);
         gpu_targets_trim(g);
-        if (room)
+        if (fits)
             return share;
     }
     return 0;

@@ -167,8 +167,8 @@ static bool has_room(const raster *r, int level)
 {
     if (r->options->levels > 0)
         return level < r->options->levels;
-    double room = fmax(r->longest, r->dots ? 1 / DOT_ROOM : 0) * (r->options->side >> level);
-    return level == 0 || room >= r->width;
+    double spacing = fmax(r->longest, r->dots ? 1 / DOT_ROOM : 0) * (r->options->side >> level);
+    return level == 0 || spacing >= r->width;
 }
 
 /* Each level has a quarter of the texels and strokes half as long, so that half of them keep its tone. Dots stay as

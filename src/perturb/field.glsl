@@ -3,8 +3,8 @@
 /* Shrinks displacements towards the page's border so that none leaves it. */
 float border_share(ivec2 pixel)
 {
-    vec2 room = min(vec2(pixel), u_size - 1.0 - vec2(pixel));
-    return clamp(min(room.x, room.y) / (2.0 * u_reach), 0.0, 1.0);
+    vec2 margin = min(vec2(pixel), u_size - 1.0 - vec2(pixel));
+    return clamp(min(margin.x, margin.y) / (2.0 * u_reach), 0.0, 1.0);
 }
 
 vec3 uncertainty_at(ivec2 pixel)

@@ -138,18 +138,18 @@ static void do_group(normals_job *job, size_t group, corner_face *faces, size_t 
 static void do_groups(size_t begin, size_t end, void *user)
 {
     normals_job *job = user;
-    corner_face  room[GROUP_STACK];
+    corner_face  on_stack[GROUP_STACK];
     for (size_t g = begin; g < end; g++) {
         size_t count = job->starts[g + 1] - job->starts[g];
         if (count == 0)
             continue;
-        corner_face *faces = count <= GROUP_STACK ? room : mem_alloc(count * sizeof *faces);
+        corner_face *faces = count <= GROUP_STACK ? on_stack : mem_alloc(count * sizeof *faces);
         if (!faces) {
             job->failed[g] = 1;
             continue;
         }
         do_group(job, g, faces, count);
-        if (faces != room)
+        if (faces != on_stack)
             mem_free(faces);
     }
 }

@@ -257,14 +257,14 @@ static void rim_at_plane(const world_face *f, double3 out[2])
 static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face, uint32_t plane)
 {
     vec3  normal = m->normals[plane], origin = m->places[m->faces[plane][0]];
-    float least = INFINITY, most = -INFINITY, room = (float)(4 * s->same);
+    float least = INFINITY, most = -INFINITY, margin = (float)(4 * s->same);
     for (int k = 0; k < 3; k++) {
         vec3  p = m->places[m->faces[face][k]];
         float height = (p.x - origin.x) * normal.x + (p.y - origin.y) * normal.y + (p.z - origin.z) * normal.z;
         least = smaller(least, height);
         most = larger(most, height);
     }
-    return least > room || most < -room;
+    return least > margin || most < -margin;
 }
 
 static bool cross_faces(void *user, uint32_t first, uint32_t second)

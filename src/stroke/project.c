@@ -221,10 +221,10 @@ uint8_t *view_unseen(const stroke_view *v, size_t index)
     vec3               eye = eye_of(v);
     for (uint32_t i = 0; i < m->piece_count && out; i++) {
         box3  box = box3_transform(m->boxes[i], &item->world);
-        float room = (float)(v->camera.near + v->same);
-        bool  inside = !v->camera.orthographic && eye.x >= box.min.x - room && eye.x <= box.max.x + room &&
-                      eye.y >= box.min.y - room && eye.y <= box.max.y + room && eye.z >= box.min.z - room &&
-                      eye.z <= box.max.z + room;
+        float margin = (float)(v->camera.near + v->same);
+        bool  inside = !v->camera.orthographic && eye.x >= box.min.x - margin && eye.x <= box.max.x + margin &&
+                      eye.y >= box.min.y - margin && eye.y <= box.max.y + margin && eye.z >= box.min.z - margin &&
+                      eye.z <= box.max.z + margin;
         if (m->closed[i] && !inside)
             out[i] = m->inward[i] == mirrored ? 1 : 2;
     }

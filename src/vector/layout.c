@@ -31,10 +31,10 @@ static double total(const double *sizes, int count, int *used)
 }
 
 /* Where columns or rows begin, centred in the area; empty ones take no room. */
-static void place(const double *sizes, int count, double scale, double gap, double from, double room, double *out)
+static void arrange(const double *sizes, int count, double scale, double gap, double from, double extent, double *out)
 {
     int    used;
-    double sum = total(sizes, count, &used) * scale + gap * used, at = from + (room - sum) / 2;
+    double sum = total(sizes, count, &used) * scale + gap * used, at = from + (extent - sum) / 2;
     for (int i = 0; i < count; i++) {
         out[i] = at;
         if (sizes[i] >= 0)
@@ -62,8 +62,8 @@ double vector_place_views(const vector_layout *how, vector_view *views, size_t c
         if (how->usual)
             scale = vector_usual_scale(scale);
     }
-    place(widths, COLUMNS, scale, how->gap, how->area[0], how->area[2], lefts);
-    place(heights, ROWS, scale, how->gap, how->area[1], how->area[3], tops);
+    arrange(widths, COLUMNS, scale, how->gap, how->area[0], how->area[2], lefts);
+    arrange(heights, ROWS, scale, how->gap, how->area[1], how->area[3], tops);
     for (size_t i = 0; i < count; i++) {
         int cell[2];
         cell_of(views[i].direction, how->angle, cell);

@@ -322,10 +322,10 @@ static void rim(void)
         if (wall_field(&b, large, &front) && ok) {
             for (int y = 2; y < 398; y++)
                 for (int x = 2; x < 398; x++) {
-                    int room = x < y ? x : y;
-                    room = 399 - x < room ? 399 - x : room;
-                    room = 399 - y < room ? 399 - y : room;
-                    worst = fmax(worst, fabs(at(&b, x, y, 0) - at(&a, x, y, 0) * fmin(1, room / 45.0)));
+                    int border = x < y ? x : y;
+                    border = 399 - x < border ? 399 - x : border;
+                    border = 399 - y < border ? 399 - y : border;
+                    worst = fmax(worst, fabs(at(&b, x, y, 0) - at(&a, x, y, 0) * fmin(1, border / 45.0)));
                 }
             check_at_most("C25", worst, 0.02, "%s: the shrunken field against the whole one times its share", locks[l]);
         }
