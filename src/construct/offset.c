@@ -18,7 +18,7 @@ static double grid_nearest(double value)
     return round(value / GRID) * GRID;
 }
 
-static void place(offsetting *o, point2 at, double x, double y)
+static void put_point(offsetting *o, point2 at, double x, double y)
 {
     builder_place(&o->b, grid_nearest(at.x + o->distance * x), grid_nearest(at.y + o->distance * y));
 }
@@ -36,17 +36,17 @@ static void join_arc(offsetting *o, point2 at, point2 n, point2 m, double angle)
     double step = copysign(o->step, angle), count = fmax(round(fabs(angle) / o->step), 1);
     for (int i = 0; i < (int)count; i++) {
         double c = cos(step * i), s = sin(step * i);
-        place(o, at, n.x * c - n.y * s, n.x * s + n.y * c);
+        put_point(o, at, n.x * c - n.y * s, n.x * s + n.y * c);
     }
-    place(o, at, m.x, m.y);
+    put_point(o, at, m.x, m.y);
 }
 
 /* Cut where it is as far out as the edges are. */
 static void join_chamfer(offsetting *o, point2 at, point2 n, point2 m, double angle)
 {
     double t = tan(angle / 4);
-    place(o, at, n.x - n.y * t, n.y + n.x * t);
-    place(o, at, m.x + m.y * t, m.y - m.x * t);
+    put_point(o, at, n.x - n.y * t, n.y + n.x * t);
+    put_point(o, at, m.x + m.y * t, m.y - m.x * t);
 }
 
 /* The corner between an edge with normal n and one with normal m. */
@@ -56,21 +56,21 @@ static void join(offsetting *o, point2 at, point2 n, point2 m)
     sine = fmax(-1, fmin(1, sine));
     /* So straight that both ends are at the same place of the grid. */
     if (fabs(sine * o->distance) < GRID && cosine > 0) {
-        place(o, at, n.x, n.y);
+        put_point(o, at, n.x, n.y);
         return;
     }
     double angle = atan2(sine, cosine);
     if (sine * o->distance < 0) {
-        place(o, at, n.x, n.y);
-        place(o, at, 0, 0);
-        place(o, at, m.x, m.y);
+        put_point(o, at, n.x, n.y);
+        put_point(o, at, 0, 0);
+        put_point(o, at, m.x, m.y);
     } else if (o->rounded) {
         join_arc(o, at, n, m, angle);
     } else if (o->chamfer ||
                1 + cosine < 2e-12) { /* a mitre that would run out a million times as far is cut as well */
         join_chamfer(o, at, n, m, angle);
     } else {
-        place(o, at, (n.x + m.x) / (1 + cosine), (n.y + m.y) / (1 + cosine));
+        put_point(o, at, (n.x + m.x) / (1 + cosine), (n.y + m.y) / (1 + cosine));
     }
 }
 

@@ -33,7 +33,7 @@ static void spread(bool to[TILES_SIDE][TILES_SIDE], bool (*from)[TILES_SIDE], in
 }
 
 /* A tile's box; those at the rim reach as far outwards as the margin, inside the limits. */
-static void place(const tile_grid *t, int x, int y, int end, int margin, const int limits[4], int out[4])
+static void arrange(const tile_grid *t, int x, int y, int end, int margin, const int limits[4], int out[4])
 {
     int low[2] = {t->band[0] + x * t->size, t->band[1] + y * t->size},
         high[2] = {t->band[0] + end * t->size, low[1] + t->size};
@@ -64,7 +64,7 @@ size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*ou
             while (end < t->columns && both[y][end])
                 end++;
             if (end > x)
-                place(t, x, y, end, margin, limits, out[count++]);
+                arrange(t, x, y, end, margin, limits, out[count++]);
             x = end > x ? end : x + 1;
         }
     return count;

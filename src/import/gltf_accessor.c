@@ -43,7 +43,7 @@ static bool fits(const gltf_view *v, size_t offset, size_t count, size_t stride,
            end <= v->size;
 }
 
-static bool place(gltf_reader *r, json_t *object, const char *where, gltf_accessor *a)
+static bool locate(gltf_reader *r, json_t *object, const char *where, gltf_accessor *a)
 {
     size_t view_index, offset, element = type_size(a->type) * (size_t)a->components;
     a->stride = element;
@@ -95,7 +95,7 @@ bool gltf_open_accessor(gltf_reader *r, size_t index, const char *where, gltf_ac
         return gltf_fail(r, LMN_FORMAT, "%s: unknown type or componentType", here), false;
     if (out->count > LIMIT_VERTICES)
         return gltf_fail(r, LMN_LIMIT, "%s: %zu elements, allowed are %zu", here, out->count, LIMIT_VERTICES), false;
-    return place(r, object, here, out);
+    return locate(r, object, here, out);
 }
 
 static float one_float(const unsigned char *p, int type, bool normalized)
